@@ -1,0 +1,39 @@
+// A calibration job: what the user asks for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "evolution/archipelago.hpp"
+#include "evolution/parameters.hpp"
+#include "fitting/declared_model.hpp"
+
+namespace demecal {
+
+enum class Method { direct, distal };
+
+struct IslandOptions {
+  std::uint32_t per_joint = 2;
+  Topology topology = Topology::ring;
+  std::uint32_t migration_interval = 10;
+  std::uint32_t migrants = 3;
+  bool between_joints = false;
+};
+
+struct ClosedLoopOptions {
+  int max_effects = 10;
+  double family_error = 0.05;
+};
+
+struct Job {
+  std::string name;             ///< the job file's stem
+  std::string data_file;        ///< path of the data set, resolved
+  Method method = Method::direct;
+  std::uint64_t seed = 1;
+  DeclaredModel declared{.registration = true, .joint_corrections = true};
+  GpParameters gp;
+  IslandOptions islands;
+  ClosedLoopOptions closed_loop;
+};
+
+}  // namespace demecal

@@ -1,0 +1,39 @@
+// How a prediction meets what was measured: the residual rows of a pose, whichever quantities its instrument gives.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "data/data_set.hpp"
+#include "effects/corrected_robot.hpp"
+
+namespace demecal {
+
+/// What a pose measured: 3 rows per position (m), 3 per orientation (rad), 1 per distance (m), in this order.
+struct MeasurementRows {
+  int position = 0;
+  int orientation = 0;
+  int distances = 0;
+  int total() const { return position + orientation + distances; }
+};
+MeasurementRows rows_of(const MeasuredPose& pose);
+
+/// Measured minus predicted, rows as above; the orientation part is the rotation vector from predicted to measured.
+Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);
+
+/// The matrix (rows x 6) that maps a small motion of the tool point (linear m, angular rad, measurements' frame) to the
+/// change of the measured quantities at the predicted pose.
+Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const Eigen::Isometry3d& predicted, const DataSet& data,
+                                                              const MeasuredPose& pose);
+
+/// The distance between predicted and measured tool point, m; where only distances were measured, the root mean square of
+/// their errors.
+double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);
+
+/// The four figures users judge by, in mm, over the named poses; all NaN where there are none.
+struct ErrorFigures {
+  double mean_mm, rms_mm, p95_mm, max_mm;
+};
+ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses);
+
+}  // namespace demecal

@@ -1,0 +1,29 @@
+// How well a formula fits: the weighted sum of absolute errors over a joint's calibration rows (thesis eq. 4.12).
+#pragma once
+
+#include <vector>
+
+#include "expression/evaluate.hpp"
+
+namespace demecal {
+
+/// What one joint's islands learn from. Row k: target[k] is theta_C - theta_N in units of `scale`, which all islands share
+/// so that the ephemeral constants are of the target's size.
+struct TrainingTable {
+  std::vector<std::vector<double>> variables;  ///< one column per variable; direct learning has theta alone, rad
+  std::vector<double> target;
+  std::vector<double> weight;                  ///< 0 to 1: poses near a singularity count less
+};
+
+class Fitness {
+ public:
+  explicit Fitness(const TrainingTable& table);
+  /// sum_k weight_k |target_k - tree(row k)|; infinite where any row is not finite.
+  double operator()(const Tree& tree);
+
+ private:
+  const TrainingTable& table_;
+  ColumnEvaluator evaluate_;
+};
+
+}  // namespace demecal

@@ -1,0 +1,44 @@
+// The parameters of genetic programming, by the names of the thesis's Table 5-8 with the values of Table 6-1.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expression/primitive.hpp"
+
+namespace demecal {
+
+struct GpParameters {
+  int population_size = 300;
+  int number_generations = 200;          ///< thesis 6.3: 200 for direct learning
+  int tournament_size = 5;
+  int initial_max_tree_depth1 = 3;       ///< where the ramp of half-and-half begins
+  int initial_max_tree_depth2 = 5;       ///< where it ends
+  int max_tree_depth = 9;
+  int min_tree_depth = 3;                ///< of trees made by GROW and by mutation
+  int invalid_attempts = 21;             ///< tries at a valid offspring before the parents are reproduced
+  double crossover_rate = 0.8;
+  double mutation_rate = 0.2;
+  double terminal_crossover_rate = 0.2;  ///< probability that a crossover point is a terminal
+  double terminal_mutation_rate = 0.3;   ///< probability that a mutation point is a terminal
+  double shrink_mutation_rate = 0.2;     ///< probability that a mutation makes the subtree shallower
+  std::vector<Primitive> functions{Primitive::add,  Primitive::subtract, Primitive::multiply, Primitive::divide,
+                                   Primitive::sine, Primitive::cosine,   Primitive::sign,     Primitive::square_root};
+  double constants_lower = 0.0;          ///< range of the ephemeral constant
+  double constants_upper = 1.0;
+};
+
+/// A parameter that breaks a rule: its key in lower case, its value and the rule, for a sentence to the user.
+struct ParameterFault {
+  std::string key;
+  std::string value;
+  std::string rule;
+};
+
+/// The first broken rule: counts positive, rates within 0 to 1, min_tree_depth <= initial_max_tree_depth1 <=
+/// initial_max_tree_depth2 <= max_tree_depth <= 15, tournament no larger than the population, at least one function, no
+/// function twice, constants_lower < constants_upper and both finite. Nothing where all hold.
+std::optional<ParameterFault> find_fault(const GpParameters& parameters);
+
+}  // namespace demecal

@@ -1,0 +1,113 @@
+// What coordinator, workers and watchers say to each other, as plain values; idl/calibration.idl is its wire form.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "evolution/archipelago.hpp"
+#include "evolution/fitness.hpp"
+#include "evolution/island.hpp"
+#include "evolution/parameters.hpp"
+
+namespace demecal {
+
+/// How many epochs of an island's emigrants are kept for slower neighbours.
+inline constexpr int kMigrantEpochs = 8;
+
+/// Names one evolution of one job; a coordinator that evolves again uses a new one.
+using RunId = std::uint64_t;
+
+/// Coordinator -> workers, once per run: all that islands need to know but which of them to work on.
+struct CalibrationData {
+  RunId run = 0;
+  std::string job;                     ///< the job's name, for those who watch
+  std::uint64_t seed = 0;
+  GpParameters parameters;
+  Archipelago archipelago;
+  std::vector<TrainingTable> tables;   ///< parallel to archipelago.joints
+};
+
+/// Worker -> workers: the elites of an island after an epoch.
+struct Migrants {
+  RunId run = 0;
+  IslandKey island;
+  std::uint32_t epoch = 0;             ///< epochs completed when they left: 1 after the first
+  Population individuals;
+};
+
+/// Coordinator -> the named worker: work on this island, from this state on. A higher attempt replaces a lower one,
+/// whoever it names.
+struct IslandTask {
+  RunId run = 0;
+  IslandKey island;
+  std::uint32_t attempt = 0;
+  std::string worker;
+  IslandState start;                   ///< epoch 0 and empty for a fresh island
+  std::vector<Migrants> recent;        ///< of that island, published again by the worker that goes on with it
+};
+
+/// Worker -> coordinator and watchers, after each epoch.
+struct Progress {
+  RunId run = 0;
+  IslandKey island;
+  std::string worker;
+  std::uint32_t epoch = 0;
+  std::uint32_t generation = 0;
+  IslandFigures figures;
+  std::uint64_t evaluations = 0;       ///< since the island began
+  double evaluations_per_s = 0.0;      ///< of the last epoch
+  std::uint64_t migrants_taken = 0;
+};
+
+/// Worker -> coordinator, after each epoch: where another worker can go on, with the emigrants that slower neighbours may
+/// still need.
+struct Checkpoint {
+  RunId run = 0;
+  std::uint32_t attempt = 0;
+  IslandKey island;
+  IslandState state;
+  std::vector<Migrants> recent;        ///< its last kMigrantEpochs emigrations
+};
+
+/// Worker -> coordinator, when an island has bred all its generations.
+struct Outcome {
+  RunId run = 0;
+  std::uint32_t attempt = 0;
+  IslandKey island;
+  std::string worker;
+  std::uint32_t generations = 0;
+  std::uint64_t evaluations = 0;
+  std::uint64_t migrants_taken = 0;
+  Population front;                    ///< best of each length
+};
+
+/// Worker -> coordinator and watchers: who I am; repeated as a sign of life.
+struct WorkerStatus {
+  std::string worker;                  ///< unique: host, process id and start time
+  std::string host;
+  std::uint32_t process = 0;
+  std::uint32_t slots = 1;             ///< islands it computes at once
+  std::string version;
+  bool leaving = false;
+  RunId only_run = 0;                  ///< 0: serves every run
+};
+
+/// Coordinator -> workers and watchers.
+struct Control {
+  enum class State { running, finished, cancelled };
+  RunId run = 0;
+  State state = State::running;
+  std::string note;                    ///< for those who watch
+};
+
+/// Made by the transport, never sent: a worker's sign of life stopped.
+struct WorkerLost {
+  std::string worker;
+};
+
+using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus, Control,
+                             WorkerLost>;
+
+}  // namespace demecal

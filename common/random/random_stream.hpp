@@ -1,0 +1,29 @@
+// Streams of random numbers that are a function of what they are for, the same on every machine.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <random>
+
+namespace demecal {
+
+/// A stream named by integers, such as (seed, joint, deme, epoch): equal names give equal numbers, on any platform.
+/// Draws are made from the engine's bits directly, since the standard's distributions are not portable.
+class RandomStream {
+ public:
+  explicit RandomStream(std::initializer_list<std::uint64_t> name);
+
+  /// Uniform in [0, n); n >= 1.
+  std::size_t index(std::size_t n);
+  /// Uniform in [0, 1).
+  double real();
+  double real(double lower, double upper) { return lower + (upper - lower) * real(); }
+  bool chance(double probability) { return real() < probability; }
+  /// Standard normal (Box and Muller).
+  double normal();
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace demecal
