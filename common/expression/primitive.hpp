@@ -6,13 +6,22 @@
 #include <cstdint>
 #include <string_view>
 
+#include "expression/sine.hpp"
+
 namespace demecal {
 
 /// Terminals first, then the functions of thesis section 6.2: {+ - * % SIN COS SIGN SQRTp}.
 enum class Primitive : std::uint8_t {
-  constant, variable,                       // terminals
-  add, subtract, multiply, divide,          // + - * %
-  sine, cosine, sign, square_root           // SIN COS SIGN SQRTp
+  constant,
+  variable,  // terminals
+  add,
+  subtract,
+  multiply,
+  divide,  // + - * %
+  sine,
+  cosine,
+  sign,
+  square_root  // SIN COS SIGN SQRTp
 };
 
 struct PrimitiveTraits {
@@ -37,13 +46,53 @@ inline constexpr std::array<PrimitiveTraits, 10> kPrimitives{{
 constexpr const PrimitiveTraits& traits(Primitive primitive) {
   return kPrimitives[static_cast<std::size_t>(primitive)];
 }
-constexpr int arity(Primitive primitive) { return traits(primitive).arity; }
+constexpr int arity(Primitive primitive) {
+  return traits(primitive).arity;
+}
 
 /// a % b: 1 where b is 0 (thesis 3.3.1, note 24).
-inline double protected_divide(double a, double b) { return b == 0.0 ? 1.0 : a / b; }
+inline double protected_divide(double a, double b) {
+  const double quotient = a / b;  // computed for every b, so that loops over rows need no branch
+  return b == 0.0 ? 1.0 : quotient;
+}
 /// SQRTp(x) = sqrt(|x|).
-inline double protected_square_root(double x) { return std::sqrt(std::abs(x)); }
-/// -1, 0 or +1.
-inline double sign_of(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
+inline double protected_square_root(double x) {
+  return std::sqrt(std::abs(x));
+}
+/// -1, 0 or +1; not a number stays so, lest a failed evaluation look like a value.
+inline double sign_of(double x) {
+  return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x);
+}
+
+/// The value of a function of one argument; 0 for primitives of another arity.
+inline double value_of(Primitive function, double argument) {
+  switch (function) {
+    case Primitive::sine:
+      return sine(argument);
+    case Primitive::cosine:
+      return cosine(argument);
+    case Primitive::sign:
+      return sign_of(argument);
+    case Primitive::square_root:
+      return protected_square_root(argument);
+    default:
+      return 0.0;
+  }
+}
+/// The value of a function of two arguments; 0 for primitives of another arity.
+inline double value_of(Primitive function, double left, double right) {
+  switch (function) {
+    case Primitive::add:
+      return left + right;
+    case Primitive::subtract:
+      return left - right;
+    case Primitive::multiply:
+      return left * right;
+    case Primitive::divide:
+      return protected_divide(left, right);
+    default:
+      return 0.0;
+  }
+}
 
 }  // namespace demecal

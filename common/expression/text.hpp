@@ -19,7 +19,8 @@ VariableNames theta_only();
 std::string to_text(std::span<const Node> tree, const VariableNames& names = theta_only());
 
 /// The tree that `text` writes. `%` and `*` bind alike, from the left; unary minus stands only before a number.
-/// Throws InputError naming the column (from 1) and what was expected there.
+/// Case counts; spaces do not. Throws InputError naming the column (from 1) and what was expected there; also where
+/// parentheses nest deeper than 256.
 Tree parse(std::string_view text, const VariableNames& names = theta_only());
 
 }  // namespace demecal

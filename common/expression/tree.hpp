@@ -1,6 +1,7 @@
 // A formula as a prefix sequence of nodes: the form in which it is evolved, sent and stored.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,7 +16,11 @@ struct Node {
   std::uint8_t variable = 0;  ///< index of the variable where primitive is variable, else 0
   double value = 0.0;         ///< the constant where primitive is constant, else 0
 
-  bool operator==(const Node&) const = default;
+  /// To the bit: 0 and -0 differ.
+  bool operator==(const Node& other) const {
+    return primitive == other.primitive && variable == other.variable &&
+           std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(other.value);
+  }
 };
 
 /// Nodes in prefix order: a function stands before its arguments, left to right. A valid tree has at least one node and
@@ -26,8 +31,8 @@ Tree constant_tree(double value);
 Tree variable_tree(std::uint8_t variable);
 /// (theta - theta): the model that corrects nothing (thesis 4.4.1, note 35).
 Tree neutral_tree();
-/// A function applied to whole trees.
-Tree apply(Primitive function, const Tree& argument);
+/// A function applied to whole trees. The first takes its argument by value so that no call prefers std::apply.
+Tree apply(Primitive function, Tree argument);
 Tree apply(Primitive function, const Tree& left, const Tree& right);
 
 /// One past the last node of the subtree that begins at `begin` (tree must be valid there).
