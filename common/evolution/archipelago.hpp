@@ -17,20 +17,22 @@ struct IslandKey {
 enum class Topology { none, ring, full };
 
 struct Archipelago {
-  std::vector<std::uint32_t> joints;      ///< those that get a correction, ascending
+  std::vector<std::uint32_t> joints;  ///< those that get a correction, ascending
   std::uint32_t demes_per_joint = 2;
   Topology topology = Topology::ring;
   std::uint32_t migration_interval = 10;  ///< generations per epoch
   std::uint32_t migrants = 3;             ///< elites an island sends per epoch
   bool between_joints = false;            ///< whether deme d of one joint also feeds deme d of the next joint
+
+  bool operator==(const Archipelago&) const = default;
 };
 
 /// All islands, by joint, then deme.
 std::vector<IslandKey> islands(const Archipelago& archipelago);
 
-/// The islands whose emigrants of the epoch before `island` takes in, in a fixed order; never itself. Ring: deme d - 1 of
-/// the same joint (none where there is one deme); full: every other deme of the joint; between_joints adds deme d of the
-/// joint listed before (cyclic).
+/// The islands whose emigrants of the epoch before `island` takes in, in a fixed order; never itself. Ring: deme d - 1
+/// of the same joint (none where there is one deme); full: every other deme of the joint; between_joints adds deme d of
+/// the joint listed before (cyclic).
 std::vector<IslandKey> sources(const Archipelago& archipelago, IslandKey island);
 
 }  // namespace demecal

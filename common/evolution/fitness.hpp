@@ -7,12 +7,14 @@
 
 namespace demecal {
 
-/// What one joint's islands learn from. Row k: target[k] is theta_C - theta_N in units of `scale`, which all islands share
-/// so that the ephemeral constants are of the target's size.
+/// What one joint's islands learn from. Row k: target[k] is theta_C - theta_N in units of `scale`, which all islands
+/// share so that the ephemeral constants are of the target's size.
 struct TrainingTable {
   std::vector<std::vector<double>> variables;  ///< one column per variable; direct learning has theta alone, rad
   std::vector<double> target;
-  std::vector<double> weight;                  ///< 0 to 1: poses near a singularity count less
+  std::vector<double> weight;  ///< 0 to 1: poses near a singularity count less
+
+  bool operator==(const TrainingTable&) const = default;
 };
 
 class Fitness {

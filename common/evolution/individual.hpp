@@ -1,6 +1,8 @@
 // A correction model under evolution, and a population of them.
 #pragma once
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "expression/tree.hpp"
@@ -10,18 +12,31 @@ namespace demecal {
 struct Individual {
   Tree tree;
   double fitness = 0.0;  ///< raw fitness, smaller is better; infinite where the tree has no finite value on some row
+
+  bool operator==(const Individual&) const = default;
 };
 using Population = std::vector<Individual>;
 
 /// The best individual of each length (number of nodes) that no shorter one beats: ascending length, falling fitness.
+/// At most kMostMembers: where one more would enter, the one that improves least on its shorter neighbour leaves, so
+/// that the shortest, the best and those at which a little length buys much stay.
 class ParetoFront {
  public:
+  static constexpr std::size_t kMostMembers = 64;
+
+  ParetoFront() = default;
+  /// Goes on with the members of an earlier front.
+  explicit ParetoFront(Population members) : members_(std::move(members)) {}
+
   /// Enters the individual where it belongs and drops what it dominates; at equal fitness the earlier one stays. Not
   /// entered where its fitness is not finite.
   void offer(const Individual& individual);
   const Population& members() const { return members_; }
+  Population release() && { return std::move(members_); }
 
  private:
+  void drop_least_gain();
+
   Population members_;
 };
 

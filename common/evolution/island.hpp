@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "evolution/archipelago.hpp"
+#include "evolution/breeding.hpp"
 #include "evolution/fitness.hpp"
 #include "evolution/individual.hpp"
 #include "evolution/parameters.hpp"
@@ -12,19 +14,23 @@ namespace demecal {
 
 /// All that an island is between two epochs: with it any worker can go on where another stopped.
 struct IslandState {
-  std::uint32_t epoch = 0;        ///< epochs completed
-  std::uint32_t generation = 0;   ///< generations completed
+  std::uint32_t epoch = 0;       ///< epochs completed
+  std::uint32_t generation = 0;  ///< generations completed
   std::uint64_t evaluations = 0;
   std::uint64_t migrants_taken = 0;
   Population population;
-  Population front;               ///< members of the ParetoFront over all generations
+  Population front;  ///< members of the ParetoFront over all generations
+
+  bool operator==(const IslandState&) const = default;
 };
 
 /// Figures of the present population, for those who watch.
 struct IslandFigures {
   double best = 0.0;
-  double median = 0.0;
+  double median = 0.0;            ///< the lower one where the population is even
   std::uint32_t best_length = 0;  ///< nodes
+
+  bool operator==(const IslandFigures&) const = default;
 };
 
 /// The work of one island. Its state after epoch k is a function of (parameters, table, seed, key, the migrants it was
@@ -36,25 +42,35 @@ class Island {
          std::uint64_t seed);
 
   IslandKey key() const { return key_; }
-  /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1). Later: `immigrants` replace the
-  /// worst individuals (duplicates of residents are left out), then migration_interval generations are bred, or as many
-  /// as remain.
-  void run_epoch(const Population& immigrants);
-  bool finished() const;          ///< all generations are bred
-  std::uint32_t epochs_total() const;
+  /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1), no generation is bred. Later:
+  /// `immigrants` replace the worst individuals, then migration_interval generations are bred, or as many as remain.
+  /// Immigrants are evaluated on this island's table; duplicates of residents and trees that do not fit it (too deep,
+  /// or of variables it lacks) are left out; the best resident is never replaced. Must not be finished.
+  /// `after_generation` is called after each; where it throws, the island is left amid the epoch and only restore() or
+  /// destruction may follow.
+  void run_epoch(const Population& immigrants, const std::function<void()>& after_generation = {});
+  bool finished() const;               ///< all generations are bred
+  std::uint32_t epochs_total() const;  ///< the first, and as many as number_generations takes
 
-  /// The best individuals, at most `migrants`, no two with equal trees.
+  /// The best individuals, at most `migrants`, no two with equal trees, all of finite fitness.
   Population emigrants() const;
   IslandFigures figures() const;
 
   const IslandState& state() const { return state_; }
-  /// Goes on from a state another worker reached.
+  /// Goes on from a state another worker reached; its fitness values are taken as they are.
   void restore(IslandState state);
 
  private:
+  void found_population(RandomStream& random);
+  void take_in(const Population& immigrants);
+  bool fits(const Tree& tree) const;
+  std::uint32_t generations_of_epoch() const;
+
   GpParameters parameters_;
   Archipelago archipelago_;
   Fitness fitness_;
+  int variables_;
+  Breeder breeder_;
   IslandKey key_;
   std::uint64_t seed_;
   IslandState state_;

@@ -11,13 +11,13 @@ namespace demecal {
 
 struct GpParameters {
   int population_size = 300;
-  int number_generations = 200;          ///< thesis 6.3: 200 for direct learning
+  int number_generations = 200;  ///< thesis 6.3: 200 for direct learning
   int tournament_size = 5;
-  int initial_max_tree_depth1 = 3;       ///< where the ramp of half-and-half begins
-  int initial_max_tree_depth2 = 5;       ///< where it ends
+  int initial_max_tree_depth1 = 3;  ///< where the ramp of half-and-half begins
+  int initial_max_tree_depth2 = 5;  ///< where it ends
   int max_tree_depth = 9;
-  int min_tree_depth = 3;                ///< of trees made by GROW and by mutation
-  int invalid_attempts = 21;             ///< tries at a valid offspring before the parents are reproduced
+  int min_tree_depth = 3;     ///< of trees made by GROW and by mutation
+  int invalid_attempts = 21;  ///< tries at a valid offspring before the parents are reproduced
   double crossover_rate = 0.8;
   double mutation_rate = 0.2;
   double terminal_crossover_rate = 0.2;  ///< probability that a crossover point is a terminal
@@ -25,8 +25,10 @@ struct GpParameters {
   double shrink_mutation_rate = 0.2;     ///< probability that a mutation makes the subtree shallower
   std::vector<Primitive> functions{Primitive::add,  Primitive::subtract, Primitive::multiply, Primitive::divide,
                                    Primitive::sine, Primitive::cosine,   Primitive::sign,     Primitive::square_root};
-  double constants_lower = 0.0;          ///< range of the ephemeral constant
+  double constants_lower = 0.0;  ///< range of the ephemeral constant
   double constants_upper = 1.0;
+
+  bool operator==(const GpParameters&) const = default;
 };
 
 /// A parameter that breaks a rule: its key in lower case, its value and the rule, for a sentence to the user.

@@ -1,0 +1,102 @@
+#include "evolution/parameters.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+namespace demecal {
+namespace {
+
+constexpr int kDeepestTree = 15;
+
+template <class Number>
+std::string text_of(Number number) {
+  char buffer[32];
+  const auto result = std::to_chars(std::begin(buffer), std::end(buffer), number);
+  return std::string(buffer, result.ptr);
+}
+
+struct Count {
+  const char* key;
+  int value;
+};
+struct Rate {
+  const char* key;
+  double value;
+};
+
+std::optional<ParameterFault> count_fault(const GpParameters& p) {
+  const Count counts[]{{"population_size", p.population_size},
+                       {"number_generations", p.number_generations},
+                       {"tournament_size", p.tournament_size},
+                       {"initial_max_tree_depth1", p.initial_max_tree_depth1},
+                       {"initial_max_tree_depth2", p.initial_max_tree_depth2},
+                       {"max_tree_depth", p.max_tree_depth},
+                       {"min_tree_depth", p.min_tree_depth},
+                       {"invalid_attempts", p.invalid_attempts}};
+  for (const auto& [key, value] : counts)
+    if (value < 1) return ParameterFault{key, text_of(value), "must be at least 1"};
+  return std::nullopt;
+}
+
+std::optional<ParameterFault> rate_fault(const GpParameters& p) {
+  const Rate rates[]{{"crossover_rate", p.crossover_rate},
+                     {"mutation_rate", p.mutation_rate},
+                     {"terminal_crossover_rate", p.terminal_crossover_rate},
+                     {"terminal_mutation_rate", p.terminal_mutation_rate},
+                     {"shrink_mutation_rate", p.shrink_mutation_rate}};
+  for (const auto& [key, value] : rates)
+    if (!(value >= 0.0 && value <= 1.0)) return ParameterFault{key, text_of(value), "must lie within 0 to 1"};
+  return std::nullopt;
+}
+
+std::optional<ParameterFault> depth_fault(const GpParameters& p) {
+  if (p.min_tree_depth > p.initial_max_tree_depth1)
+    return ParameterFault{"min_tree_depth", text_of(p.min_tree_depth), "must not exceed initial_max_tree_depth1"};
+  if (p.initial_max_tree_depth1 > p.initial_max_tree_depth2)
+    return ParameterFault{"initial_max_tree_depth1", text_of(p.initial_max_tree_depth1),
+                          "must not exceed initial_max_tree_depth2"};
+  if (p.initial_max_tree_depth2 > p.max_tree_depth)
+    return ParameterFault{"initial_max_tree_depth2", text_of(p.initial_max_tree_depth2),
+                          "must not exceed max_tree_depth"};
+  if (p.max_tree_depth > kDeepestTree)
+    return ParameterFault{"max_tree_depth", text_of(p.max_tree_depth), "must be at most " + text_of(kDeepestTree)};
+  return std::nullopt;
+}
+
+std::optional<ParameterFault> function_fault(const std::vector<Primitive>& functions) {
+  if (functions.empty()) return ParameterFault{"functions", "[]", "must name at least one function"};
+  for (auto function = functions.begin(); function != functions.end(); ++function) {
+    if (arity(*function) == 0) return ParameterFault{"functions", "terminal", "must name functions only"};
+    if (std::find(functions.begin(), function, *function) != function)
+      return ParameterFault{"functions", std::string(traits(*function).symbol), "must name no function twice"};
+  }
+  return std::nullopt;
+}
+
+std::optional<ParameterFault> constants_fault(const GpParameters& p) {
+  if (!std::isfinite(p.constants_lower))
+    return ParameterFault{"constants_lower", text_of(p.constants_lower), "must be finite"};
+  if (!std::isfinite(p.constants_upper))
+    return ParameterFault{"constants_upper", text_of(p.constants_upper), "must be finite"};
+  if (!(p.constants_lower < p.constants_upper))
+    return ParameterFault{"constants_lower", text_of(p.constants_lower), "must be below constants_upper"};
+  if (!std::isfinite(p.constants_upper - p.constants_lower))
+    return ParameterFault{"constants_upper", text_of(p.constants_upper), "must be a finite way above constants_lower"};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ParameterFault> find_fault(const GpParameters& p) {
+  if (auto fault = count_fault(p)) return fault;
+  if (auto fault = rate_fault(p)) return fault;
+  if (auto fault = depth_fault(p)) return fault;
+  if (p.tournament_size > p.population_size)
+    return ParameterFault{"tournament_size", text_of(p.tournament_size), "must not exceed population_size"};
+  if (auto fault = function_fault(p.functions)) return fault;
+  return constants_fault(p);
+}
+
+}  // namespace demecal

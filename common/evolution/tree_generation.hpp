@@ -1,0 +1,36 @@
+// Random trees: GROW, FULL, and the first population by RAMPED HALF & HALF (thesis 3.3.2, 3.3.3; Koza 1992).
+#pragma once
+
+#include <vector>
+
+#include "evolution/parameters.hpp"
+#include "expression/tree.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+
+/// What random trees are made of: the terminal set T (each variable, and the ephemeral constant) and the function set
+/// N.
+struct NodeSet {
+  std::vector<Primitive> functions;
+  int variables = 1;
+  double constants_lower = 0.0;
+  double constants_upper = 1.0;
+};
+
+NodeSet node_set(const GpParameters& parameters, int variables);
+
+/// Appends a random terminal to `tree`, each of T equally likely.
+void append_terminal(RandomStream& random, const NodeSet& nodes, Tree& tree);
+/// Appends a tree of at most `depth` to `tree`, every node above that depth drawn from T and N alike (fig. 3-4).
+/// Returns the depth it came to.
+int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree);
+/// Appends a tree whose leaves all lie at `depth` to `tree` (fig. 3-5).
+void append_full(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree);
+
+/// The trees of a first population: the neutral model once, then FULL and GROW in turn, going round the ramp of depths
+/// from initial_max_tree_depth1 to initial_max_tree_depth2. A grown tree shallower than min_tree_depth is made anew,
+/// and so is one that stands in the population already, up to invalid_attempts times.
+std::vector<Tree> ramped_half_and_half(RandomStream& random, const GpParameters& parameters, int variables);
+
+}  // namespace demecal

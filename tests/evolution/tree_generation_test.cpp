@@ -1,0 +1,127 @@
+// Random trees and the first population.
+#include "evolution/tree_generation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+namespace demecal {
+namespace {
+
+GpParameters with_constants_of_both_signs() {
+  GpParameters parameters;
+  parameters.constants_lower = -2.0;
+  parameters.constants_upper = 3.0;
+  return parameters;
+}
+
+TEST(Grow, GivesValidTreesAndTheirDepth) {
+  RandomStream random{31};
+  const NodeSet nodes = node_set(with_constants_of_both_signs(), 3);
+  for (int trial = 0; trial < 4000; ++trial) {
+    Tree tree;
+    const int limit = trial % 10;
+    const int grown = append_grown(random, nodes, limit, tree);
+    ASSERT_TRUE(is_valid(tree, 3));
+    ASSERT_EQ(grown, depth(tree));
+    ASSERT_LE(grown, limit);
+    for (const Node& node : tree) {
+      if (node.primitive != Primitive::constant) continue;
+      ASSERT_GE(node.value, -2.0);
+      ASSERT_LT(node.value, 3.0);
+    }
+  }
+}
+
+TEST(Grow, DrawsTerminalsAndFunctionsAlike) {
+  RandomStream random{32};
+  const NodeSet nodes = node_set(GpParameters{}, 1);
+  std::map<Primitive, int> roots;
+  constexpr int kDraws = 20000;
+  for (int trial = 0; trial < kDraws; ++trial) {
+    Tree tree;
+    append_grown(random, nodes, 1, tree);
+    ++roots[tree.front().primitive];
+  }
+  EXPECT_EQ(roots.size(), 10u);
+  for (const auto& [primitive, count] : roots) EXPECT_NEAR(count, kDraws / 10, 200) << static_cast<int>(primitive);
+}
+
+TEST(Full, HasAllLeavesAtItsDepth) {
+  RandomStream random{33};
+  const NodeSet nodes = node_set(GpParameters{}, 2);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const int wanted = trial % 8;
+    Tree tree;
+    append_full(random, nodes, wanted, tree);
+    ASSERT_TRUE(is_valid(tree, 2));
+    std::vector<int> levels{0};
+    for (const Node& node : tree) {
+      const int level = levels.back();
+      levels.pop_back();
+      if (arity(node.primitive) == 0) {
+        ASSERT_EQ(level, wanted);
+      }
+      levels.insert(levels.end(), static_cast<std::size_t>(arity(node.primitive)), level + 1);
+    }
+  }
+}
+
+TEST(FirstPopulation, HoldsTheNeutralModelOnce) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random{34, seed};
+    GpParameters parameters;
+    // At depth 1 the neutral model is easily drawn by chance.
+    parameters.min_tree_depth = parameters.initial_max_tree_depth1 = parameters.initial_max_tree_depth2 = 1;
+    parameters.functions = {Primitive::subtract};
+    const auto trees = ramped_half_and_half(random, parameters, 1);
+    EXPECT_EQ(trees.size(), 300u);
+    EXPECT_EQ(std::count(trees.begin(), trees.end(), neutral_tree()), 1);
+  }
+}
+
+TEST(FirstPopulation, HoldsNoTreeTwice) {
+  RandomStream random{35};
+  const auto trees = ramped_half_and_half(random, GpParameters{}, 1);
+  for (std::size_t i = 0; i < trees.size(); ++i)
+    EXPECT_EQ(std::count(trees.begin(), trees.end(), trees[i]), 1) << "tree " << i;
+}
+
+TEST(FirstPopulation, RampsTheDepthsHalfFullHalfGrown) {
+  RandomStream random{36};
+  const GpParameters parameters;
+  const auto trees = ramped_half_and_half(random, parameters, 1);
+  std::map<int, int> full_depths;
+  for (std::size_t i = 1; i < trees.size(); ++i) {
+    ASSERT_TRUE(is_valid(trees[i], 1));
+    ASSERT_GE(depth(trees[i]), parameters.min_tree_depth);
+    ASSERT_LE(depth(trees[i]), parameters.initial_max_tree_depth2);
+    if (i % 2 == 1) ++full_depths[depth(trees[i])];
+  }
+  EXPECT_EQ(full_depths, (std::map<int, int>{{3, 50}, {4, 50}, {5, 50}}));
+}
+
+TEST(FirstPopulation, EndsWhereTooFewTreesDiffer) {
+  RandomStream random{37};
+  GpParameters parameters;
+  parameters.min_tree_depth = parameters.initial_max_tree_depth1 = parameters.initial_max_tree_depth2 = 1;
+  parameters.functions = {Primitive::sine};
+  parameters.constants_lower = 1.0;
+  parameters.constants_upper = std::nextafter(1.0, 2.0);
+  EXPECT_EQ(ramped_half_and_half(random, parameters, 1).size(), 300u);
+}
+
+TEST(FirstPopulation, ReachesMinimaThatGrowHardlyEverDoes) {
+  RandomStream random{38};
+  GpParameters parameters;
+  parameters.population_size = 20;
+  parameters.min_tree_depth = parameters.initial_max_tree_depth1 = 15;
+  parameters.initial_max_tree_depth2 = parameters.max_tree_depth = 15;
+  parameters.functions = {Primitive::sine};
+  const auto trees = ramped_half_and_half(random, parameters, 1);
+  for (std::size_t i = 1; i < trees.size(); ++i) EXPECT_EQ(depth(trees[i]), 15);
+}
+
+}  // namespace
+}  // namespace demecal
