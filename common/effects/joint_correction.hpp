@@ -7,11 +7,12 @@
 
 namespace demecal {
 
-/// The correction of one revolute joint. Outside its calibrated range it keeps the value it has at the nearer end, so
-/// that it never extrapolates.
+/// The correction of one joint. Outside its calibrated range it keeps the value it has at the nearer end, so that it
+/// never extrapolates. Of a prismatic joint theta, g and the range are in m, and the branch does not wrap.
 class JointCorrection {
  public:
   JointCorrection() = default;  ///< neutral: corrects nothing, anywhere
+  /// `formula` of the one variable theta, taken on `branch` and then within `range_rad` (lower <= upper).
   JointCorrection(Tree formula, AngleBranch branch, Interval range_rad);
 
   /// g at a commanded angle, rad.

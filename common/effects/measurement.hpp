@@ -9,11 +9,15 @@
 
 namespace demecal {
 
+// Distances are understood as lengths from the known anchors, one each in their order: a data set whose anchors are
+// unknown has no prediction here, and its caller refuses it.
+
 /// What a pose measured: 3 rows per position (m), 3 per orientation (rad), 1 per distance (m), in this order.
 struct MeasurementRows {
   int position = 0;
   int orientation = 0;
   int distances = 0;
+
   int total() const { return position + orientation + distances; }
 };
 MeasurementRows rows_of(const MeasuredPose& pose);
@@ -21,16 +25,22 @@ MeasurementRows rows_of(const MeasuredPose& pose);
 /// Measured minus predicted, rows as above; the orientation part is the rotation vector from predicted to measured.
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);
 
+/// The same where the tool's pose is already predicted.
+Eigen::VectorXd residual(const Eigen::Isometry3d& predicted, const DataSet& data, const MeasuredPose& pose);
+
 /// The matrix (rows x 6) that maps a small motion of the tool point (linear m, angular rad, measurements' frame) to the
-/// change of the measured quantities at the predicted pose.
+/// change of the measured quantities at the predicted pose. A distance's row is zero at its anchor, where it has no
+/// derivative.
 Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const Eigen::Isometry3d& predicted, const DataSet& data,
                                                               const MeasuredPose& pose);
 
-/// The distance between predicted and measured tool point, m; where only distances were measured, the root mean square of
-/// their errors.
+/// The distance between predicted and measured tool point, m; where only distances were measured, the root mean square
+/// of their errors; NaN where neither was.
 double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);
 
-/// The four figures users judge by, in mm, over the named poses; all NaN where there are none.
+/// The four figures users judge by, in mm, over the tool errors of the named poses; all NaN where there are none.
+/// The 95th percentile is interpolated linearly between order statistics: that of rank 1 + 0.95 (n - 1). Poses that
+/// measured orientation only have no tool error and do not count.
 struct ErrorFigures {
   double mean_mm, rms_mm, p95_mm, max_mm;
 };

@@ -19,7 +19,8 @@ Eigen::Isometry3d forward(const Chain& chain, const JointVector& q);
 /// Position of the chain's tool point in the base frame, m.
 Eigen::Vector3d tool_position(const Chain& chain, const JointVector& q);
 
-/// The analytic Jacobian by the joint variables of the point `point_m` fixed in the flange frame: J_i = z_i x (p - o_i).
+/// The analytic Jacobian by the joint variables of the point `point_m` fixed in the flange frame: J_i = z_i x (p -
+/// o_i).
 Jacobian joint_jacobian(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m);
 
 /// The analytic Jacobian of the same point by all link parameters, each taken as its elementary transform's twist.

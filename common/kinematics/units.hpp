@@ -5,9 +5,17 @@
 
 namespace demecal {
 
-constexpr double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
-constexpr double degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
-constexpr double metres(double millimetres) { return millimetres * 1e-3; }
-constexpr double millimetres(double metres) { return metres * 1e3; }
+constexpr double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180.0);
+}
+constexpr double degrees(double radians) {
+  return radians * (180.0 / std::numbers::pi);
+}
+constexpr double metres(double millimetres) {
+  return millimetres * 1e-3;
+}
+constexpr double millimetres(double metres) {
+  return metres * 1e3;
+}
 
 }  // namespace demecal
