@@ -1,1 +1,30 @@
-int main() { return 0; }
+// demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "coordinator/commands.hpp"
+#include "errors/input_error.hpp"
+
+int main(int argc, char** argv) {
+  using demecal::ExitCode;
+  CLI::App app{"demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", DEMECAL_VERSION);
+  ExitCode exit_code = ExitCode::done;
+  demecal::add_calibrate(app, exit_code);
+  demecal::add_evaluate(app, exit_code);
+  demecal::add_simulate(app, exit_code);
+  demecal::add_report(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_arguments;
+  } catch (const demecal::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    exit_code = ExitCode::bad_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "the run failed: %s\n", error.what());
+    exit_code = ExitCode::run_failed;
+  }
+  return static_cast<int>(exit_code);
+}

@@ -1,1 +1,72 @@
-int main() { return 0; }
+// demecal-worker: evolves islands for whichever coordinator serves its domain.
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "transport/dds.hpp"
+#include "worker/worker.hpp"
+
+namespace {
+
+std::atomic<bool> stop{false};
+
+void on_signal(int) {
+  stop = true;
+}
+
+std::string host_name() {
+  char name[256] = "unknown";
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
+/// Unique among all workers that may meet: host, process and the moment it started.
+std::string unique_name(const std::string& host) {
+  const auto moment = std::chrono::system_clock::now().time_since_epoch().count();
+  return host + "-" + std::to_string(::getpid()) + "-" + std::to_string(moment % 1'000'000'000);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"demecal-worker: evolves islands for whichever coordinator serves its domain"};
+  demecal::DdsOptions dds;
+  demecal::WorkerOptions options;
+  bool network = false;
+  app.add_option("--domain", dds.domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  app.add_option("--slots", options.slots, "islands computed at once")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_flag("--network", network, "serve coordinators on other machines too, found by multicast");
+  app.add_option("--interface", dds.interfaces, "addresses of the network interfaces to use");
+  app.add_option("--peer", dds.peers, "addresses of other hosts, where there is no multicast");
+  app.add_option("--discovery-server", dds.discovery_server, "ADDRESS:PORT of a discovery server");
+  app.add_option("--only-run", options.only_run, "serve this run alone and end with it");
+  app.set_version_flag("--version", DEMECAL_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 10;
+  }
+  if (network || !dds.peers.empty() || !dds.discovery_server.empty()) dds.reach = demecal::DdsOptions::Reach::network;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  options.host = host_name();
+  options.process = static_cast<std::uint32_t>(::getpid());
+  options.name = unique_name(options.host);
+  try {
+    const auto transport = demecal::join_dds(dds, demecal::Role::worker, options.name);
+    demecal::Worker(*transport, options).serve(stop);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "demecal-worker: %s\n", error.what());
+    return 21;
+  }
+  return 0;
+}

@@ -1,0 +1,47 @@
+// The main job: from a job file to a model, a report and a history in a folder.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "calibration/job.hpp"
+#include "coordinator/evolution_run.hpp"
+#include "coordinator/exit_codes.hpp"
+#include "data/data_set.hpp"
+#include "report/calibration_report.hpp"
+
+namespace demecal {
+
+/// How a calibration reaches its workers: opens the transport, and keeps the workers that it starts alive.
+class Fleet {
+ public:
+  virtual ~Fleet() = default;
+  virtual Transport& transport() = 0;
+  /// Called once the run is known, before it begins.
+  virtual void launch(RunId run) = 0;
+};
+
+struct CalibrateOptions {
+  std::chrono::milliseconds worker_patience{30000};
+  bool quiet = false;
+};
+
+struct CalibrateResult {
+  RunEnd end = RunEnd::finished;
+  CalibratedModel model;
+  Preparation preparation;
+  Calibration calibration;
+  std::vector<Progress> history;
+  RunFacts facts;
+};
+
+/// Everything but files: prepares, evolves on the fleet, and concludes. The fleet is asked for only where joint
+/// corrections are declared. Throws InputError for data that the job cannot be fitted to.
+CalibrateResult calibrate(const DataSet& data, const Job& job,
+                          const std::function<std::unique_ptr<Fleet>()>& make_fleet, const std::atomic<bool>& interrupt,
+                          const CalibrateOptions& options);
+
+}  // namespace demecal

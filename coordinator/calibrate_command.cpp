@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "config/load_data_set.hpp"
+#include "config/load_job.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/dds_fleet.hpp"
+#include "coordinator/interrupt.hpp"
+#include "coordinator/result_folder.hpp"
+#include "errors/input_error.hpp"
+#include "report/terminal.hpp"
+
+namespace demecal {
+namespace {
+
+struct Request {
+  std::string job_file, out, data_file, method;
+  int workers = static_cast<int>(std::thread::hardware_concurrency());
+  std::optional<std::uint64_t> seed;
+  std::optional<int> max_effects;
+  double worker_timeout_s = 30.0;
+  bool quiet = false, network = false;
+  DdsOptions dds;
+};
+
+Job job_of(const Request& request) {
+  Job job = load_job(request.job_file);
+  if (request.seed) job.seed = *request.seed;
+  if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
+  if (!request.data_file.empty()) job.data_file = request.data_file;
+  if (!request.method.empty()) job.method = request.method == "direct" ? Method::direct : Method::distal;
+  if (job.method == Method::distal) {
+    throw InputError({request.job_file, 0}, "distal", "only direct joint-error learning is built into this version");
+  }
+  return job;
+}
+
+void print_head(const Request& request, const Job& job, const DataSet& data) {
+  if (request.quiet) return;
+  fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
+             data.poses.size(), job.islands.per_joint, job.seed);
+  fmt::print(stderr, "  DDS domain {}, {}\n", request.dds.domain,
+             request.workers > 0 ? fmt::format("{} local workers", request.workers)
+                                 : fmt::format("waiting up to {:g} s for workers", request.worker_timeout_s));
+}
+
+ExitCode run(Request request) {
+  if (request.network || !request.dds.peers.empty() || !request.dds.discovery_server.empty()) {
+    request.dds.reach = DdsOptions::Reach::network;
+  }
+  const Job job = job_of(request);
+  const DataSet data = load_data_set(job.data_file);
+  make_writable(request.out);
+  print_head(request, job, data);
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
+  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(request.dds, request.workers); };
+  CalibrateOptions options;
+  options.quiet = request.quiet;
+  options.worker_patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
+  CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
+  const RunEnd end = result.end;
+  if (end == RunEnd::no_worker) {
+    fmt::print(stderr, "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default\n",
+               request.worker_timeout_s, request.dds.domain);
+    return ExitCode::no_worker;
+  }
+  const CalibrationReport report = write_results(request.out, data, std::move(result));
+  fmt::print(
+      "{}\n  {} islands on {} workers, {} evaluations in {:.1f} s\n  {}: {}/model.yaml, report.json, report.html, "
+      "history.csv\n",
+      to_terminal(report), report.runtime.islands, report.runtime.workers, report.runtime.evaluations,
+      report.runtime.wall_s, end == RunEnd::interrupted ? "interrupted; what was reached" : "results", request.out);
+  return end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command = app.add_subcommand("calibrate", "run a calibration job and write model, report and history");
+  command->add_option("job", request->job_file, "JOB.yaml")->required();
+  command->add_option("--out", request->out, "folder for the results")->required();
+  command->add_option("--workers", request->workers, "local worker processes; 0 waits for workers started elsewhere")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
+  command->add_option("--method", request->method, "learning method (default: the job's)")
+      ->check(CLI::IsMember({"direct", "distal"}));
+  command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--data", request->data_file, "data set in place of the job's");
+  command->add_option("--domain", request->dds.domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command->add_flag("--network", request->network, "let workers on other machines join, found by multicast");
+  command->add_option("--interface", request->dds.interfaces, "addresses of the network interfaces to use");
+  command->add_option("--peer", request->dds.peers, "addresses of other hosts, where there is no multicast");
+  command->add_option("--discovery-server", request->dds.discovery_server, "ADDRESS:PORT of a discovery server");
+  command
+      ->add_option("--worker-timeout-s", request->worker_timeout_s,
+                   "how long to be without any worker before giving up")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--quiet", request->quiet, "no progress, only the result");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

@@ -1,0 +1,33 @@
+#include "coordinator/dds_fleet.hpp"
+
+#include <string>
+#include <vector>
+
+namespace demecal {
+namespace {
+
+std::vector<std::string> worker_arguments(const DdsOptions& options, RunId run) {
+  std::vector<std::string> arguments{"--domain", std::to_string(options.domain), "--only-run", std::to_string(run)};
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.emplace_back(option);
+    arguments.push_back(value);
+  };
+  if (options.reach == DdsOptions::Reach::network) arguments.emplace_back("--network");
+  for (const std::string& address : options.interfaces) add("--interface", address);
+  for (const std::string& peer : options.peers) add("--peer", peer);
+  if (!options.discovery_server.empty()) add("--discovery-server", options.discovery_server);
+  return arguments;
+}
+
+}  // namespace
+
+DdsFleet::DdsFleet(const DdsOptions& options, int local_workers)
+    : options_(options),
+      local_workers_(local_workers),
+      transport_(join_dds(options, Role::coordinator, "coordinator")) {}
+
+void DdsFleet::launch(RunId run) {
+  workers_.emplace(beside_this_program("demecal-worker"), worker_arguments(options_, run), local_workers_);
+}
+
+}  // namespace demecal

@@ -1,0 +1,28 @@
+// The fleet over DDS: the coordinator's participant, and the local worker processes it starts.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "coordinator/calibrate.hpp"
+#include "coordinator/local_workers.hpp"
+#include "transport/dds.hpp"
+
+namespace demecal {
+
+class DdsFleet : public Fleet {
+ public:
+  /// Joins the domain; will start `local_workers` processes, each with one slot, that serve this run alone.
+  DdsFleet(const DdsOptions& options, int local_workers);
+
+  Transport& transport() override { return *transport_; }
+  void launch(RunId run) override;
+
+ private:
+  DdsOptions options_;
+  int local_workers_;
+  std::unique_ptr<Transport> transport_;
+  std::optional<LocalWorkers> workers_;
+};
+
+}  // namespace demecal

@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "config/load_data_set.hpp"
+#include "config/model_text.hpp"
+#include "coordinator/commands.hpp"
+#include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
+#include "report/report_json.hpp"
+#include "report/terminal.hpp"
+
+namespace demecal {
+namespace {
+
+struct Request {
+  std::string model_file, data_file;
+  bool json = false, refit_base = false;
+};
+
+/// The model in the data's own frame: base and tool fitted on the calibration poses, everything else as it is.
+CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
+  const DeclaredModel base_and_tool{.registration = true, .tool = true};
+  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), base_and_tool, model.robot);
+  if (fit.status != FitStatus::converged) throw InputError({data.file, 0}, "", fit.sentence);
+  return fit.robot;
+}
+
+ExitCode run(const Request& request) {
+  const CalibratedModel model = load_model(request.model_file);
+  const DataSet data = load_data_set(request.data_file);
+  if (data.robot.chain.size() != model.robot.chain.size()) {
+    throw InputError({request.data_file, 0}, std::to_string(data.robot.chain.size()),
+                     fmt::format("is not the number of joints of the model ({})", model.robot.chain.size()));
+  }
+  for (const MeasuredPose& pose : data.poses) {
+    if (!pose.target.empty() && !model.robot.tools.contains(pose.target)) {
+      throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
+    }
+  }
+  const ErrorBySet errors = errors_by_set(request.refit_base ? registered(model, data) : model.robot, data);
+  fmt::print("{}", request.json ? errors_to_json(errors) : errors_to_terminal(errors));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command = app.add_subcommand("evaluate", "position error of a model on a data set");
+  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("data", request->data_file, "DATASET.yaml")->required();
+  command->add_flag("--json", request->json, "one line of JSON");
+  command->add_flag("--refit-base", request->refit_base,
+                    "fit base and tool to the data first, where the instrument or the tool was moved");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

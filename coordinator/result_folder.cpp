@@ -1,0 +1,52 @@
+#include "coordinator/result_folder.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "config/files.hpp"
+#include "config/model_text.hpp"
+#include "errors/input_error.hpp"
+#include "report/history.hpp"
+#include "report/report_html.hpp"
+#include "report/report_json.hpp"
+
+namespace demecal {
+namespace {
+
+std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
+  std::vector<HistoryRow> rows;
+  for (const Progress& progress : history) {
+    rows.push_back({progress.island, progress.generation, progress.figures, progress.evaluations,
+                    progress.migrants_taken, progress.worker});
+  }
+  return rows;
+}
+
+}  // namespace
+
+void make_writable(const std::string& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw InputError({folder, 0}, "", "cannot make the results folder: " + failure.message());
+  const std::string probe = folder + "/.demecal-probe";
+  if (!std::ofstream(probe))
+    throw InputError({folder, 0}, "", std::string("cannot write here: ") + std::strerror(errno));
+  std::filesystem::remove(probe, failure);
+}
+
+CalibrationReport write_results(const std::string& folder, const DataSet& data, CalibrateResult result) {
+  const std::string model_path = folder + "/model.yaml";
+  write_file(model_path, model_text(result.model));
+  const CalibratedModel written = load_model(model_path);
+  const CalibrationReport report = make_report(data, written, result.preparation, result.calibration, result.facts);
+  const std::string json = to_json(report);
+  const std::string history = history_csv(history_rows(result.history));
+  write_file(folder + "/report.json", json);
+  write_file(folder + "/history.csv", history);
+  write_file(folder + "/report.html", report_html(json, history));
+  return report;
+}
+
+}  // namespace demecal

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "config/files.hpp"
+#include "config/load_scenario.hpp"
+#include "config/write_data_set.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "simulation/simulated_robot.hpp"
+
+namespace demecal {
+namespace {
+
+struct Request {
+  std::string scenario_file, out;
+};
+
+ExitCode run(const Request& request) {
+  const Scenario scenario = load_scenario(request.scenario_file);
+  make_writable(request.out);
+  const DataSet data = simulate(scenario);
+  write_data_set(data, request.out, "Measured on a simulated robot: " + scenario.name);
+  write_file(request.out + "/truth.yaml", "# What is true of the data set beside this file; no command reads it\n" +
+                                              read_file(request.scenario_file));
+  fmt::print("{}: {} poses of {} measured; data set {}/dataset.yaml, truth in {}/truth.yaml\n", scenario.name,
+             data.poses.size(), data.robot.name, request.out, request.out);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "measure a simulated robot: a data set, and its truth in a file apart");
+  command->add_option("scenario", request->scenario_file, "SCENARIO.yaml")->required();
+  command->add_option("--out", request->out, "folder for the data set")->required();
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

@@ -1,0 +1,145 @@
+// A run gives the same formulas whoever computes them, whenever they come and go.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "in_memory_run.hpp"
+
+namespace demecal {
+namespace {
+
+TEST(EvolutionRun, EveryIslandReturnsAFrontAndBreedsAllGenerations) {
+  const CalibrationData data = small_run(1);
+  const RunResult result = run_in_memory(data, 1);
+  EXPECT_EQ(result.end, RunEnd::finished);
+  ASSERT_EQ(result.fronts.size(), 6U);
+  for (const auto& [island, front] : result.fronts) EXPECT_FALSE(front.empty());
+  EXPECT_EQ(result.generations, 6U * 12U);
+  EXPECT_GT(result.migrations, 0U);
+  EXPECT_GT(result.evaluations, 6U * 40U);
+}
+
+TEST(EvolutionRun, IsTheSameForAnyNumberOfWorkersAndSlots) {
+  for (const Topology topology : {Topology::none, Topology::ring, Topology::full}) {
+    const CalibrationData data = small_run(2, topology, topology == Topology::ring);
+    const RunResult alone = run_in_memory(data, 1);
+    EXPECT_TRUE(same_fronts(alone, run_in_memory(data, 2)));
+    EXPECT_TRUE(same_fronts(alone, run_in_memory(data, 6)));
+    EXPECT_TRUE(same_fronts(alone, run_in_memory(data, 2, 3)));
+  }
+}
+
+TEST(EvolutionRun, OtherSeedsGiveOtherFormulas) {
+  CalibrationData data = small_run(3);
+  const RunResult one = run_in_memory(data, 2);
+  data.seed = 4;
+  EXPECT_FALSE(same_fronts(one, run_in_memory(data, 2)));
+}
+
+TEST(EvolutionRun, MigrationChangesWhatIslandsFind) {
+  EXPECT_FALSE(
+      same_fronts(run_in_memory(small_run(5, Topology::none), 2), run_in_memory(small_run(5, Topology::ring), 2)));
+}
+
+/// Does `action` once, after the first few epochs were heard of.
+class AfterSomeEpochs : public RunObserver {
+ public:
+  explicit AfterSomeEpochs(int epochs, std::function<void()> action) : left_(epochs), action_(std::move(action)) {}
+  void on_progress(const Progress&) override {
+    if (--left_ == 0) action_();
+  }
+
+ private:
+  int left_;
+  std::function<void()> action_;
+};
+
+TEST(EvolutionRun, IsTheSameWhenAWorkerLeavesAndAnotherComes) {
+  const CalibrationData data = small_run(6);
+  const RunResult undisturbed = run_in_memory(data, 1);
+  for (int epochs = 1; epochs <= 12; epochs += 3) {
+    const auto exchange = make_exchange();
+    auto first = std::make_unique<WorkerThread>(exchange, "first");
+    std::unique_ptr<WorkerThread> second, third;
+    AfterSomeEpochs disturb(epochs, [&] {
+      second = std::make_unique<WorkerThread>(exchange, "second");
+      first->stop();
+      third = std::make_unique<WorkerThread>(exchange, "third");
+    });
+    const auto transport = join(exchange, Role::coordinator, "coordinator");
+    const std::atomic<bool> interrupt{false};
+    const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, std::chrono::seconds(30));
+    EXPECT_EQ(result.end, RunEnd::finished);
+    EXPECT_TRUE(same_fronts(undisturbed, result)) << "after " << epochs << " epochs";
+  }
+}
+
+TEST(EvolutionRun, WorkersThatComeLateAreGivenIslands) {
+  const CalibrationData data = small_run(7);
+  const auto exchange = make_exchange();
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  std::unique_ptr<WorkerThread> late;
+  class ComeOnTick : public RunObserver {
+   public:
+    explicit ComeOnTick(std::function<void()> come) : come_(std::move(come)) {}
+    void on_tick() override {
+      if (come_) std::exchange(come_, nullptr)();
+    }
+
+   private:
+    std::function<void()> come_;
+  } observer([&] { late = std::make_unique<WorkerThread>(exchange, "late"); });
+  const std::atomic<bool> interrupt{false};
+  const RunResult result = EvolutionRun(*transport, data, observer).run(interrupt, std::chrono::seconds(30));
+  EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
+}
+
+TEST(EvolutionRun, EndsWithoutWorkersAfterItsPatience) {
+  const auto exchange = make_exchange();
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  RunObserver silent;
+  const std::atomic<bool> interrupt{false};
+  const RunResult result =
+      EvolutionRun(*transport, small_run(8), silent).run(interrupt, std::chrono::milliseconds(200));
+  EXPECT_EQ(result.end, RunEnd::no_worker);
+}
+
+TEST(EvolutionRun, AnInterruptKeepsWhatWasReached) {
+  CalibrationData data = small_run(9);
+  data.parameters.number_generations = 100000;
+  const auto exchange = make_exchange();
+  WorkerThread worker(exchange, "worker");
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  std::atomic<bool> interrupt{false};
+  AfterSomeEpochs observer(20, [&] { interrupt = true; });
+  const RunResult result = EvolutionRun(*transport, data, observer).run(interrupt, std::chrono::seconds(30));
+  EXPECT_EQ(result.end, RunEnd::interrupted);
+  EXPECT_TRUE(
+      std::any_of(result.fronts.begin(), result.fronts.end(), [](const auto& front) { return !front.second.empty(); }));
+  EXPECT_GE(result.history.size(), 20U);
+}
+
+TEST(EvolutionRun, MalformedMessagesOfOthersChangeNothing) {
+  const CalibrationData data = small_run(10);
+  const auto exchange = make_exchange();
+  WorkerThread worker(exchange, "worker");
+  const auto stranger = join(exchange, Role::worker, "stranger");
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  AfterSomeEpochs disturb(3, [&] {
+    stranger->follow_migrants(0);
+    Outcome forged{.run = data.run, .attempt = 1, .island = {99, 0}, .worker = "stranger", .front = {}};
+    stranger->publish(forged);
+    Checkpoint broken{.run = data.run, .attempt = 1, .island = {0, 0}, .state = {}, .recent = {}};
+    broken.state.epoch = 3;
+    broken.state.population.push_back({Tree{{Primitive::add, 0, 0.0}}, 0.0});
+    stranger->publish(broken);
+    stranger->publish(Migrants{data.run, {0, 7}, 1, {}});
+    stranger->publish(Migrants{data.run + 1, {0, 1}, 1, {}});
+  });
+  const std::atomic<bool> interrupt{false};
+  const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, std::chrono::seconds(30));
+  EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
+}
+
+}  // namespace
+}  // namespace demecal

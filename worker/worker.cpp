@@ -1,0 +1,157 @@
+#include "worker/worker.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "protocol/faults.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::chrono::milliseconds kBeat = kLease / 5;
+constexpr std::chrono::milliseconds kFarewell{1000};
+
+}  // namespace
+
+Worker::Worker(Transport& transport, const WorkerOptions& options)
+    : transport_(transport), options_(options), slots_(options.slots, [&transport] { transport.wake(); }) {}
+
+void Worker::serve(const std::atomic<bool>& stop) {
+  announce(false);
+  while (!stop && (options_.only_run == 0 || !ended_.contains(options_.only_run))) {
+    keep_alive();
+    if (const std::optional<Message> message = transport_.receive(kBeat)) receive(*message);
+    while (const auto tenancy = slots_.finished()) finish(*tenancy);
+    start_ready();
+  }
+  announce(true);
+  transport_.flush(kFarewell);
+}
+
+void Worker::receive(const Message& message) {
+  if (const auto* data = std::get_if<CalibrationData>(&message)) take(*data);
+  if (const auto* task = std::get_if<IslandTask>(&message)) take(*task);
+  if (const auto* migrants = std::get_if<Migrants>(&message)) take(*migrants);
+  if (const auto* control = std::get_if<Control>(&message)) take(*control);
+}
+
+void Worker::take(const CalibrationData& data) {
+  if (ended_.contains(data.run) || runs_.contains(data.run) || find_fault(data)) return;
+  if (options_.only_run != 0 && data.run != options_.only_run) return;
+  runs_[data.run] = std::make_shared<RunData>(RunData{data});
+  const auto early = waiting_.extract(data.run);
+  if (early.empty()) return;
+  for (const auto& [island, task] : early.mapped()) take(task);
+}
+
+void Worker::take(const IslandTask& task) {
+  const Place place{task.run, task.island};
+  if (ended_.contains(task.run)) return;
+  const auto run = runs_.find(task.run);
+  if (run == runs_.end()) {
+    waiting_[task.run].insert_or_assign(task.island, task);
+    return;
+  }
+  if (find_fault(task, run->second->data)) return;
+  std::uint32_t& highest = attempts_[place];
+  if (task.attempt <= highest) return;
+  highest = task.attempt;
+  tenancies_.erase(place);
+  if (task.worker == options_.name) begin(task);
+}
+
+void Worker::begin(const IslandTask& task) {
+  const auto tenancy = std::make_shared<Tenancy>(runs_.at(task.run), task);
+  tenancies_[{task.run, task.island}] = tenancy;
+  transport_.follow_migrants(task.island.joint);
+  for (const IslandKey& source : tenancy->sources()) transport_.follow_migrants(source.joint);
+  for (const Migrants& migrants : tenancy->recent()) {
+    inboxes_[task.run].put(migrants);
+    transport_.publish(migrants);
+  }
+}
+
+void Worker::take(const Migrants& migrants) {
+  const auto run = runs_.find(migrants.run);
+  if (run == runs_.end() || find_fault(migrants, run->second->data)) return;
+  inboxes_[migrants.run].put(migrants);
+}
+
+void Worker::take(const Control& control) {
+  if (control.state == Control::State::running) return;
+  ended_.insert(control.run);
+  forget_run(control.run);
+}
+
+void Worker::start_ready() {
+  while (slots_.has_room() && start_one()) {
+  }
+}
+
+/// Of the islands whose immigrants are all here, the one that is farthest behind.
+bool Worker::start_one() {
+  std::shared_ptr<Tenancy> slowest;
+  Population immigrants;
+  for (const auto& [place, tenancy] : tenancies_) {
+    const std::uint32_t epoch = tenancy->epoch();
+    if (tenancy->finished() || busy_.contains(tenancy) || (slowest && slowest->epoch() <= epoch)) continue;
+    std::optional<Population> arrived =
+        epoch == 0 ? Population{} : inboxes_[place.first].collect(tenancy->sources(), epoch);
+    if (!arrived) continue;
+    slowest = tenancy;
+    immigrants = std::move(*arrived);
+  }
+  if (!slowest) return false;
+  busy_.insert(slowest);
+  slots_.start(slowest, [this, slowest, arrived = std::move(immigrants)] {
+    slowest->run_epoch(arrived, [this] { slots_.beat(); });
+  });
+  return true;
+}
+
+void Worker::finish(const std::shared_ptr<Tenancy>& done) {
+  busy_.erase(done);
+  const Place place{done->run(), done->island()};
+  const auto found = tenancies_.find(place);
+  if (found == tenancies_.end() || found->second != done) return;  // given to another worker meanwhile
+  const Tenancy& tenancy = *done;
+  const Migrants migrants = tenancy.migrants();
+  inboxes_[place.first].put(migrants);
+  transport_.publish(migrants);
+  transport_.publish(tenancy.progress(options_.name));
+  transport_.publish(tenancy.checkpoint());
+  if (tenancy.finished()) transport_.publish(tenancy.outcome(options_.name));
+  std::uint32_t slowest = tenancy.epoch();
+  for (const auto& [other, held] : tenancies_) {
+    if (other.first == place.first && !held->finished()) slowest = std::min(slowest, held->epoch());
+  }
+  inboxes_[place.first].forget_before(slowest);
+}
+
+void Worker::announce(bool leaving) {
+  transport_.publish(WorkerStatus{.worker = options_.name,
+                                  .host = options_.host,
+                                  .process = options_.process,
+                                  .slots = options_.slots,
+                                  .version = DEMECAL_VERSION,
+                                  .leaving = leaving,
+                                  .only_run = options_.only_run});
+}
+
+void Worker::forget_run(RunId run) {
+  const auto of_run = [run](const auto& entry) { return entry.first.first == run; };
+  std::erase_if(tenancies_, of_run);
+  std::erase_if(attempts_, of_run);
+  runs_.erase(run);
+  inboxes_.erase(run);
+  waiting_.erase(run);
+}
+
+void Worker::keep_alive() {
+  const std::uint64_t beats = slots_.beats();
+  if (!slots_.is_idle() && beats == beats_seen_) return;  // a slot that hangs must not look alive
+  beats_seen_ = beats;
+  transport_.assert_alive();
+}
+
+}  // namespace demecal

@@ -1,0 +1,62 @@
+// A worker: takes islands from whichever coordinator serves its domain, evolves them, and says how they fare.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "transport/transport.hpp"
+#include "worker/inbox.hpp"
+#include "worker/slots.hpp"
+#include "worker/tenancy.hpp"
+
+namespace demecal {
+
+struct WorkerOptions {
+  std::string name;  ///< unique among all workers
+  std::string host;
+  std::uint32_t process = 0;
+  std::uint32_t slots = 1;  ///< islands computed at once
+  RunId only_run = 0;       ///< 0: serves every run
+};
+
+class Worker {
+ public:
+  Worker(Transport& transport, const WorkerOptions& options);
+
+  /// Works until `stop` is set, then says goodbye. With only_run set it also ends when that run does.
+  void serve(const std::atomic<bool>& stop);
+
+ private:
+  using Place = std::pair<RunId, IslandKey>;
+
+  void receive(const Message& message);
+  void take(const CalibrationData& data);
+  void take(const IslandTask& task);
+  void take(const Migrants& migrants);
+  void take(const Control& control);
+  void begin(const IslandTask& task);
+  void start_ready();
+  bool start_one();
+  void finish(const std::shared_ptr<Tenancy>& tenancy);
+  void announce(bool leaving);
+  void forget_run(RunId run);
+  void keep_alive();
+
+  Transport& transport_;
+  WorkerOptions options_;
+  std::map<RunId, std::shared_ptr<const RunData>> runs_;
+  std::map<RunId, Inbox> inboxes_;
+  std::map<RunId, std::map<IslandKey, IslandTask>> waiting_;  ///< tasks that came before their run's data
+  std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
+  std::map<Place, std::uint32_t> attempts_;  ///< highest seen, ours or another's
+  std::set<std::shared_ptr<Tenancy>> busy_;
+  std::set<RunId> ended_;
+  Slots<std::shared_ptr<Tenancy>> slots_;
+  std::uint64_t beats_seen_ = 0;
+};
+
+}  // namespace demecal
