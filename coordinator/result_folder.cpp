@@ -39,7 +39,9 @@ void make_writable(const std::string& folder) {
 CalibrationReport write_results(const std::string& folder, const DataSet& data, CalibrateResult result) {
   const std::string model_path = folder + "/model.yaml";
   write_file(model_path, model_text(result.model));
-  const CalibratedModel written = load_model(model_path);
+  CalibratedModel written = load_model(model_path);
+  written.joints = result.model.joints;  // what is for people alone is not read back
+  written.estimates = result.model.estimates;
   const CalibrationReport report = make_report(data, written, result.preparation, result.calibration, result.facts);
   const std::string json = to_json(report);
   const std::string history = history_csv(history_rows(result.history));

@@ -3,7 +3,6 @@
 
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "protocol/messages.hpp"
@@ -11,7 +10,8 @@
 namespace demecal {
 
 /// Emigrants of one run by source island and epoch. Late and doubled ones change nothing: an island's emigrants of an
-/// epoch are the same whoever sends them.
+/// epoch are the same whoever sends them. Of every source the last kMigrantEpochs are kept, whatever islands are here
+/// now: one that is behind may be handed over at any time.
 class Inbox {
  public:
   void put(const Migrants& migrants);
@@ -20,11 +20,8 @@ class Inbox {
   /// missing.
   std::optional<Population> collect(const std::vector<IslandKey>& sources, std::uint32_t epoch) const;
 
-  /// Drops what left before `epoch` epochs were complete: no island here will ask for it again.
-  void forget_before(std::uint32_t epoch);
-
  private:
-  std::map<std::pair<IslandKey, std::uint32_t>, Population> by_source_;
+  std::map<IslandKey, std::map<std::uint32_t, Population>> by_source_;  ///< then by epoch
 };
 
 }  // namespace demecal

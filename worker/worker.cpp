@@ -1,6 +1,6 @@
 #include "worker/worker.hpp"
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "protocol/faults.hpp"
@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBeat = kLease / 5;
 constexpr std::chrono::milliseconds kFarewell{1000};
+constexpr std::size_t kMostEarlyMigrants = 4096;
 
 }  // namespace
 
@@ -39,6 +40,7 @@ void Worker::take(const CalibrationData& data) {
   if (ended_.contains(data.run) || runs_.contains(data.run) || find_fault(data)) return;
   if (options_.only_run != 0 && data.run != options_.only_run) return;
   runs_[data.run] = std::make_shared<RunData>(RunData{data});
+  for (const Migrants& migrants : std::exchange(early_migrants_, {})) take(migrants);
   const auto early = waiting_.extract(data.run);
   if (early.empty()) return;
   for (const auto& [island, task] : early.mapped()) take(task);
@@ -73,8 +75,12 @@ void Worker::begin(const IslandTask& task) {
 
 void Worker::take(const Migrants& migrants) {
   const auto run = runs_.find(migrants.run);
-  if (run == runs_.end() || find_fault(migrants, run->second->data)) return;
-  inboxes_[migrants.run].put(migrants);
+  if (run == runs_.end()) {
+    if (!ended_.contains(migrants.run) && early_migrants_.size() < kMostEarlyMigrants)
+      early_migrants_.push_back(migrants);
+    return;
+  }
+  if (!find_fault(migrants, run->second->data)) inboxes_[migrants.run].put(migrants);
 }
 
 void Worker::take(const Control& control) {
@@ -121,11 +127,6 @@ void Worker::finish(const std::shared_ptr<Tenancy>& done) {
   transport_.publish(tenancy.progress(options_.name));
   transport_.publish(tenancy.checkpoint());
   if (tenancy.finished()) transport_.publish(tenancy.outcome(options_.name));
-  std::uint32_t slowest = tenancy.epoch();
-  for (const auto& [other, held] : tenancies_) {
-    if (other.first == place.first && !held->finished()) slowest = std::min(slowest, held->epoch());
-  }
-  inboxes_[place.first].forget_before(slowest);
 }
 
 void Worker::announce(bool leaving) {

@@ -51,6 +51,7 @@ class Worker {
   std::map<RunId, std::shared_ptr<const RunData>> runs_;
   std::map<RunId, Inbox> inboxes_;
   std::map<RunId, std::map<IslandKey, IslandTask>> waiting_;  ///< tasks that came before their run's data
+  std::vector<Migrants> early_migrants_;                      ///< the same of migrants
   std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
   std::map<Place, std::uint32_t> attempts_;  ///< highest seen, ours or another's
   std::set<std::shared_ptr<Tenancy>> busy_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "evolution/archipelago.hpp"
 #include "evolution/parameters.hpp"
@@ -23,11 +24,12 @@ struct IslandOptions {
 struct ClosedLoopOptions {
   int max_effects = 10;
   double family_error = 0.05;
+  std::vector<std::string> candidates;  ///< kinds of effects to consider, by the words of reports; empty: all
 };
 
 struct Job {
-  std::string name;             ///< the job file's stem
-  std::string data_file;        ///< path of the data set, resolved
+  std::string name;       ///< the job file's stem
+  std::string data_file;  ///< path of the data set, resolved
   Method method = Method::direct;
   std::uint64_t seed = 1;
   DeclaredModel declared{.registration = true, .joint_corrections = true};

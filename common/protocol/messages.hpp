@@ -14,7 +14,8 @@
 namespace demecal {
 
 /// How many epochs of an island's emigrants are kept for slower neighbours.
-inline constexpr int kMigrantEpochs = 8;
+/// More than neighbours can drift apart: an island waits for its sources, so along a ring of n demes by n - 1 at most.
+inline constexpr int kMigrantEpochs = 32;
 
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
@@ -27,6 +28,8 @@ struct CalibrationData {
   GpParameters parameters;
   Archipelago archipelago;
   std::vector<TrainingTable> tables;   ///< parallel to archipelago.joints
+
+  bool operator==(const CalibrationData&) const = default;
 };
 
 /// Worker -> workers: the elites of an island after an epoch.
@@ -35,6 +38,8 @@ struct Migrants {
   IslandKey island;
   std::uint32_t epoch = 0;             ///< epochs completed when they left: 1 after the first
   Population individuals;
+
+  bool operator==(const Migrants&) const = default;
 };
 
 /// Coordinator -> the named worker: work on this island, from this state on. A higher attempt replaces a lower one,
@@ -46,6 +51,8 @@ struct IslandTask {
   std::string worker;
   IslandState start;                   ///< epoch 0 and empty for a fresh island
   std::vector<Migrants> recent;        ///< of that island, published again by the worker that goes on with it
+
+  bool operator==(const IslandTask&) const = default;
 };
 
 /// Worker -> coordinator and watchers, after each epoch.
@@ -59,6 +66,8 @@ struct Progress {
   std::uint64_t evaluations = 0;       ///< since the island began
   double evaluations_per_s = 0.0;      ///< of the last epoch
   std::uint64_t migrants_taken = 0;
+
+  bool operator==(const Progress&) const = default;
 };
 
 /// Worker -> coordinator, after each epoch: where another worker can go on, with the emigrants that slower neighbours may
@@ -69,6 +78,8 @@ struct Checkpoint {
   IslandKey island;
   IslandState state;
   std::vector<Migrants> recent;        ///< its last kMigrantEpochs emigrations
+
+  bool operator==(const Checkpoint&) const = default;
 };
 
 /// Worker -> coordinator, when an island has bred all its generations.
@@ -81,6 +92,8 @@ struct Outcome {
   std::uint64_t evaluations = 0;
   std::uint64_t migrants_taken = 0;
   Population front;                    ///< best of each length
+
+  bool operator==(const Outcome&) const = default;
 };
 
 /// Worker -> coordinator and watchers: who I am; repeated as a sign of life.
@@ -92,6 +105,8 @@ struct WorkerStatus {
   std::string version;
   bool leaving = false;
   RunId only_run = 0;                  ///< 0: serves every run
+
+  bool operator==(const WorkerStatus&) const = default;
 };
 
 /// Coordinator -> workers and watchers.
@@ -100,11 +115,15 @@ struct Control {
   RunId run = 0;
   State state = State::running;
   std::string note;                    ///< for those who watch
+
+  bool operator==(const Control&) const = default;
 };
 
 /// Made by the transport, never sent: a worker's sign of life stopped.
 struct WorkerLost {
   std::string worker;
+
+  bool operator==(const WorkerLost&) const = default;
 };
 
 using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus, Control,

@@ -3,28 +3,56 @@
 
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
+#include "simulation/situation.hpp"
 
 namespace demecal {
 
+/// One stop of the robot: the command and its circumstances.
+struct Visit {
+  JointVector commanded;  ///< rad or m
+  ApproachSigns approach;
+  double payload_kg = 0.0;
+  double time_s = 0.0;  ///< since the first pose
+};
+
 class SimulatedRobot {
  public:
+  /// Throws InputError where the scenario contradicts itself.
   explicit SimulatedRobot(const Scenario& scenario);
 
-  /// Where the joints really stand when commanded, coming from `approach`, under `payload_kg`.
-  JointVector true_joints(const JointVector& commanded, const ApproachSigns& approach, double payload_kg) const;
+  /// Where the joints really stand (rad or m): the command plus what every error adds to it, each taken at the
+  /// commanded joints of the nominal arm.
+  JointVector true_joints(const Visit& visit) const;
   /// True pose of the tool in the sensor's frame.
-  Eigen::Isometry3d true_pose(const JointVector& commanded, const ApproachSigns& approach, double payload_kg) const;
-  /// One measurement of that pose: noise drawn from `random`.
+  Eigen::Isometry3d true_pose(const Visit& visit) const;
+  /// One measurement of that pose, without set and pose id: noise drawn from `random`, 3 normals for the position and,
+  /// where it is measured, 3 for the orientation.
+  MeasuredPose measure(const Visit& visit, RandomStream& random) const;
+
+  JointVector true_joints(const JointVector& commanded, const ApproachSigns& approach, double payload_kg) const {
+    return true_joints({commanded, approach, payload_kg});
+  }
+  Eigen::Isometry3d true_pose(const JointVector& commanded, const ApproachSigns& approach, double payload_kg) const {
+    return true_pose({commanded, approach, payload_kg});
+  }
   MeasuredPose measure(const JointVector& commanded, const ApproachSigns& approach, double payload_kg,
-                       RandomStream& random) const;
+                       RandomStream& random) const {
+    return measure({commanded, approach, payload_kg}, random);
+  }
 
  private:
+  Situation situation(const Visit& visit) const;
+  JointVector joints_in(const Situation& situation) const;
+  std::vector<Eigen::Vector3d> axis_tilts(const Situation& situation) const;
+
   Scenario scenario_;
   Chain true_chain_;
 };
 
 /// The poses of the scenario, drawn from (scenario.seed), visited in order (their approach signs follow from it), and
-/// measured. The data set's robot is nominal: nothing of the truth is in it.
+/// measured; repeats of a pose follow it at once, each coming from another pose. The data set's robot is nominal:
+/// nothing of the truth is in it. Its frame is `base` where sensor_from_base is the identity.
+/// Throws InputError where the scenario contradicts itself or its poses cannot be reached.
 DataSet simulate(const Scenario& scenario);
 
 }  // namespace demecal

@@ -16,8 +16,9 @@ enum class Role { coordinator, worker, watcher };
 
 /// One participant. publish() and receive() may be called from different threads; each of them from one at a time.
 /// Every message is delivered to all participants whose role reads it, never to the sender. Those who come late get the
-/// last value of every key of data, tasks, control, progress, outcomes and worker status, and the last `kMigrantEpochs`
-/// migrants of every island whose joint they follow.
+/// last value of every key of data, tasks, control, progress, checkpoints, outcomes and worker status, and the last
+/// `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and until a Control
+/// says that the run is over. A slow reader may miss values between, never the last; there is no order between topics.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -25,12 +26,17 @@ class Transport {
   virtual void publish(const Message& message) = 0;
   /// The next message, or nothing after `patience`.
   virtual std::optional<Message> receive(std::chrono::milliseconds patience) = 0;
+  /// Makes a receive() that waits return at once, with nothing; may be called from any thread.
+  virtual void wake() = 0;
   /// From now on migrants of this joint (counted from 0) are received, and can be published.
   virtual void follow_migrants(std::uint32_t joint) = 0;
-  /// A sign of life, due at least every third of kLease from each worker's own work loop.
+  /// A sign of life, due at least every third of kLease from each worker's own work loop. From time to time it repeats the
+  /// last WorkerStatus, which others receive only if they took the worker for lost.
   virtual void assert_alive() = 0;
   /// Whether all that was published has reached those who read it, within `patience`.
   virtual bool flush(std::chrono::milliseconds patience) = 0;
+  /// Messages dropped so far because they could not be read.
+  virtual std::uint64_t unreadable() const { return 0; }
 };
 
 inline constexpr std::chrono::milliseconds kLease{2000};

@@ -1,0 +1,26 @@
+// What a calibration leaves to be used: the model and where it came from.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+
+namespace demecal {
+
+struct CalibratedModel {
+  std::string job;
+  Robot nominal;  ///< the robot as its maker describes it
+  Method method = Method::direct;
+  DeclaredModel declared;
+  CorrectedRobot robot;
+  std::vector<ParameterEstimate> estimates;
+  std::vector<JointSummary> joints;
+  std::string data_name;
+  std::string data_sha256;
+  std::uint64_t seed = 0;
+  std::string version;
+};
+
+}  // namespace demecal

@@ -1,0 +1,30 @@
+#include "calibration/calibration.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+void require(const Fit& fit, const DataSet& data) {
+  if (fit.status == FitStatus::too_few_poses) throw InputError({data.file, 0}, "", fit.sentence);
+  if (fit.status == FitStatus::not_converged)
+    throw InputError({data.file, 0}, "", "no model fits these poses: " + fit.sentence);
+}
+
+}  // namespace
+
+Preparation prepare(const DataSet& data, const Job& job, const FitOptions& options) {
+  Preparation preparation;
+  preparation.nominal = nominal_robot(data);
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  preparation.registered = fit_registration(data, poses, job.declared, preparation.nominal, options);
+  require(preparation.registered, data);
+  preparation.declared = fit_declared(data, poses, job.declared, preparation.registered.robot, options);
+  require(preparation.declared, data);
+  if (job.declared.joint_corrections) {
+    preparation.targets = joint_targets(data, poses, preparation.declared.robot);
+    preparation.training = training_tables(preparation.declared.robot.chain, preparation.targets);
+  }
+  return preparation;
+}
+
+}  // namespace demecal

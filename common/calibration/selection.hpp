@@ -1,0 +1,41 @@
+// Which of the evolved corrections the model keeps: those that earn their place on the validation poses.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "calibration/training.hpp"
+#include "evolution/individual.hpp"
+
+namespace demecal {
+
+/// The evolved candidates of one joint: best of each length, gathered over its islands.
+struct JointCandidates {
+  JointTraining training;
+  Population front;
+};
+
+/// What became of one joint's candidates.
+struct JointChoice {
+  int joint = 0;      ///< from 0
+  bool kept = false;  ///< false: left neutral
+  std::size_t candidates = 0;
+  double gain_mm2 = 0.0;        ///< fall of the mean squared tool error on the deciding poses when it was chosen
+  double gain_error_mm2 = 0.0;  ///< standard error of that fall
+};
+
+struct Selection {
+  CorrectedRobot robot;
+  std::vector<JointChoice> choices;  ///< one per candidate list, in its order
+};
+
+/// Joint by joint, in sweeps until nothing changes, once from all joints neutral and once from all joints with what
+/// fits their own targets best (the targets of a pose belong together), whichever ends better: among a joint's
+/// candidates, with the other joints as they stand, the shortest whose mean squared tool error over `deciding` poses is
+/// within half a standard error (paired, pose by pose) of the best; it is kept only if it beats the neutral correction
+/// by more than one standard error. So no correction ever makes the error on the deciding poses worse. `deciding` holds
+/// validation poses; calibration poses where there are none.
+Selection select_corrections(const DataSet& data, std::span<const std::size_t> deciding, const CorrectedRobot& declared,
+                             std::span<const JointCandidates> candidates);
+
+}  // namespace demecal

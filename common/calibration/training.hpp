@@ -1,0 +1,27 @@
+// The tables a job's islands learn from, and the way back from what they evolve to a correction in radians.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "calibration/joint_targets.hpp"
+#include "evolution/fitness.hpp"
+
+namespace demecal {
+
+/// One joint's table: theta (rad) as variable 0, theta_C - theta_N in units of scale_rad as target.
+struct JointTraining {
+  std::uint32_t joint = 0;  ///< from 0
+  TrainingTable table;
+  double scale_rad = 1.0;  ///< 1, 2 or 5 times a power of ten: the largest that the mean absolute target reaches
+  Interval range_rad;      ///< of theta in the table
+  AngleBranch branch;
+};
+
+/// Tables of every revolute joint that moves over the targets' poses by more than 1 mrad; the others stay neutral.
+std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets);
+
+/// The evolved tree times the scale, over the joint's calibrated range: g(theta) in rad.
+JointCorrection correction_from(const JointTraining& training, const Tree& evolved);
+
+}  // namespace demecal

@@ -1,0 +1,18 @@
+// Whole files as text, in and out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace demecal {
+
+/// The bytes of the file. Throws InputError naming the file and the reason where it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes the bytes, making the folders on the way; the file appears whole or not at all. Throws InputError naming the file and the reason where it cannot.
+void write_file(const std::filesystem::path& path, const std::string& bytes);
+
+/// `named` as written in the file `by`: relative to that file's folder unless absolute.
+std::filesystem::path resolve(const std::filesystem::path& by, const std::string& named);
+
+}  // namespace demecal

@@ -1,0 +1,139 @@
+#include "config/load_data_set.hpp"
+
+#include <sstream>
+
+#include "config/load_robot.hpp"
+#include "config/named_file.hpp"
+#include "config/read_yaml.hpp"
+#include "config/sha256.hpp"
+#include "data/read_poses.hpp"
+#include "data/split.hpp"
+#include "errors/input_error.hpp"
+#include "kinematics/units.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+namespace {
+
+ColumnName read_column(const YamlNode& node) {
+  return {node.text(), {node.file, node.line}};
+}
+
+std::vector<ColumnName> read_columns(const YamlNode* node) {
+  std::vector<ColumnName> columns;
+  if (node) {
+    for (const YamlNode& item : node->list()) columns.push_back(read_column(item));
+  }
+  return columns;
+}
+
+std::optional<ColumnName> read_single(const YamlNode* node) {
+  if (!node) return std::nullopt;
+  return read_column(*node);
+}
+
+ColumnMap read_column_map(const YamlNode& node) {
+  node.with_keys({"joints", "position", "orientation", "distances", "approach", "payload", "temperature", "time", "set",
+                  "pose", "target"});
+  ColumnMap map;
+  map.where = {node.file, node.line};
+  map.joints = read_columns(&node.at("joints"));
+  map.position = read_columns(node.find("position"));
+  map.orientation = read_columns(node.find("orientation"));
+  map.distances = read_columns(node.find("distances"));
+  map.approach = read_columns(node.find("approach"));
+  map.payload = read_single(node.find("payload"));
+  map.temperature = read_single(node.find("temperature"));
+  map.time = read_single(node.find("time"));
+  map.set = read_single(node.find("set"));
+  map.pose = read_single(node.find("pose"));
+  map.target = read_single(node.find("target"));
+  return map;
+}
+
+AssumedUnits read_units(const YamlNode* node) {
+  AssumedUnits units;
+  if (!node) return units;
+  node->with_keys({"angle", "length"});
+  if (const YamlNode* angle = node->find("angle")) {
+    units.angle = find_unit(angle->one_of<std::string_view>({{"deg", "deg"}, {"rad", "rad"}}));
+  }
+  if (const YamlNode* length = node->find("length")) {
+    units.length = find_unit(length->one_of<std::string_view>({{"mm", "mm"}, {"m", "m"}}));
+  }
+  return units;
+}
+
+void read_anchors(const YamlNode* node, std::size_t distances, DataSet& data) {
+  if (!node) return;
+  data.anchors_unknown = node->kind == YamlNode::Kind::scalar && node->scalar == "unknown";
+  if (data.anchors_unknown) return;
+  if (node->kind != YamlNode::Kind::list) node->fail("must be `unknown` or a list of points");
+  for (const YamlNode& point : node->list(distances)) data.anchors_m.push_back(metres(1.0) * point.vector3());
+}
+
+void require_anchors(const YamlNode& root, const ColumnMap& columns) {
+  if (columns.distances.empty() || root.find("anchors_mm")) return;
+  throw InputError(columns.distances.front().where, columns.distances.front().name,
+                   "is a distance, but anchors_mm is missing: the fixed points of the distances, or `unknown`");
+}
+
+std::map<std::string, Eigen::Vector3d> read_tools(const YamlNode* node) {
+  std::map<std::string, Eigen::Vector3d> tools_m;
+  if (!node) return tools_m;
+  if (node->kind != YamlNode::Kind::map) node->fail("must be a map of targets and their tool points");
+  for (const YamlNode& tool : node->children) tools_m[tool.name] = metres(1.0) * tool.vector3();
+  return tools_m;
+}
+
+struct Split {
+  SplitFractions fractions;
+  std::uint64_t seed = 1;
+};
+
+Split read_split(const YamlNode* node) {
+  Split split;
+  if (!node) return split;
+  node->with_keys({"validation_fraction", "accept_fraction", "seed"});
+  split.fractions.validation = node->at("validation_fraction").number(0.0, 1.0);
+  if (const YamlNode* accept = node->find("accept_fraction")) split.fractions.accept = accept->number(0.0, 1.0);
+  if (const YamlNode* seed = node->find("seed")) split.seed = seed->seed();
+  if (split.fractions.validation + split.fractions.accept >= 1.0) {
+    node->fail("", "leaves no poses for calibration: the fractions must sum to less than 1");
+  }
+  return split;
+}
+
+}  // namespace
+
+DataSet load_data_set(const std::filesystem::path& path) {
+  const YamlNode root = read_yaml(path);
+  root.of_version("dataset", 1)
+      .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "units", "frame",
+                  "split"});
+  DataSet data;
+  data.name = root.find("name") ? root.at("name").text() : path.stem().string();
+  data.robot = read_named(root.at("robot"), load_robot);
+  if (const YamlNode* frame = root.find("frame")) {
+    data.frame = frame->one_of<Frame>({{"base", Frame::base}, {"sensor", Frame::sensor}});
+  }
+  const ColumnMap columns = read_column_map(root.at("columns"));
+  const AssumedUnits units = read_units(root.find("units"));
+  require_anchors(root, columns);
+  read_anchors(root.find("anchors_mm"), columns.distances.size(), data);
+  data.tools_m = read_tools(root.find("tools_mm"));
+  const Split split = read_split(root.find("split"));
+
+  const std::string bytes = read_named(root.at("poses"), read_file);
+  data.file = resolve(path, root.at("poses").text()).string();
+  data.sha256 = sha256(bytes);
+  std::istringstream text(bytes);
+  data.poses = read_poses(read_csv(text, data.file), columns, units, data.robot.chain, data.tools_m);
+  if (!columns.set) {
+    RandomStream random{split.seed};
+    split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
+  }
+  return data;
+}
+
+}  // namespace demecal

@@ -1,0 +1,115 @@
+#include "config/load_job.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "config/files.hpp"
+#include "config/read_gp.hpp"
+#include "config/read_yaml.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::int64_t kMostDemes = 1000;
+constexpr std::int64_t kMostEffects = 100;
+
+struct DeclaredWord {
+  std::string_view word;
+  bool DeclaredModel::*flag;
+};
+constexpr std::array<DeclaredWord, 5> kDeclared{{{"registration", &DeclaredModel::registration},
+                                                 {"tool", &DeclaredModel::tool},
+                                                 {"joint_offset", &DeclaredModel::joint_offset},
+                                                 {"geometry", &DeclaredModel::geometry},
+                                                 {"joint_corrections", &DeclaredModel::joint_corrections}}};
+
+DeclaredModel read_declared(const YamlNode& list) {
+  DeclaredModel declared;
+  for (const YamlNode& item : list.list()) {
+    const auto found = std::find_if(kDeclared.begin(), kDeclared.end(),
+                                    [&](const DeclaredWord& known) { return known.word == item.text(); });
+    if (found == kDeclared.end()) {
+      std::vector<std::string> words;
+      for (const DeclaredWord& known : kDeclared) words.emplace_back(known.word);
+      item.fail_choice(words);
+    }
+    if (declared.*found->flag) item.fail("is declared twice");
+    declared.*found->flag = true;
+  }
+  return declared;
+}
+
+IslandOptions read_islands(const YamlNode& node, int population_size) {
+  node.with_keys({"per_joint", "topology", "migration_interval", "migrants", "between_joints"});
+  IslandOptions islands;
+  const auto count = [&](std::string_view key, std::uint32_t& value, std::int64_t lower, std::int64_t upper) {
+    if (const YamlNode* found = node.find(key)) value = static_cast<std::uint32_t>(found->whole_number(lower, upper));
+  };
+  count("per_joint", islands.per_joint, 1, kMostDemes);
+  count("migration_interval", islands.migration_interval, 1, std::numeric_limits<int>::max());
+  count("migrants", islands.migrants, 0, population_size - 1);
+  if (const YamlNode* topology = node.find("topology")) {
+    islands.topology =
+        topology->one_of<Topology>({{"none", Topology::none}, {"ring", Topology::ring}, {"full", Topology::full}});
+  }
+  if (const YamlNode* between = node.find("between_joints")) islands.between_joints = between->truth();
+  return islands;
+}
+
+std::vector<std::string> read_candidates(const YamlNode& list) {
+  std::vector<std::string> candidates;
+  for (const YamlNode& item : list.list()) {
+    const auto kinds = effect_kinds();
+    if (std::find(kinds.begin(), kinds.end(), item.text()) == kinds.end()) item.fail_choice(kinds);
+    if (std::find(candidates.begin(), candidates.end(), item.text()) != candidates.end()) item.fail("is named twice");
+    candidates.push_back(item.text());
+  }
+  return candidates;
+}
+
+ClosedLoopOptions read_closed_loop(const YamlNode& node) {
+  node.with_keys({"max_effects", "family_error", "candidates"});
+  ClosedLoopOptions options;
+  if (const YamlNode* most = node.find("max_effects")) {
+    options.max_effects = static_cast<int>(most->whole_number(0, kMostEffects));
+  }
+  if (const YamlNode* error = node.find("family_error")) {
+    options.family_error = error->positive();
+    if (options.family_error >= 1.0) error->fail("must be below 1");
+  }
+  if (const YamlNode* candidates = node.find("candidates")) options.candidates = read_candidates(*candidates);
+  return options;
+}
+
+}  // namespace
+
+Job load_job(const std::filesystem::path& path) {
+  const YamlNode root = read_yaml(path);
+  root.of_version("job", 1).with_keys(
+      {"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop"});
+  Job job;
+  job.name = path.stem().string();
+  job.data_file = resolve(path, root.at("data").text()).string();
+  if (const YamlNode* method = root.find("method")) {
+    job.method = method->one_of<Method>({{"direct", Method::direct}, {"distal", Method::distal}});
+  }
+  if (const YamlNode* seed = root.find("seed")) job.seed = seed->seed();
+  if (const YamlNode* model = root.find("model")) {
+    job.declared = read_declared(model->with_keys({"declared"}).at("declared"));
+  }
+  if (const YamlNode* gp = root.find("gp")) job.gp = read_gp(*gp);
+  if (const YamlNode* islands = root.find("islands")) job.islands = read_islands(*islands, job.gp.population_size);
+  if (const YamlNode* loop = root.find("closed_loop")) job.closed_loop = read_closed_loop(*loop);
+  return job;
+}
+
+std::span<const std::string> effect_kinds() {
+  static const std::vector<std::string> kinds{
+      "registration",  "tool",           "joint_offset",   "geometry", "gain",         "eccentricity",
+      "gear_harmonic", "compliance",     "link_bending",   "coupling", "backlash",     "hysteresis",
+      "axis_wobble",   "thermal_offset", "thermal_length", "drift",    "sensor_scale", "symbolic"};
+  return kinds;
+}
+
+}  // namespace demecal

@@ -1,0 +1,86 @@
+#include "config/model_text.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "config/robot_text.hpp"
+#include "config/yaml_text.hpp"
+#include "expression/text.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal {
+namespace {
+
+std::string rigid_text(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond turn(pose.linear());
+  const double quaternion[] = {turn.w(), turn.x(), turn.y(), turn.z()};
+  return "{position_mm: " + yaml_mm(pose.translation()) + ", quaternion_wxyz: " + yaml_numbers(quaternion) + "}";
+}
+
+std::string declared_text(const DeclaredModel& declared) {
+  std::vector<std::string> words;
+  if (declared.registration) words.emplace_back("registration");
+  if (declared.tool) words.emplace_back("tool");
+  if (declared.joint_offset) words.emplace_back("joint_offset");
+  if (declared.geometry) words.emplace_back("geometry");
+  if (declared.joint_corrections) words.emplace_back("joint_corrections");
+  return yaml_list(words);
+}
+
+std::string estimate_text(const ParameterEstimate& estimate) {
+  const auto border = [&](double value) {
+    return estimate.id.is_angle() ? degrees_text(value) : millimetres_text(value);
+  };
+  return "{name: " + yaml_text(estimate.id.name()) + ", nominal: " + border(estimate.nominal) +
+         ", value: " + border(estimate.value) + ", standard_error: " + border(estimate.standard_error) + "}";
+}
+
+std::string link_text(const Joint& joint) {
+  return "{theta_offset_deg: " + degrees_text(joint.theta_rad) + ", d_mm: " + millimetres_text(joint.d_m) +
+         ", a_mm: " + millimetres_text(joint.a_m) + ", alpha_deg: " + degrees_text(joint.alpha_rad) +
+         ", beta_deg: " + degrees_text(joint.beta_rad) + "}";
+}
+
+std::string correction_text(const JointSummary& summary, const JointCorrection& correction) {
+  std::ostringstream text;
+  text << "  - joint: " << summary.joint + 1 << '\n';
+  if (!summary.kept) {
+    text << "    expression: theta-theta\n    note: " << yaml_text(summary.note) << '\n';
+    return text.str();
+  }
+  const double range[] = {correction.range_rad().lower, correction.range_rad().upper};
+  text << "    expression: " << yaml_text(to_text(correction.formula())) << '\n';
+  text << "    range_rad: " << yaml_numbers(range) << '\n';
+  if (correction.branch().wraps)
+    text << "    branch_centre_rad: " << number_text(correction.branch().centre_rad) << '\n';
+  if (std::isfinite(summary.bound_rad)) text << "    bound_rad: " << number_text(summary.bound_rad) << '\n';
+  text << "    discontinuities_rad: " << yaml_numbers(summary.discontinuities_rad) << '\n';
+  return text.str();
+}
+
+}  // namespace
+
+std::string model_text(const CalibratedModel& model) {
+  std::ostringstream text;
+  text << "# Where the real robot goes: sensor_from_base * chain(q + g(q)) * tool; g is in rad of theta in rad\n"
+       << "demecal_model: 1\njob: " << yaml_text(model.job) << "\nversion: " << yaml_text(model.version)
+       << "\nmethod: " << (model.method == Method::direct ? "direct" : "distal") << "\nseed: " << model.seed
+       << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256) << "}\n";
+  text << "robot:\n" << robot_text(model.nominal, 2);
+  text << "declared: " << declared_text(model.declared) << '\n';
+  text << "base: " << rigid_text(model.robot.sensor_from_base) << "\ntools:\n";
+  for (const auto& [target, tool] : model.robot.tools) {
+    text << "  - {" << (target.empty() ? "" : "target: " + yaml_text(target) + ", ") << "pose: " << rigid_text(tool) << "}\n";
+  }
+  text << "links:\n";
+  for (const Joint& joint : model.robot.chain.joints) text << "  - " << link_text(joint) << '\n';
+  if (!model.estimates.empty()) text << "estimates:\n";
+  for (const ParameterEstimate& estimate : model.estimates) text << "  - " << estimate_text(estimate) << '\n';
+  text << "effects: []\ncorrections:\n";
+  for (const JointSummary& summary : model.joints) {
+    text << correction_text(summary, model.robot.corrections[static_cast<std::size_t>(summary.joint)]);
+  }
+  return text.str();
+}
+
+}  // namespace demecal

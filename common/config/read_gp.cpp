@@ -1,0 +1,90 @@
+#include "config/read_gp.hpp"
+
+#include <array>
+#include <limits>
+#include <tuple>
+
+namespace demecal {
+namespace {
+
+struct CountKey {
+  std::string_view key;
+  int GpParameters::*value;
+};
+constexpr std::array<CountKey, 8> kCounts{{{"population_size", &GpParameters::population_size},
+                                           {"number_generations", &GpParameters::number_generations},
+                                           {"tournament_size", &GpParameters::tournament_size},
+                                           {"initial_max_tree_depth1", &GpParameters::initial_max_tree_depth1},
+                                           {"initial_max_tree_depth2", &GpParameters::initial_max_tree_depth2},
+                                           {"max_tree_depth", &GpParameters::max_tree_depth},
+                                           {"min_tree_depth", &GpParameters::min_tree_depth},
+                                           {"invalid_attempts", &GpParameters::invalid_attempts}}};
+
+struct RateKey {
+  std::string_view key;
+  double GpParameters::*value;
+};
+constexpr std::array<RateKey, 5> kRates{{{"crossover_rate", &GpParameters::crossover_rate},
+                                         {"mutation_rate", &GpParameters::mutation_rate},
+                                         {"terminal_crossover_rate", &GpParameters::terminal_crossover_rate},
+                                         {"terminal_mutation_rate", &GpParameters::terminal_mutation_rate},
+                                         {"shrink_mutation_rate", &GpParameters::shrink_mutation_rate}}};
+
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys{"functions", "constants_range"};
+  for (const CountKey& count : kCounts) keys.emplace_back(count.key);
+  for (const RateKey& rate : kRates) keys.emplace_back(rate.key);
+  return keys;
+}
+
+Primitive function_of(const YamlNode& symbol) {
+  std::vector<std::string> symbols;
+  for (const PrimitiveTraits& known : kPrimitives) {
+    if (known.arity == 0) continue;
+    if (known.symbol == symbol.text()) return known.primitive;
+    symbols.emplace_back(known.symbol);
+  }
+  symbol.fail_choice(symbols);
+}
+
+/// The node that a parameter was read from, or the map where it kept its default.
+const YamlNode& source_of(const ParameterFault& fault, const YamlNode& node) {
+  const bool constants = fault.key.starts_with("constants");
+  const YamlNode* found = node.find(constants ? "constants_range" : fault.key);
+  return found ? *found : node;
+}
+
+void check_together(const GpParameters& parameters, const YamlNode& node) {
+  const auto fault = find_fault(parameters);
+  if (!fault) return;
+  const YamlNode& source = source_of(*fault, node);
+  const bool named = source.name == fault->key;
+  source.fail(fault->value, named ? fault->rule : "(" + fault->key + ") " + fault->rule);
+}
+
+}  // namespace
+
+GpParameters read_gp(const YamlNode& node) {
+  node.with_keys(known_keys());
+  GpParameters parameters;
+  for (const auto& [key, value] : kCounts) {
+    if (const YamlNode* found = node.find(key)) {
+      parameters.*value =
+          static_cast<int>(found->whole_number(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+    }
+  }
+  for (const auto& [key, value] : kRates) {
+    if (const YamlNode* found = node.find(key)) parameters.*value = found->number();
+  }
+  if (const YamlNode* functions = node.find("functions")) {
+    parameters.functions.clear();
+    for (const YamlNode& symbol : functions->list()) parameters.functions.push_back(function_of(symbol));
+  }
+  if (const YamlNode* range = node.find("constants_range")) {
+    std::tie(parameters.constants_lower, parameters.constants_upper) = range->range();
+  }
+  check_together(parameters, node);
+  return parameters;
+}
+
+}  // namespace demecal

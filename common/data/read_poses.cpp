@@ -1,0 +1,149 @@
+#include "data/read_poses.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "data/plausible_units.hpp"
+#include "data/pose_rules.hpp"
+#include "data/table_column.hpp"
+
+namespace demecal {
+namespace {
+
+using Columns = std::vector<TableColumn>;
+
+/// The columns of a data set, found in its table.
+struct PoseColumns {
+  Columns joints, position, orientation, distances, approach;
+  std::optional<TableColumn> payload, temperature, time, set, pose, target;
+};
+
+Columns find_all(const CsvTable& table, const std::vector<ColumnName>& names) {
+  Columns columns;
+  for (const ColumnName& name : names) columns.emplace_back(table, name);
+  return columns;
+}
+
+Columns find_all(const CsvTable& table, const std::vector<ColumnName>& names, Quantity quantity,
+                 const AssumedUnits& units) {
+  Columns columns;
+  for (const ColumnName& name : names) columns.emplace_back(table, name, quantity, units);
+  return columns;
+}
+
+Columns find_joints(const CsvTable& table, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+  Columns columns;
+  for (std::size_t i = 0; i < map.joints.size(); ++i) {
+    columns.emplace_back(table, map.joints[i], joint_quantity(chain.joints[i]), units);
+  }
+  return columns;
+}
+
+template <typename... Rest>
+std::optional<TableColumn> find_one(const CsvTable& table, const std::optional<ColumnName>& name, const Rest&... rest) {
+  if (!name) return std::nullopt;
+  return TableColumn(table, *name, rest...);
+}
+
+PoseColumns find_columns(const CsvTable& table, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+  return {.joints = find_joints(table, map, units, chain),
+          .position = find_all(table, map.position, Quantity::length, units),
+          .orientation = find_all(table, map.orientation),
+          .distances = find_all(table, map.distances, Quantity::length, units),
+          .approach = find_all(table, map.approach),
+          .payload = find_one(table, map.payload, Quantity::mass, units),
+          .temperature = find_one(table, map.temperature, Quantity::temperature, units),
+          .time = find_one(table, map.time, Quantity::time, units),
+          .set = find_one(table, map.set),
+          .pose = find_one(table, map.pose),
+          .target = find_one(table, map.target)};
+}
+
+template <typename Vector>
+Vector read_vector(const Columns& columns, const CsvRow& row) {
+  Vector values(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) values[static_cast<Eigen::Index>(i)] = columns[i].number(row);
+  return values;
+}
+
+Eigen::Quaterniond read_orientation(const Columns& columns, const CsvRow& row) {
+  constexpr double kNormTolerance = 1e-3;  // rounded decimals stay within it; Euler angles and swapped columns do not
+  const Eigen::Vector4d wxyz = read_vector<Eigen::Vector4d>(columns, row);
+  if (!(std::abs(wxyz.norm() - 1.0) <= kNormTolerance)) {
+    columns.front().fail(row, "and its three neighbours have norm " + number_text(wxyz.norm()) +
+                                  "; an orientation must be a unit quaternion w, x, y, z");
+  }
+  return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
+}
+
+ApproachSigns read_approach(const Columns& columns, const CsvRow& row) {
+  const auto signs = read_vector<ApproachSigns>(columns, row);
+  for (Eigen::Index i = 0; i < signs.size(); ++i) {
+    if (signs[i] == -1.0 || signs[i] == 0.0 || signs[i] == 1.0) continue;
+    columns[static_cast<std::size_t>(i)].fail(row, "must be -1, 0 or 1: the sign of the joint's last motion");
+  }
+  return signs;
+}
+
+std::vector<double> read_distances(const Columns& columns, const CsvRow& row) {
+  std::vector<double> distances;
+  for (const TableColumn& column : columns) {
+    distances.push_back(column.number(row));
+    if (distances.back() <= 0.0) column.fail(row, "must be positive: it is a measured length");
+  }
+  return distances;
+}
+
+double read_payload(const TableColumn& column, const CsvRow& row) {
+  const double payload_kg = column.number(row);
+  if (payload_kg < 0.0) column.fail(row, "must not be negative: it is a mass");
+  return payload_kg;
+}
+
+PoseSet read_set(const TableColumn& column, const CsvRow& row) {
+  if (column.text(row) == "calibration") return PoseSet::calibration;
+  if (column.text(row) == "validation") return PoseSet::validation;
+  if (column.text(row) == "accept") return PoseSet::accept;
+  column.fail(row, "must be calibration, validation or accept");
+}
+
+std::string read_pose_id(const TableColumn& column, const CsvRow& row) {
+  if (column.text(row).empty()) column.fail(row, "is empty where the name of a pose is expected");
+  return column.text(row);
+}
+
+MeasuredPose read_pose(const PoseColumns& columns, const CsvRow& row) {
+  MeasuredPose pose;
+  pose.line = row.line;
+  pose.joints = read_vector<JointVector>(columns.joints, row);
+  if (!columns.position.empty()) pose.position_m = read_vector<Eigen::Vector3d>(columns.position, row);
+  if (!columns.orientation.empty()) pose.orientation = read_orientation(columns.orientation, row);
+  pose.distances_m = read_distances(columns.distances, row);
+  if (!columns.approach.empty()) pose.approach = read_approach(columns.approach, row);
+  if (columns.payload) pose.payload_kg = read_payload(*columns.payload, row);
+  if (columns.temperature) pose.temperature_celsius = columns.temperature->number(row);
+  if (columns.time) pose.time_s = columns.time->number(row);
+  if (columns.set) pose.set = read_set(*columns.set, row);
+  pose.pose_id = columns.pose ? read_pose_id(*columns.pose, row) : "line " + std::to_string(row.line);
+  if (columns.target) pose.target = columns.target->text(row);
+  return pose;
+}
+
+}  // namespace
+
+std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& columns, const AssumedUnits& units,
+                                     const Chain& chain, const std::map<std::string, Eigen::Vector3d>& tools_m) {
+  check_column_map(columns, chain);
+  const PoseColumns found = find_columns(table, columns, units, chain);
+  std::vector<MeasuredPose> poses;
+  poses.reserve(table.rows.size());
+  for (const CsvRow& row : table.rows) poses.push_back(read_pose(found, row));
+  check_targets(poses, tools_m, table.file);
+  check_joint_units(poses, columns, units, chain, tools_m, table);
+  check_position_units(poses, columns, units, chain, tools_m, table);
+  check_joint_limits(poses, columns, chain, table.file);
+  check_repeats(poses, table.file);
+  return poses;
+}
+
+}  // namespace demecal

@@ -1,0 +1,141 @@
+#include "fitting/identifiable.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+/// How far parameters may usually move: links by about a millimetre or what turns half a metre of arm as far; base and
+/// tool by much more.
+double usual_change(const ParameterId& id) {
+  const double change = id.is_angle() ? 2e-3 : 1e-3;
+  return id.kind == ParameterId::Kind::link ? change : 1e3 * change;
+}
+
+/// The largest absolute entry outside rows already taken.
+struct Pivot {
+  Eigen::Index row = 0, column = 0;
+  double size = -1.0;
+};
+
+Pivot largest_entry(const Eigen::MatrixXd& matrix, const std::vector<bool>& taken) {
+  Pivot pivot;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Eigen::Index column = 0;
+    if (taken[static_cast<std::size_t>(i)]) continue;
+    const double size = matrix.row(i).cwiseAbs().maxCoeff(&column);
+    if (size > pivot.size) pivot = {i, column, size};
+  }
+  return pivot;
+}
+
+/// The same span with as many zeros as it allows (Gauss-Jordan with full pivoting): directions people can read.
+Eigen::MatrixXd sparse_span(Eigen::MatrixXd rows) {
+  std::vector<bool> taken(static_cast<std::size_t>(rows.rows()), false);
+  for (Eigen::Index step = 0; step < rows.rows(); ++step) {
+    const Pivot pivot = largest_entry(rows, taken);
+    taken[static_cast<std::size_t>(pivot.row)] = true;
+    rows.row(pivot.row) /= rows(pivot.row, pivot.column);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      if (i != pivot.row) rows.row(i) -= (rows(i, pivot.column) * rows.row(pivot.row)).eval();
+    }
+  }
+  return rows;
+}
+
+/// A direction by the effects (unit norm) its parameters have in it.
+UnidentifiedDirection named(const Eigen::VectorXd& shares, const std::vector<ParameterId>& ids) {
+  constexpr double kShare = 0.1;
+  UnidentifiedDirection direction;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const double share = shares[static_cast<Eigen::Index>(i)];
+    if (std::abs(share) > kShare) direction.parts.emplace_back(ids[i], share);
+  }
+  auto& parts = direction.parts;
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    constexpr double kEqual = 1e-6;
+    return std::round(std::abs(a.second) / kEqual) > std::round(std::abs(b.second) / kEqual);
+  });
+  const double sign = !parts.empty() && parts.front().second < 0 ? -1.0 : 1.0;
+  for (auto& part : parts) part.second *= sign;
+  return direction;
+}
+
+std::vector<UnidentifiedDirection> named_all(const Eigen::MatrixXd& rows, const Effects& effects,
+                                             const std::vector<ParameterId>& ids, bool weak) {
+  std::vector<UnidentifiedDirection> directions;
+  const Eigen::MatrixXd readable = sparse_span(rows);
+  for (Eigen::Index i = 0; i < readable.rows(); ++i) {
+    const Eigen::VectorXd shares = readable.row(i).transpose().normalized();
+    directions.push_back(named(shares, ids));
+    directions.back().relative_singular = effects.largest > 0 ? (effects.scaled * shares).norm() / effects.largest : 0;
+    directions.back().weak = weak;
+  }
+  return directions;
+}
+
+/// Orthonormal columns that span what is orthogonal to the columns of `matrix` (n x k, full rank).
+Eigen::MatrixXd complement(const Eigen::MatrixXd& matrix) {
+  const Eigen::Index n = matrix.rows(), k = matrix.cols();
+  if (k == 0) return Eigen::MatrixXd::Identity(n, n);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
+  return (qr.householderQ() * Eigen::MatrixXd::Identity(n, n)).rightCols(n - k);
+}
+
+/// `basis` with its columns combined so that factor * basis is orthonormal.
+Eigen::MatrixXd whitened(const Eigen::MatrixXd& factor, const Eigen::MatrixXd& basis) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor * basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return basis * svd.matrixV() * svd.singularValues().cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+Effects::Effects(const Eigen::MatrixXd& factor) : scaled(factor), lengths(factor.colwise().norm().transpose()) {
+  constexpr double kRounding = 1e-13;
+  if (lengths.size() == 0) return;
+  const double smallest = kRounding * lengths.maxCoeff();
+  for (Eigen::Index i = 0; i < lengths.size(); ++i) {
+    if (lengths[i] <= smallest) {
+      lengths[i] = 1.0;
+      scaled.col(i).setZero();
+    }
+    scaled.col(i) /= lengths[i];
+  }
+  largest = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues()[0];
+}
+
+Identifiable identifiable_subspace(const Effects& effects, const std::vector<ParameterId>& ids, double rank_tolerance) {
+  const auto n = static_cast<Eigen::Index>(ids.size());
+  DEMECAL_CHECK(effects.lengths.size() == n, effects.lengths.size() << " columns of " << n << " parameters");
+  if (n == 0) return {};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(effects.scaled, Eigen::ComputeFullV);
+  const Eigen::Index held = (svd.singularValues().array() <= rank_tolerance * effects.largest).count();
+  const Eigen::MatrixXd null = svd.matrixV().rightCols(held);
+  Eigen::VectorXd usual(n);
+  for (Eigen::Index i = 0; i < n; ++i) usual[i] = usual_change(ids[static_cast<std::size_t>(i)]);
+  const Eigen::VectorXd in_usual = (effects.lengths.array() * usual.array()).inverse();
+  const Eigen::MatrixXd seen = usual.asDiagonal() * complement(in_usual.asDiagonal() * null);
+  return {whitened(effects.scaled * effects.lengths.asDiagonal(), seen),
+          named_all(null.transpose(), effects, ids, false)};
+}
+
+std::vector<UnidentifiedDirection> weak_directions(const Effects& effects, const std::vector<ParameterId>& ids,
+                                                   const Eigen::MatrixXd& covariance,
+                                                   const Eigen::VectorXd& precision) {
+  constexpr double kPriorKnowsBetter = 0.5;
+  if (ids.empty()) return {};
+  const Eigen::MatrixXd shrinkage = precision.asDiagonal() * covariance * precision.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(shrinkage);
+  const Eigen::Index weak = (eigen.eigenvalues().array() > kPriorKnowsBetter).count();
+  // Base and tool move along as the covariance says, so that the whole direction is hardly seen.
+  const Eigen::MatrixXd moves = covariance * precision.asDiagonal() * eigen.eigenvectors().rightCols(weak);
+  return named_all((effects.lengths.asDiagonal() * moves).transpose(), effects, ids, true);
+}
+
+}  // namespace demecal

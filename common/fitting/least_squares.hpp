@@ -1,0 +1,41 @@
+// Minimises the scaled residuals of many poses over a subspace of the parameters (Levenberg-Marquardt by Ceres).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fitting/observation.hpp"
+#include "fitting/prior.hpp"
+
+namespace demecal {
+
+/// A sum of squares of the rows in use, and how far to go in lowering it.
+struct LeastSquares {
+  const DataSet& data;
+  const ParameterSpace& space;
+  const std::vector<Observation>& observations;
+  RowScales scales;
+  Eigen::MatrixXd basis;  ///< n x r: changes are start + basis * z
+  Prior prior;
+  bool robust;  ///< Huber's loss of each pose's norm
+  int max_iterations;
+};
+
+struct Minimum {
+  Eigen::VectorXd change;  ///< of the parameters, n
+  double cost = 0.0;       ///< half the sum of squares (of Huber's losses where robust), in scales
+  bool converged = false;
+};
+
+/// From the change `start` to the nearest minimum. One thread, no messages; the same bits on every run.
+Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start);
+
+/// The norm above which Huber's loss grows linearly, of a pose with `rows` rows of unit variance: clean data exceed it
+/// once in twenty poses.
+double huber_threshold(int rows);
+
+/// The root of the chi-squared quantile with `rows` degrees of freedom at which a normal variable has `normal_quantile`
+/// (Wilson and Hilferty, 1931).
+double norm_quantile(int rows, double normal_quantile);
+
+}  // namespace demecal

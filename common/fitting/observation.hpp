@@ -1,0 +1,59 @@
+// The poses of a fit, and their residual rows in units of what each kind of row scatters.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "effects/measurement.hpp"
+#include "fitting/parameter_space.hpp"
+
+namespace demecal {
+
+/// The kinds of rows: position, orientation, distance, in the order they stand in.
+inline constexpr std::size_t kPosition = 0, kOrientation = 1, kDistance = 2, kRowKinds = 3;
+
+/// Per kind: the standard deviation of its residuals (m, rad, m), 0 where a fit does not use it.
+using RowScales = std::array<double, kRowKinds>;
+using RowCounts = std::array<int, kRowKinds>;
+
+/// One pose of a fit. Corrections do not change during a fit, so the joints' real angles are known beforehand.
+struct Observation {
+  std::size_t pose = 0;  ///< in the data set
+  JointVector actual;    ///< joints after corrections
+};
+std::vector<Observation> observe(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot);
+
+/// Rows of each kind that a pose measured, and that all observations did.
+RowCounts count_rows(const MeasuredPose& pose);
+RowCounts count_rows(const DataSet& data, const std::vector<Observation>& observations);
+/// How many of a pose's rows, and of all observations', are of kinds in use.
+int rows_in_use(const MeasuredPose& pose, const RowScales& scales);
+int rows_in_use(const DataSet& data, const std::vector<Observation>& observations, const RowScales& scales);
+
+/// The rows of one pose in use: residual over scale, and its derivative (rows x parameters) by the changes. Kept and
+/// given again it is not reallocated for poses with equally many rows.
+struct ScaledRows {
+  Eigen::VectorXd residual;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
+  ToolMotion motion;
+};
+
+/// Measured minus predicted (m, rad, m) of all rows of one pose, in use or not.
+Eigen::VectorXd unscaled_residual(const DataSet& data, const CorrectedRobot& robot, const Observation& observation);
+
+/// Fills the residual alone.
+void scaled_residual(const DataSet& data, const CorrectedRobot& robot, const Observation& observation,
+                     const RowScales& scales, ScaledRows& rows);
+
+/// Fills residual and derivative. Those of orientations are taken at a zero residual: the gradient of the sum of
+/// squares is exact all the same, since a rotation vector does not turn itself.
+void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point,
+                 const Observation& observation, const RowScales& scales, ScaledRows& rows);
+
+/// Root mean square per kind of the unscaled residuals, 0 for kinds without rows.
+RowScales root_mean_squares(const DataSet& data, const CorrectedRobot& robot,
+                            const std::vector<Observation>& observations);
+
+}  // namespace demecal

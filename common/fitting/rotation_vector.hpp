@@ -1,0 +1,18 @@
+// Rotations as vectors (axis times angle), and how they change with them.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace demecal {
+
+/// The matrix that turns about `vector_rad` by its length.
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector_rad);
+
+/// The vector of a rotation, rad, of length at most pi.
+Eigen::Vector3d vector_of(const Eigen::Matrix3d& rotation);
+
+/// The left Jacobian of SO(3): a small change dw of `vector_rad` turns rotation_of(vector_rad) by left_jacobian * dw,
+/// in the frame it turns in (Chirikjian, 2012, eq. 10.86).
+Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad);
+
+}  // namespace demecal

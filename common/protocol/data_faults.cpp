@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "protocol/faults.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kMostVariables = 255;
+
+Fault archipelago_fault(const Archipelago& a) {
+  if (a.joints.empty() || a.joints.size() > kMostJoints) return "no joints, or too many";
+  if (std::adjacent_find(a.joints.begin(), a.joints.end(), std::greater_equal<>()) != a.joints.end())
+    return "joints are not ascending";
+  if (a.joints.back() >= kMostJoints) return "a joint's number is too high";
+  if (a.demes_per_joint < 1 || a.demes_per_joint > kMostDemes) return "no demes, or too many";
+  if (a.topology != Topology::none && a.topology != Topology::ring && a.topology != Topology::full)
+    return "unknown topology";
+  if (a.migration_interval < 1) return "migration interval is 0";
+  return std::nullopt;
+}
+
+bool is_finite_column(const std::vector<double>& column, std::size_t rows) {
+  return column.size() == rows && std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); });
+}
+
+Fault table_fault(const TrainingTable& table) {
+  const std::size_t rows = table.target.size();
+  if (rows == 0) return "a table without rows";
+  if (table.variables.empty() || table.variables.size() > kMostVariables)
+    return "a table without variables, or with too many";
+  for (const auto& column : table.variables)
+    if (!is_finite_column(column, rows)) return "a column of variables is not finite, or of another length";
+  if (!is_finite_column(table.target, rows)) return "a target is not finite";
+  if (!is_finite_column(table.weight, rows)) return "a weight is not finite, or there is not one per row";
+  if (std::any_of(table.weight.begin(), table.weight.end(), [](double w) { return w < 0.0 || w > 1.0; }))
+    return "a weight lies outside 0 to 1";
+  return std::nullopt;
+}
+
+}  // namespace
+
+Fault find_fault(const CalibrationData& data) {
+  if (data.run == 0) return "run 0 names no run";
+  if (const auto fault = find_fault(data.parameters)) return fault->key + " = " + fault->value + " " + fault->rule;
+  if (auto fault = archipelago_fault(data.archipelago)) return fault;
+  if (data.archipelago.migrants > static_cast<std::uint32_t>(data.parameters.population_size))
+    return "more migrants than individuals";
+  if (data.tables.size() != data.archipelago.joints.size()) return "not one table per joint";
+  for (const TrainingTable& table : data.tables)
+    if (auto fault = table_fault(table)) return fault;
+  return std::nullopt;
+}
+
+}  // namespace demecal

@@ -1,0 +1,42 @@
+// Whether a received message may be acted on: what is wrong with it, or nothing. Whoever receives a message asks first,
+// so that no message from elsewhere can break a promise of the rooms below.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "protocol/messages.hpp"
+
+namespace demecal {
+
+/// Why a message is refused: a sentence for a log.
+using Fault = std::optional<std::string>;
+
+/// At most as many joints, and islands of one joint, are believed.
+inline constexpr std::size_t kMostJoints = 64;
+inline constexpr std::uint32_t kMostDemes = 1024;
+
+/// Parameters hold their rules; joints ascending and below kMostJoints; counts positive; one table per joint whose
+/// columns are finite and as long as each other, with weights from 0 to 1.
+Fault find_fault(const CalibrationData& data);
+
+/// The island is one of the run's, worker named, the start state consistent, recent emigrations its own. As for all
+/// that follow, `data` is that of the message's run; a message of another run is a fault.
+Fault find_fault(const IslandTask& task, const CalibrationData& data);
+/// The island is one of the run's, the epoch is one it can have completed, no more individuals than agreed, all valid.
+Fault find_fault(const Migrants& migrants, const CalibrationData& data);
+/// The island is one of the run's, the counters are ones it can reach, the worker is named.
+Fault find_fault(const Progress& progress, const CalibrationData& data);
+/// The island is one of the run's, the state consistent, recent emigrations its own.
+Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data);
+/// The island is one of the run's, all generations are bred, the front valid, the worker named.
+Fault find_fault(const Outcome& outcome, const CalibrationData& data);
+
+/// The worker is named and has at least one slot.
+Fault find_fault(const WorkerStatus& status);
+
+/// A population of a joint with `variables` variables: every tree valid and no deeper than allowed, every fitness at
+/// least 0 (infinite is allowed, NaN is not).
+Fault find_fault(const Population& population, const GpParameters& parameters, int variables);
+
+}  // namespace demecal

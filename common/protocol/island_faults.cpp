@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/faults.hpp"
+
+namespace demecal {
+namespace {
+
+/// What an island of this run can reach.
+struct Bounds {
+  const GpParameters& parameters;
+  const Archipelago& archipelago;
+  int variables;  ///< of the island's joint
+
+  std::uint32_t generations() const { return static_cast<std::uint32_t>(parameters.number_generations); }
+  /// The founding epoch and those that breed; the last may be shorter.
+  std::uint32_t epochs() const {
+    const std::uint32_t interval = archipelago.migration_interval;
+    return 1 + generations() / interval + (generations() % interval != 0);
+  }
+  /// Generations bred after so many epochs.
+  std::uint64_t generations_after(std::uint32_t epoch) const {
+    if (epoch == 0) return 0;
+    return std::min<std::uint64_t>(generations(), std::uint64_t{epoch - 1} * archipelago.migration_interval);
+  }
+};
+
+/// The bounds of an island, or the fault that it is none of this run's.
+template <class IslandMessage>
+Fault island_fault(const IslandMessage& message, const CalibrationData& data) {
+  const auto& joints = data.archipelago.joints;
+  if (message.run != data.run) return "of another run";
+  if (!std::binary_search(joints.begin(), joints.end(), message.island.joint))
+    return "of a joint that is not in the run";
+  if (message.island.deme >= data.archipelago.demes_per_joint) return "of a deme that is not in the run";
+  return std::nullopt;
+}
+
+Bounds bounds_of(const IslandKey& island, const CalibrationData& data) {
+  const auto& joints = data.archipelago.joints;
+  const auto place = std::lower_bound(joints.begin(), joints.end(), island.joint) - joints.begin();
+  const auto variables = static_cast<int>(data.tables[static_cast<std::size_t>(place)].variables.size());
+  return {data.parameters, data.archipelago, variables};
+}
+
+Fault front_fault(const Population& front, const Bounds& bounds) {
+  if (front.size() > ParetoFront::kMostMembers) return "a front with too many members";
+  for (const Individual& member : front)
+    if (!std::isfinite(member.fitness)) return "a front with an individual of infinite fitness";
+  for (std::size_t i = 1; i < front.size(); ++i)
+    if (front[i].tree.size() <= front[i - 1].tree.size() || front[i].fitness >= front[i - 1].fitness)
+      return "a front that is not ascending in length and falling in fitness";
+  return find_fault(front, bounds.parameters, bounds.variables);
+}
+
+Fault state_fault(const IslandState& state, const Bounds& bounds) {
+  if (state.epoch > bounds.epochs()) return "more epochs than the run has";
+  if (state.generation != bounds.generations_after(state.epoch)) return "generations do not agree with epochs";
+  const auto residents = state.epoch == 0 ? 0 : static_cast<std::size_t>(bounds.parameters.population_size);
+  if (state.population.size() != residents) return "a population of the wrong size";
+  if (auto fault = find_fault(state.population, bounds.parameters, bounds.variables)) return fault;
+  return front_fault(state.front, bounds);
+}
+
+Fault recent_fault(const std::vector<Migrants>& recent, const IslandKey& island, std::uint32_t epoch,
+                   const CalibrationData& data) {
+  if (recent.size() > static_cast<std::size_t>(kMigrantEpochs)) return "too many recent emigrations";
+  std::uint32_t before = 0;
+  for (const Migrants& migrants : recent) {
+    if (migrants.island != island) return "an emigration from another island";
+    if (auto fault = find_fault(migrants, data)) return fault;
+    if (migrants.epoch <= before || migrants.epoch > epoch) return "emigrations of impossible or unordered epochs";
+    before = migrants.epoch;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Fault find_fault(const Population& population, const GpParameters& parameters, int variables) {
+  for (const Individual& individual : population) {
+    if (!is_valid(individual.tree, variables)) return "a tree is no complete formula";
+    if (depth(individual.tree) > parameters.max_tree_depth) return "a tree is too deep";
+    if (!(individual.fitness >= 0.0)) return "a fitness is negative or not a number";
+  }
+  return std::nullopt;
+}
+
+Fault find_fault(const Migrants& migrants, const CalibrationData& data) {
+  if (auto fault = island_fault(migrants, data)) return fault;
+  const Bounds bounds = bounds_of(migrants.island, data);
+  if (migrants.epoch < 1 || migrants.epoch > bounds.epochs()) return "an epoch that the run does not have";
+  if (migrants.individuals.size() > data.archipelago.migrants) return "more migrants than agreed";
+  return find_fault(migrants.individuals, data.parameters, bounds.variables);
+}
+
+Fault find_fault(const IslandTask& task, const CalibrationData& data) {
+  if (auto fault = island_fault(task, data)) return fault;
+  if (task.worker.empty()) return "a task for nobody";
+  if (auto fault = state_fault(task.start, bounds_of(task.island, data))) return fault;
+  return recent_fault(task.recent, task.island, task.start.epoch, data);
+}
+
+Fault find_fault(const Progress& progress, const CalibrationData& data) {
+  if (auto fault = island_fault(progress, data)) return fault;
+  if (progress.worker.empty()) return "no worker is named";
+  const Bounds bounds = bounds_of(progress.island, data);
+  if (progress.epoch > bounds.epochs() || progress.generation > bounds.generations())
+    return "more epochs or generations than the run has";
+  return std::nullopt;
+}
+
+Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data) {
+  if (auto fault = island_fault(checkpoint, data)) return fault;
+  if (auto fault = state_fault(checkpoint.state, bounds_of(checkpoint.island, data))) return fault;
+  return recent_fault(checkpoint.recent, checkpoint.island, checkpoint.state.epoch, data);
+}
+
+Fault find_fault(const Outcome& outcome, const CalibrationData& data) {
+  if (auto fault = island_fault(outcome, data)) return fault;
+  if (outcome.worker.empty()) return "no worker is named";
+  const Bounds bounds = bounds_of(outcome.island, data);
+  if (outcome.generations != bounds.generations()) return "not all generations are bred";
+  return front_fault(outcome.front, bounds);
+}
+
+Fault find_fault(const WorkerStatus& status) {
+  if (status.worker.empty()) return "no worker is named";
+  if (status.slots < 1) return "a worker without slots";
+  return std::nullopt;
+}
+
+}  // namespace demecal

@@ -1,0 +1,89 @@
+#include "report/calibration_report.hpp"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "expression/text.hpp"
+
+namespace demecal {
+namespace {
+
+std::vector<std::string> ids(const DataSet& data, const std::vector<std::size_t>& poses) {
+  std::vector<std::string> names;
+  for (const std::size_t pose : poses) names.push_back(data.poses[pose].pose_id);
+  return names;
+}
+
+std::vector<std::string> singular_ids(const DataSet& data, const JointTargets& targets) {
+  std::vector<std::string> names;
+  for (const SingularPose& singular : targets.singular) names.push_back(data.poses[singular.pose].pose_id);
+  return names;
+}
+
+std::vector<JointLine> joint_lines(const CalibratedModel& model) {
+  std::vector<JointLine> lines;
+  for (const JointSummary& summary : model.joints) {
+    const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
+    lines.push_back({summary, to_text(correction.formula()), correction.range_rad()});
+  }
+  return lines;
+}
+
+}  // namespace
+
+ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
+  return {error_figures(robot, data, poses_of(data, PoseSet::calibration)),
+          error_figures(robot, data, poses_of(data, PoseSet::validation)),
+          error_figures(robot, data, poses_of(data, PoseSet::accept))};
+}
+
+std::optional<double> noise_floor_mm(const DataSet& data) {
+  std::map<std::pair<std::string, std::string>, std::vector<Eigen::Vector3d>> repeats;
+  for (const MeasuredPose& pose : data.poses) {
+    if (pose.position_m) repeats[{pose.pose_id, pose.target}].push_back(*pose.position_m);
+  }
+  double squares = 0.0;
+  std::size_t freedom = 0;
+  for (const auto& [pose, positions] : repeats) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& position : positions) mean += position / static_cast<double>(positions.size());
+    for (const Eigen::Vector3d& position : positions) squares += (position - mean).squaredNorm();
+    freedom += 3 * (positions.size() - 1);
+  }
+  if (freedom == 0) return std::nullopt;
+  return 1e3 * std::sqrt(squares / static_cast<double>(freedom));
+}
+
+CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const Preparation& preparation,
+                              const Calibration& calibration, const RunFacts& runtime) {
+  CalibrationReport report;
+  report.job = model.job;
+  report.robot = model.nominal.name;
+  report.method = model.method == Method::direct ? "direct" : "distal";
+  report.data_sha256 = model.data_sha256;
+  report.version = model.version;
+  report.seed = model.seed;
+  report.poses = {poses_of(data, PoseSet::calibration).size(), poses_of(data, PoseSet::validation).size(),
+                  poses_of(data, PoseSet::accept).size()};
+  report.outliers = ids(data, preparation.declared.outliers);
+  report.near_singular = singular_ids(data, preparation.targets);
+  report.nominal = errors_by_set(preparation.nominal, data);
+  report.registered = errors_by_set(preparation.registered.robot, data);
+  report.declared = errors_by_set(preparation.declared.robot, data);
+  report.before = errors_by_set(model.robot, data);
+  report.after = report.before;
+  report.noise_floor_mm = noise_floor_mm(data);
+  report.stopped = "not_run";
+  report.index_before_mm2 = calibration.index_before_mm2;
+  report.index_after_mm2 = calibration.index_after_mm2;
+  report.joints = joint_lines(model);
+  report.estimates = model.estimates;
+  for (const UnidentifiedDirection& direction : preparation.declared.unidentified) {
+    report.unidentified.push_back(direction.sentence());
+  }
+  report.runtime = runtime;
+  return report;
+}
+
+}  // namespace demecal

@@ -1,0 +1,68 @@
+// What a calibration did to the error, and why: the figures that people and programs read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrated_model.hpp"
+#include "effects/measurement.hpp"
+
+namespace demecal {
+
+/// The four figures on each set of poses; NaN where a set is empty.
+struct ErrorBySet {
+  ErrorFigures calibration, validation, accept;
+};
+ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data);
+
+struct RunFacts {
+  double wall_s = 0.0;
+  std::size_t workers = 0;
+  std::size_t islands = 0;
+  std::uint64_t generations = 0;
+  std::uint64_t evaluations = 0;
+  std::uint64_t migrations = 0;
+  bool interrupted = false;
+};
+
+struct PoseCounts {
+  std::size_t calibration = 0, validation = 0, accept = 0;
+};
+
+/// One line of the joints' table.
+struct JointLine {
+  JointSummary summary;
+  std::string expression;  ///< g(theta) in rad, the thesis's notation
+  Interval range_rad;
+};
+
+struct CalibrationReport {
+  std::string job, robot, method, data_sha256, version;
+  std::uint64_t seed = 0;
+  PoseCounts poses;
+  std::vector<std::string> outliers;       ///< pose ids
+  std::vector<std::string> near_singular;  ///< pose ids, down-weighted
+  ErrorBySet nominal;                      ///< the uncalibrated robot in the frame the data came in
+  ErrorBySet registered;                   ///< after the best-fit base, and tool where declared
+  ErrorBySet declared;                     ///< after everything declared but the joint corrections
+  ErrorBySet before;                       ///< after everything declared
+  ErrorBySet after;                        ///< with the effects that the closed loop added
+  std::optional<double> noise_floor_mm;    ///< standard deviation of repeats per axis, where there are repeats
+  std::string stopped;
+  double index_before_mm2 = 0.0, index_after_mm2 = 0.0;
+  std::vector<JointLine> joints;
+  std::vector<ParameterEstimate> estimates;
+  std::vector<std::string> unidentified;  ///< sentences
+  RunFacts runtime;
+};
+
+/// All figures of a finished calibration. `model` is what was written to the model file, so that evaluating that file
+/// gives the same figures.
+CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const Preparation& preparation,
+                              const Calibration& calibration, const RunFacts& runtime);
+
+/// The standard deviation per axis of position about the mean of its repeats, mm; nothing where no pose is repeated.
+std::optional<double> noise_floor_mm(const DataSet& data);
+
+}  // namespace demecal

@@ -1,0 +1,102 @@
+#include "report/report_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "kinematics/units.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Names come from files and may hold bytes that are no UTF-8: they are replaced, lest there be no report.
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json figures(const ErrorFigures& errors) {
+  return {{"mean", number(errors.mean_mm)},
+          {"rms", number(errors.rms_mm)},
+          {"p95", number(errors.p95_mm)},
+          {"max", number(errors.max_mm)}};
+}
+
+Json by_set(const ErrorBySet& errors) {
+  return {{"calibration", figures(errors.calibration)},
+          {"validation", figures(errors.validation)},
+          {"accept", figures(errors.accept)}};
+}
+
+Json joint(const JointLine& line) {
+  Json entry{
+      {"joint", line.summary.joint + 1},
+      {"kept", line.summary.kept},
+      {"expression", line.expression},
+      {"mean_abs_error_rad", {{"before", number(line.summary.before_rad)}, {"after", number(line.summary.after_rad)}}},
+      {"range_rad", {number(line.range_rad.lower), number(line.range_rad.upper)}},
+      {"bound_rad", number(line.summary.bound_rad)},
+      {"discontinuities_rad", line.summary.discontinuities_rad}};
+  if (!line.summary.note.empty()) entry["note"] = line.summary.note;
+  return entry;
+}
+
+Json parameter(const ParameterEstimate& estimate) {
+  const bool angle = estimate.id.is_angle();
+  const double border = angle ? degrees(1.0) : millimetres(1.0);
+  return {{"name", estimate.id.name()},
+          {"nominal", number(estimate.nominal * border)},
+          {"value", number(estimate.value * border)},
+          {"standard_error", number(estimate.standard_error * border)}};
+}
+
+Json runtime(const RunFacts& facts) {
+  return {{"wall_s", number(facts.wall_s)},   {"workers", facts.workers},         {"islands", facts.islands},
+          {"generations", facts.generations}, {"evaluations", facts.evaluations}, {"migrations", facts.migrations},
+          {"interrupted", facts.interrupted}};
+}
+
+Json error_stages(const CalibrationReport& report) {
+  return {{"nominal", by_set(report.nominal)},
+          {"registered", by_set(report.registered)},
+          {"declared", by_set(report.declared)},
+          {"before", by_set(report.before)},
+          {"after", by_set(report.after)}};
+}
+
+}  // namespace
+
+std::string to_json(const CalibrationReport& report) {
+  Json json{{"demecal_report", 1},      {"job", report.job},   {"robot", report.robot},
+            {"method", report.method},  {"seed", report.seed}, {"data_sha256", report.data_sha256},
+            {"version", report.version}};
+  json["poses"] = {{"calibration", report.poses.calibration},
+                   {"validation", report.poses.validation},
+                   {"accept", report.poses.accept},
+                   {"outliers", report.outliers},
+                   {"near_singular", report.near_singular}};
+  json["error_mm"] = error_stages(report);
+  json["noise_floor_mm"] = report.noise_floor_mm ? number(*report.noise_floor_mm) : Json(nullptr);
+  json["rounds"] = Json::array();
+  json["not_found"] = Json::array();
+  json["stopped"] = report.stopped;
+  json["performance_index_mm2"] = {{"before", number(report.index_before_mm2)},
+                                   {"after", number(report.index_after_mm2)}};
+  json["joints"] = Json::array();
+  for (const JointLine& line : report.joints) json["joints"].push_back(joint(line));
+  json["parameters"] = Json::array();
+  for (const ParameterEstimate& estimate : report.estimates) json["parameters"].push_back(parameter(estimate));
+  json["unidentified"] = report.unidentified;
+  json["runtime"] = runtime(report.runtime);
+  return text_of(json, 2);
+}
+
+std::string errors_to_json(const ErrorBySet& errors) {
+  return text_of(Json{{"error_mm", by_set(errors)}}, -1);
+}
+
+}  // namespace demecal

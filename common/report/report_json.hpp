@@ -1,0 +1,16 @@
+// The report as JSON, with the keys other programs rely on.
+#pragma once
+
+#include <string>
+
+#include "report/calibration_report.hpp"
+
+namespace demecal {
+
+/// Indented JSON with `demecal_report: 1`; figures that do not exist are null.
+std::string to_json(const CalibrationReport& report);
+
+/// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}} on one line.
+std::string errors_to_json(const ErrorBySet& errors);
+
+}  // namespace demecal

@@ -1,0 +1,115 @@
+#include "report/terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <utility>
+
+namespace demecal {
+namespace {
+
+struct NamedSet {
+  const char* name;
+  ErrorFigures ErrorBySet::*figures;
+};
+constexpr std::size_t kColumns = 100;
+constexpr std::array<NamedSet, 3> kSets{{{"calibration", &ErrorBySet::calibration},
+                                         {"validation", &ErrorBySet::validation},
+                                         {"accept", &ErrorBySet::accept}}};
+
+std::string figures_line(const std::string& head, const ErrorFigures& figures) {
+  return fmt::format("  {:<38}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}\n", head, figures.mean_mm, figures.rms_mm,
+                     figures.p95_mm, figures.max_mm);
+}
+
+std::string heading(const char* what) {
+  return fmt::format("  {:<38}{:>9}{:>9}{:>9}{:>9}\n", what, "mean", "rms", "P95", "max");
+}
+
+std::string stages(const CalibrationReport& report) {
+  const std::array<std::pair<const char*, const ErrorBySet*>, 4> rows{{{"nominal", &report.nominal},
+                                                                       {"base fitted", &report.registered},
+                                                                       {"declared model fitted", &report.declared},
+                                                                       {"with joint corrections", &report.before}}};
+  std::string text;
+  for (const NamedSet& set : kSets) {
+    if (!std::isfinite((report.before.*set.figures).mean_mm)) continue;
+    text += heading(fmt::format("{} poses, tool error in mm", set.name).c_str());
+    for (const auto& [name, errors] : rows) text += figures_line(std::string("  ") + name, errors->*set.figures);
+  }
+  return text;
+}
+
+/// How many letters of UTF-8 text stand side by side.
+std::size_t columns_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) != 0x80U; }));
+}
+
+/// `word` with an ellipsis for what does not fit.
+std::string cut(std::string word, std::size_t columns) {
+  if (columns_of(word) <= columns) return word;
+  while (!word.empty() && columns_of(word) > columns - 3) word.pop_back();
+  return word + "...";
+}
+
+/// `first` and the words of `text` after it, in lines of at most kColumns that begin with `indent` spaces.
+std::string wrapped(const std::string& first, const std::string& text, std::size_t indent) {
+  std::string all, line = first;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    word = cut(word, kColumns - indent - 1);
+    if (columns_of(line) + 1 + columns_of(word) > kColumns)
+      all += std::exchange(line, std::string(indent - 1, ' ')) + "\n";
+    line += " " + word;
+  }
+  return all + line + "\n";
+}
+
+std::string joints(const CalibrationReport& report) {
+  std::string text =
+      fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
+  for (const JointLine& line : report.joints) {
+    const std::string figures = fmt::format("  {:<8}{:>16.3e}{:>16.3e}  ", line.summary.joint + 1,
+                                            line.summary.before_rad, line.summary.after_rad);
+    text += wrapped(figures, line.summary.kept ? "corrected" : "neutral: " + line.summary.note, figures.size() + 1);
+  }
+  return text;
+}
+
+std::string named(const std::string& title, const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  constexpr std::size_t kShown = 8;
+  std::string shown;
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) shown += names[i] + " ";
+  if (names.size() > kShown) shown += "...";
+  return wrapped(fmt::format("  {} ({}):", title, names.size()), shown, 4);
+}
+
+}  // namespace
+
+std::string errors_to_terminal(const ErrorBySet& errors) {
+  std::string text = heading("tool error in mm");
+  for (const NamedSet& set : kSets) {
+    if (std::isfinite((errors.*set.figures).mean_mm))
+      text += figures_line(std::string("  ") + set.name, errors.*set.figures);
+  }
+  return text;
+}
+
+std::string to_terminal(const CalibrationReport& report) {
+  std::string text = stages(report);
+  if (!report.joints.empty()) text.append("\n").append(joints(report));
+  text += named("poses far out, kept in all figures", report.outliers);
+  text += named("poses near a singularity, weighed less", report.near_singular);
+  for (const std::string& sentence : report.unidentified) text += wrapped("  not seen by these poses:", sentence, 4);
+  if (report.noise_floor_mm)
+    text += fmt::format("  noise floor from repeats: {:.3f} mm per axis\n", *report.noise_floor_mm);
+  return text;
+}
+
+}  // namespace demecal

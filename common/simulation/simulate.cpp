@@ -1,0 +1,89 @@
+#include "simulation/poses.hpp"
+#include "simulation/simulated_robot.hpp"
+
+namespace demecal {
+namespace {
+
+/// Moves below this, rad or m, leave a gear where it was: they give a joint no direction.
+constexpr double kSmallestMove = 2e-3;
+
+/// What the random streams of a scenario are for. Apart, so that another noise leaves the poses as they are.
+enum Purpose : std::uint64_t { kPoses = 1, kNoise, kPayload, kRepeats };
+
+ApproachSigns signs_of_move(const JointVector& from, const JointVector& to) {
+  ApproachSigns signs(to.size());
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    const double move = to[i] - from[i];
+    signs[i] = move > kSmallestMove ? 1.0 : move < -kSmallestMove ? -1.0 : 0.0;
+  }
+  return signs;
+}
+
+PoseSet set_of(std::size_t pose, const std::array<int, 3>& counts) {
+  const auto number = static_cast<int>(pose);
+  if (number < counts[0]) return PoseSet::calibration;
+  return number < counts[0] + counts[1] ? PoseSet::validation : PoseSet::accept;
+}
+
+/// Any pose but `pose`; the only one where there is no other.
+std::size_t another(std::size_t pose, std::size_t poses, RandomStream& random) {
+  return poses < 2 ? pose : (pose + 1 + random.index(poses - 1)) % poses;
+}
+
+double draw_payload(const std::vector<double>& payloads_kg, RandomStream& random) {
+  return payloads_kg.empty() ? 0.0 : payloads_kg[random.index(payloads_kg.size())];
+}
+
+class Tour {
+ public:
+  explicit Tour(const Scenario& scenario)
+      : scenario_(scenario),
+        noise_{scenario.seed, kNoise},
+        payload_{scenario.seed, kPayload},
+        repeats_{scenario.seed, kRepeats} {
+    RandomStream random{scenario.seed, kPoses};
+    poses_ = draw_poses(scenario, scenario.poses[0] + scenario.poses[1] + scenario.poses[2], random);
+  }
+
+  std::vector<MeasuredPose> measure(const SimulatedRobot& robot) {
+    std::vector<MeasuredPose> rows;
+    for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+      const double payload_kg = draw_payload(scenario_.payloads_kg, payload_);
+      for (int repeat = 0; repeat < scenario_.repeats; ++repeat) {
+        const Visit visit{.commanded = poses_[pose],
+                          .approach = signs_of_move(come_from(pose, repeat), poses_[pose]),
+                          .payload_kg = payload_kg,
+                          .time_s = scenario_.seconds_per_pose * static_cast<double>(rows.size())};
+        rows.push_back(robot.measure(visit, noise_));
+        rows.back().set = set_of(pose, scenario_.poses);
+        rows.back().pose_id = std::to_string(pose + 1).insert(0, 1, 'P');
+      }
+    }
+    return rows;
+  }
+
+ private:
+  const JointVector& come_from(std::size_t pose, int repeat) {
+    if (repeat > 0) return poses_[another(pose, poses_.size(), repeats_)];
+    if (pose > 0) return poses_[pose - 1];
+    return scenario_.home.size() > 0 ? scenario_.home : poses_[0];
+  }
+
+  const Scenario& scenario_;
+  RandomStream noise_, payload_, repeats_;
+  std::vector<JointVector> poses_;
+};
+
+}  // namespace
+
+DataSet simulate(const Scenario& scenario) {
+  const SimulatedRobot robot(scenario);
+  DataSet data;
+  data.name = scenario.name;
+  data.robot = scenario.robot;
+  data.frame = scenario.sensor_from_base.matrix().isIdentity(0.0) ? Frame::base : Frame::sensor;
+  data.poses = Tour(scenario).measure(robot);
+  return data;
+}
+
+}  // namespace demecal

@@ -1,0 +1,48 @@
+// One participant in a DDS domain, and the writers and readers made from it; each is deleted by its owner's end.
+#pragma once
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "transport/dds.hpp"
+#include "transport/topic.hpp"
+
+namespace demecal {
+
+/// A DDS entity together with how its maker takes it back.
+template <class Entity>
+using Owned = std::unique_ptr<Entity, std::function<void(Entity*)>>;
+
+class DdsParticipant {
+ public:
+  /// Joins the domain. Throws InputError where an address is none, std::runtime_error where Fast DDS refuses.
+  DdsParticipant(const DdsOptions& options, const std::string& name);
+
+  /// An end of a topic (with `joint` from 0, for migrants); it must not outlive the participant, nor the listener the
+  /// reader. Throws std::runtime_error where Fast DDS refuses.
+  Owned<eprosima::fastdds::dds::DataWriter> make_writer(Topic topic, std::uint32_t joint = 0);
+  Owned<eprosima::fastdds::dds::DataReader> make_reader(Topic topic, std::uint32_t joint,
+                                                        eprosima::fastdds::dds::DataReaderListener* listener);
+
+  /// Whether the writer with this handle is one of this participant's.
+  bool is_own(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
+
+ private:
+  eprosima::fastdds::dds::Topic* topic(Topic topic, std::uint32_t joint);
+
+  Owned<eprosima::fastdds::dds::DomainParticipant> participant_;
+  Owned<eprosima::fastdds::dds::Publisher> publisher_;
+  Owned<eprosima::fastdds::dds::Subscriber> subscriber_;
+  std::map<std::string, Owned<eprosima::fastdds::dds::Topic>> topics_;
+};
+
+}  // namespace demecal

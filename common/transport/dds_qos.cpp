@@ -1,0 +1,123 @@
+#include "transport/dds_qos.hpp"
+
+#include <memory>
+
+#include "calibrationPubSubTypes.h"
+
+namespace demecal {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kHeartbeat{200};
+
+/// 0 is "no limit" to Fast DDS.
+dds::ResourceLimitsQosPolicy no_limits() {
+  dds::ResourceLimitsQosPolicy limits;
+  limits.max_samples = 0;
+  limits.max_instances = 0;
+  limits.max_samples_per_instance = 0;
+  limits.allocated_samples = 1;
+  return limits;
+}
+
+/// Sequences without a bound make the generated types claim megabytes, which every sample would then occupy: buffers
+/// begin at this size and grow as they must.
+constexpr std::uint32_t kFirstBuffer_bytes = 256;
+
+template <class PubSubType>
+dds::TypeSupport lean() {
+  auto type = std::make_unique<PubSubType>();
+  type->m_typeSize = kFirstBuffer_bytes;
+  return dds::TypeSupport(type.release());
+}
+
+/// What the two ends of a topic must agree on, and what is set alike on both.
+template <class Qos>
+void set_both_ends(Qos& qos, Topic topic) {
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+  qos.resource_limits() = no_limits();
+  qos.data_sharing().off();
+  // The dynamic policies cannot receive what is withdrawn: such samples are empty, and all later ones would wait for
+  // them.
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  if (topic == Topic::worker) {
+    qos.liveliness().kind = dds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    qos.liveliness().lease_duration = dds_duration(kLease);
+    qos.liveliness().announcement_period = dds_duration(kLease / 3);
+  }
+}
+
+}  // namespace
+
+eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
+  return {static_cast<std::int32_t>(time.count() / 1000), static_cast<std::uint32_t>(time.count() % 1000 * 1'000'000)};
+}
+
+std::string topic_name(Topic topic, std::uint32_t joint) {
+  switch (topic) {
+    case Topic::data:
+      return "demecal/1/data";
+    case Topic::task:
+      return "demecal/1/task";
+    case Topic::control:
+      return "demecal/1/control";
+    case Topic::migrants:
+      return "demecal/1/migrants/" + std::to_string(joint + 1);
+    case Topic::progress:
+      return "demecal/1/progress";
+    case Topic::checkpoint:
+      return "demecal/1/checkpoint";
+    case Topic::outcome:
+      return "demecal/1/outcome";
+    case Topic::worker:
+      break;
+  }
+  return "demecal/1/worker";
+}
+
+dds::TypeSupport topic_type(Topic topic) {
+  switch (topic) {
+    case Topic::data:
+      return lean<wire::CalibrationDataPubSubType>();
+    case Topic::task:
+      return lean<wire::IslandTaskPubSubType>();
+    case Topic::control:
+      return lean<wire::ControlPubSubType>();
+    case Topic::migrants:
+      return lean<wire::MigrantsPubSubType>();
+    case Topic::progress:
+      return lean<wire::ProgressPubSubType>();
+    case Topic::checkpoint:
+      return lean<wire::CheckpointPubSubType>();
+    case Topic::outcome:
+      return lean<wire::OutcomePubSubType>();
+    case Topic::worker:
+      break;
+  }
+  return lean<wire::WorkerStatusPubSubType>();
+}
+
+dds::DataWriterQos writer_qos(Topic topic) {
+  dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
+  set_both_ends(qos, topic);
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = values_kept(topic);
+  // Messages larger than a datagram need the sending thread.
+  qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
+  qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kHeartbeat);
+  return qos;
+}
+
+dds::DataReaderQos reader_qos(Topic topic) {
+  dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+  set_both_ends(qos, topic);
+  qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
+  // How long a newcomer waits before it asks for what it missed; the default is 70 ms.
+  qos.reliable_reader_qos().times.initialAcknackDelay = dds_duration(milliseconds{10});
+  return qos;
+}
+
+}  // namespace demecal

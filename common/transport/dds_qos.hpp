@@ -1,0 +1,23 @@
+// The quality of service, name and type of each topic, as idl/calibration.idl states them.
+#pragma once
+
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <string>
+
+#include "transport/topic.hpp"
+
+namespace demecal {
+
+/// The name on the wire; `joint` (from 0) matters for migrants alone.
+std::string topic_name(Topic topic, std::uint32_t joint = 0);
+eprosima::fastdds::dds::TypeSupport topic_type(Topic topic);
+
+eprosima::fastdds::dds::DataWriterQos writer_qos(Topic topic);
+eprosima::fastdds::dds::DataReaderQos reader_qos(Topic topic);
+
+/// A length of time as Fast DDS takes it.
+eprosima::fastrtps::Duration_t dds_duration(std::chrono::milliseconds time);
+
+}  // namespace demecal

@@ -1,0 +1,145 @@
+#include "transport/in_memory.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "errors/check.hpp"
+#include "transport/mailbox.hpp"
+#include "transport/topic.hpp"
+
+namespace demecal {
+namespace {
+
+/// What the exchange knows of a participant.
+struct Member {
+  Member(Role r, std::string n) : role(r), name(std::move(n)) {}
+
+  bool follows(const TopicKey& key) const {
+    return reads(role, key.topic) && (key.topic != Topic::migrants || joints.contains(key.island.joint));
+  }
+
+  const Role role;
+  const std::string name;
+  Mailbox mailbox;
+  std::set<std::uint32_t> joints;
+};
+
+/// A value that waits for those who come late, with its place in the order of all that was published.
+struct Kept {
+  std::uint64_t number;
+  Message message;
+};
+
+}  // namespace
+
+/// One mutex guards all: it takes the place of the network.
+class Exchange {
+ public:
+  void enter(Member* member) {
+    const std::lock_guard lock(mutex_);
+    members_.push_back(member);
+    catch_up(*member, [member](const TopicKey& key) { return member->follows(key); });
+  }
+
+  void leave(Member* member) {
+    const std::lock_guard lock(mutex_);
+    std::erase(members_, member);
+    const bool is_lost = has_announced_itself(*member);
+    kept_.erase(member);
+    if (!is_lost) return;
+    for (Member* other : members_)
+      if (reads(other->role, Topic::worker)) other->mailbox.put(WorkerLost{member->name});
+  }
+
+  void follow(Member* member, std::uint32_t joint) {
+    const std::lock_guard lock(mutex_);
+    if (!member->joints.insert(joint).second) return;
+    catch_up(*member, [member, joint](const TopicKey& key) {
+      return key.topic == Topic::migrants && key.island.joint == joint && member->follows(key);
+    });
+  }
+
+  void publish(Member* sender, const Message& message) {
+    const std::lock_guard lock(mutex_);
+    const TopicKey key = key_of(message);
+    check_may_publish(sender->role, sender->name, key);
+    DEMECAL_CHECK(sender->follows(key) || key.topic != Topic::migrants,
+                  "joint=" << key.island.joint << " is not followed");
+    if (const RunId ended = ended_run(message)) forget(ended);
+    auto& values = kept_[sender][key];
+    values.push_back({++published_, message});
+    if (values.size() > static_cast<std::size_t>(values_kept(key.topic))) values.pop_front();
+    for (Member* member : members_)
+      if (member != sender && member->follows(key)) member->mailbox.put(message);
+  }
+
+ private:
+  using Values = std::map<TopicKey, std::deque<Kept>>;
+
+  template <class Predicate>
+  void catch_up(Member& newcomer, Predicate wanted) {
+    std::map<std::uint64_t, const Message*> in_order;
+    for (const auto& [sender, values] : kept_)
+      for (const auto& [key, waiting] : values)
+        if (sender != &newcomer && wanted(key))
+          for (const Kept& kept : waiting) in_order.emplace(kept.number, &kept.message);
+    for (const auto& [number, message] : in_order) newcomer.mailbox.put(*message);
+  }
+
+  /// Whether it has said that it is there, and not that it leaves.
+  bool has_announced_itself(const Member& member) {
+    const auto& values = kept_[&member];
+    const auto status = values.find({Topic::worker, 0, {}, member.name});
+    return status != values.end() && !std::get<WorkerStatus>(status->second.back().message).leaving;
+  }
+
+  void forget(RunId run) {
+    for (auto& [sender, values] : kept_)
+      std::erase_if(values, [run](const auto& kept) { return kept.first.run == run; });
+  }
+
+  std::mutex mutex_;
+  std::vector<Member*> members_;
+  std::map<const Member*, Values> kept_;
+  std::uint64_t published_ = 0;
+};
+
+namespace {
+
+class InMemoryTransport final : public Transport {
+ public:
+  InMemoryTransport(std::shared_ptr<Exchange> exchange, Role role, const std::string& name)
+      : exchange_(std::move(exchange)), member_(role, name) {
+    exchange_->enter(&member_);
+  }
+  ~InMemoryTransport() override { exchange_->leave(&member_); }
+  InMemoryTransport(const InMemoryTransport&) = delete;
+  InMemoryTransport& operator=(const InMemoryTransport&) = delete;
+
+  void publish(const Message& message) override { exchange_->publish(&member_, message); }
+  std::optional<Message> receive(std::chrono::milliseconds patience) override { return member_.mailbox.take(patience); }
+  void wake() override { member_.mailbox.wake(); }
+  void follow_migrants(std::uint32_t joint) override { exchange_->follow(&member_, joint); }
+  void assert_alive() override {}
+  bool flush(std::chrono::milliseconds) override { return true; }
+
+ private:
+  std::shared_ptr<Exchange> exchange_;
+  Member member_;
+};
+
+}  // namespace
+
+std::shared_ptr<Exchange> make_exchange() {
+  return std::make_shared<Exchange>();
+}
+
+std::unique_ptr<Transport> join(std::shared_ptr<Exchange> exchange, Role role, const std::string& name) {
+  return std::make_unique<InMemoryTransport>(std::move(exchange), role, name);
+}
+
+}  // namespace demecal

@@ -1,0 +1,42 @@
+// Which workers are there, told from what their writers of WorkerStatus say and from when those fall silent.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+#include "transport/mailbox.hpp"
+
+namespace demecal {
+
+/// What DDS calls a publication handle.
+using WriterId = std::array<std::uint8_t, 16>;
+
+/// Puts statuses and losses into a mailbox in the order in which they are true. Any thread may call.
+class Presence {
+ public:
+  explicit Presence(Mailbox& mailbox) : mailbox_(mailbox) {}
+
+  /// A status was read: put where it is news, that is, changed or of a worker that was lost.
+  void heard(const WriterId& writer, WorkerStatus status);
+  /// The writer's liveliness ran out: the worker is lost, unless it said that it leaves.
+  void fell_silent(const WriterId& writer);
+  /// The writer's liveliness is back: a lost worker is announced again by its last status.
+  void spoke_again(const WriterId& writer);
+  /// The writer is gone for good, as when its process ends: lost, unless it said that it leaves or is lost already.
+  void departed(const WriterId& writer);
+
+ private:
+  struct Worker {
+    WorkerStatus status;
+    bool lost = false;
+  };
+  void lose(Worker& worker);
+
+  Mailbox& mailbox_;
+  std::mutex mutex_;
+  std::map<WriterId, Worker> workers_;
+};
+
+}  // namespace demecal

@@ -1,0 +1,98 @@
+#include "transport/topic.hpp"
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+struct KeyOf {
+  TopicKey operator()(const CalibrationData& m) const { return {Topic::data, m.run, {}, {}}; }
+  TopicKey operator()(const IslandTask& m) const { return {Topic::task, m.run, m.island, {}}; }
+  TopicKey operator()(const Control& m) const { return {Topic::control, m.run, {}, {}}; }
+  TopicKey operator()(const Migrants& m) const { return {Topic::migrants, m.run, m.island, {}}; }
+  TopicKey operator()(const Progress& m) const { return {Topic::progress, m.run, m.island, {}}; }
+  TopicKey operator()(const Checkpoint& m) const { return {Topic::checkpoint, m.run, m.island, {}}; }
+  TopicKey operator()(const Outcome& m) const { return {Topic::outcome, m.run, m.island, {}}; }
+  TopicKey operator()(const WorkerStatus& m) const { return {Topic::worker, 0, {}, m.worker}; }
+  TopicKey operator()(const WorkerLost& m) const {
+    DEMECAL_CHECK(false, "WorkerLost is never sent; worker=" << m.worker);
+    return {};
+  }
+};
+
+template <class Plain>
+Message with_key(const TopicKey& key) {
+  Plain message;
+  message.run = key.run;
+  if constexpr (requires { message.island; }) message.island = key.island;
+  return message;
+}
+
+}  // namespace
+
+TopicKey key_of(const Message& message) {
+  return std::visit(KeyOf{}, message);
+}
+
+Topic topic_of(const Message& message) {
+  return key_of(message).topic;
+}
+
+Message empty_message(const TopicKey& key) {
+  switch (key.topic) {
+    case Topic::data:
+      return with_key<CalibrationData>(key);
+    case Topic::task:
+      return with_key<IslandTask>(key);
+    case Topic::control:
+      return with_key<Control>(key);
+    case Topic::migrants:
+      return with_key<Migrants>(key);
+    case Topic::progress:
+      return with_key<Progress>(key);
+    case Topic::checkpoint:
+      return with_key<Checkpoint>(key);
+    case Topic::outcome:
+      return with_key<Outcome>(key);
+    case Topic::worker:
+      break;
+  }
+  WorkerStatus status;
+  status.worker = key.worker;
+  return status;
+}
+
+bool writes(Role role, Topic topic) {
+  const bool of_coordinator = topic == Topic::data || topic == Topic::task || topic == Topic::control;
+  switch (role) {
+    case Role::coordinator:
+      return of_coordinator;
+    case Role::worker:
+      return !of_coordinator;
+    case Role::watcher:
+      break;
+  }
+  return false;
+}
+
+bool reads(Role role, Topic topic) {
+  if (topic == Topic::migrants) return role != Role::coordinator;
+  return !writes(role, topic);
+}
+
+int values_kept(Topic topic) {
+  return topic == Topic::migrants ? kMigrantEpochs : 1;
+}
+
+void check_may_publish(Role role, const std::string& name, const TopicKey& key) {
+  DEMECAL_CHECK(writes(role, key.topic),
+                "role=" << static_cast<int>(role) << " topic=" << static_cast<int>(key.topic) << " name=" << name);
+  DEMECAL_CHECK(key.topic != Topic::worker || key.worker == name, "'" << name << "' speaks as '" << key.worker << "'");
+}
+
+RunId ended_run(const Message& message) {
+  const auto* control = std::get_if<Control>(&message);
+  return control != nullptr && control->state != Control::State::running ? control->run : 0;
+}
+
+}  // namespace demecal

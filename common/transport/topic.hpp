@@ -1,0 +1,43 @@
+// Which topic a message travels on, who reads and writes it, and which of its values belong together.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <string>
+
+#include "transport/transport.hpp"
+
+namespace demecal {
+
+enum class Topic { data, task, control, migrants, progress, checkpoint, outcome, worker };
+inline constexpr std::array kTopics{Topic::data,     Topic::task,       Topic::control, Topic::migrants,
+                                    Topic::progress, Topic::checkpoint, Topic::outcome, Topic::worker};
+
+/// The topic of a message; a WorkerLost has none, and asking is a broken promise.
+Topic topic_of(const Message& message);
+
+bool writes(Role role, Topic topic);
+bool reads(Role role, Topic topic);
+
+/// What a value is the latest of: its topic with those of the key fields that the topic has.
+struct TopicKey {
+  Topic topic = Topic::data;
+  RunId run = 0;
+  IslandKey island;
+  std::string worker;
+  auto operator<=>(const TopicKey&) const = default;
+};
+TopicKey key_of(const Message& message);
+/// A message with this key and nothing else: what withdraws the key's value.
+Message empty_message(const TopicKey& key);
+
+/// How many of a key's values wait for those who come late.
+int values_kept(Topic topic);
+
+/// Breaks off where a participant of this role and name may not publish under this key.
+void check_may_publish(Role role, const std::string& name, const TopicKey& key);
+
+/// The run that this message ends, or 0.
+RunId ended_run(const Message& message);
+
+}  // namespace demecal

@@ -1,0 +1,141 @@
+#include <utility>
+
+#include "transport/wire_population.hpp"
+
+namespace demecal {
+namespace {
+
+wire::GpParameters encode(const GpParameters& p) {
+  wire::GpParameters encoded;
+  encoded.population_size(p.population_size);
+  encoded.number_generations(p.number_generations);
+  encoded.tournament_size(p.tournament_size);
+  encoded.initial_max_tree_depth1(p.initial_max_tree_depth1);
+  encoded.initial_max_tree_depth2(p.initial_max_tree_depth2);
+  encoded.max_tree_depth(p.max_tree_depth);
+  encoded.min_tree_depth(p.min_tree_depth);
+  encoded.invalid_attempts(p.invalid_attempts);
+  encoded.crossover_rate(p.crossover_rate);
+  encoded.mutation_rate(p.mutation_rate);
+  encoded.terminal_crossover_rate(p.terminal_crossover_rate);
+  encoded.terminal_mutation_rate(p.terminal_mutation_rate);
+  encoded.shrink_mutation_rate(p.shrink_mutation_rate);
+  for (const Primitive function : p.functions) encoded.functions().push_back(static_cast<std::uint8_t>(function));
+  encoded.constants_lower(p.constants_lower);
+  encoded.constants_upper(p.constants_upper);
+  return encoded;
+}
+
+std::optional<GpParameters> decode(const wire::GpParameters& p) {
+  GpParameters decoded;
+  decoded.population_size = p.population_size();
+  decoded.number_generations = p.number_generations();
+  decoded.tournament_size = p.tournament_size();
+  decoded.initial_max_tree_depth1 = p.initial_max_tree_depth1();
+  decoded.initial_max_tree_depth2 = p.initial_max_tree_depth2();
+  decoded.max_tree_depth = p.max_tree_depth();
+  decoded.min_tree_depth = p.min_tree_depth();
+  decoded.invalid_attempts = p.invalid_attempts();
+  decoded.crossover_rate = p.crossover_rate();
+  decoded.mutation_rate = p.mutation_rate();
+  decoded.terminal_crossover_rate = p.terminal_crossover_rate();
+  decoded.terminal_mutation_rate = p.terminal_mutation_rate();
+  decoded.shrink_mutation_rate = p.shrink_mutation_rate();
+  decoded.functions.clear();
+  for (const std::uint8_t code : p.functions()) {
+    if (code >= kPrimitives.size()) return std::nullopt;
+    decoded.functions.push_back(static_cast<Primitive>(code));
+  }
+  decoded.constants_lower = p.constants_lower();
+  decoded.constants_upper = p.constants_upper();
+  return decoded;
+}
+
+wire::Topology encode(Topology topology) {
+  switch (topology) {
+    case Topology::none:
+      return wire::NONE;
+    case Topology::ring:
+      return wire::RING;
+    case Topology::full:
+      break;
+  }
+  return wire::FULL;
+}
+
+std::optional<Topology> decode(wire::Topology topology) {
+  switch (topology) {
+    case wire::NONE:
+      return Topology::none;
+    case wire::RING:
+      return Topology::ring;
+    case wire::FULL:
+      return Topology::full;
+  }
+  return std::nullopt;
+}
+
+wire::Archipelago encode(const Archipelago& a) {
+  wire::Archipelago encoded;
+  for (const std::uint32_t joint : a.joints) encoded.joints().push_back(to_wire_index(joint));
+  encoded.demes_per_joint(a.demes_per_joint);
+  encoded.topology(encode(a.topology));
+  encoded.migration_interval(a.migration_interval);
+  encoded.migrants(a.migrants);
+  encoded.between_joints(a.between_joints);
+  return encoded;
+}
+
+std::optional<Archipelago> decode(const wire::Archipelago& a) {
+  const auto topology = decode(a.topology());
+  if (!topology) return std::nullopt;
+  std::vector<std::uint32_t> joints;
+  for (const std::uint32_t joint : a.joints()) {
+    if (joint == 0) return std::nullopt;
+    joints.push_back(joint - 1);
+  }
+  return Archipelago{std::move(joints),      a.demes_per_joint(), *topology,
+                     a.migration_interval(), a.migrants(),        a.between_joints()};
+}
+
+wire::TrainingTable encode(const TrainingTable& table) {
+  wire::TrainingTable encoded;
+  encoded.variables().resize(table.variables.size());
+  for (std::size_t i = 0; i < table.variables.size(); ++i) encoded.variables()[i].values(table.variables[i]);
+  encoded.target_scaled(table.target);
+  encoded.weight(table.weight);
+  return encoded;
+}
+
+TrainingTable decode(const wire::TrainingTable& table) {
+  TrainingTable decoded;
+  for (const wire::Column& column : table.variables()) decoded.variables.push_back(column.values());
+  decoded.target = table.target_scaled();
+  decoded.weight = table.weight();
+  return decoded;
+}
+
+}  // namespace
+
+wire::CalibrationData encode(const CalibrationData& message) {
+  wire::CalibrationData encoded;
+  encoded.run(message.run);
+  encoded.job(message.job);
+  encoded.seed(message.seed);
+  encoded.parameters(encode(message.parameters));
+  encoded.archipelago(encode(message.archipelago));
+  for (const TrainingTable& table : message.tables) encoded.tables().push_back(encode(table));
+  return encoded;
+}
+
+std::optional<CalibrationData> decode(const wire::CalibrationData& message) {
+  auto parameters = decode(message.parameters());
+  auto archipelago = decode(message.archipelago());
+  if (!parameters || !archipelago) return std::nullopt;
+  CalibrationData decoded{message.run(),          message.job().to_string(), message.seed(),
+                          std::move(*parameters), std::move(*archipelago),   {}};
+  for (const wire::TrainingTable& table : message.tables()) decoded.tables.push_back(decode(table));
+  return decoded;
+}
+
+}  // namespace demecal

@@ -1,0 +1,84 @@
+// Corrections stay in the model only where validation poses say that they should.
+#include "calibration/selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "effects/measurement.hpp"
+#include "erring_arm.hpp"
+
+namespace demecal {
+namespace {
+
+/// Candidates of a joint, by their texts in rad.
+JointCandidates candidates(std::uint32_t joint, const std::vector<std::string>& texts) {
+  JointCandidates result;
+  result.training.joint = joint;
+  result.training.range_rad = {-M_PI, M_PI};
+  result.training.table.target = {0.002};  // the largest error that was seen: 2 mrad
+  result.training.table.weight = {1.0};
+  for (const std::string& text : texts) result.front.push_back({parse(text), 0.0});
+  return result;
+}
+
+TEST(Selection, KeepsTheTrueErrorsAndLeavesTheRestNeutral) {
+  const DataSet data =
+      measure(true_puma({"", "0.001*SIN(theta)", "0.0012*COS(theta)", "", "", ""}), 90, 5e-5, 1, false);
+  const std::vector<std::size_t> deciding = poses_of(data, PoseSet::validation);
+  const CorrectedRobot nominal = nominal_robot(data);
+  const std::vector<JointCandidates> joints{candidates(0, {"0.0005*COS(theta)", "0.0001*theta"}),
+                                            candidates(1, {"0.0003", "0.001*SIN(theta)"}),
+                                            candidates(2, {"0.0012*COS(theta)", "0.002*theta"})};
+  const Selection selection = select_corrections(data, deciding, nominal, joints);
+  EXPECT_FALSE(selection.choices[0].kept);
+  EXPECT_TRUE(selection.choices[1].kept);
+  EXPECT_TRUE(selection.choices[2].kept);
+  EXPECT_TRUE(selection.robot.corrections[0].is_neutral());
+  EXPECT_LT(error_figures(selection.robot, data, deciding).rms_mm, 0.12);
+}
+
+TEST(Selection, TakesTheShorterOfTwoThatDoEquallyWell) {
+  const DataSet data = measure(true_puma({"", "0.001*SIN(theta)", "", "", "", ""}), 90, 5e-5, 2, false);
+  const std::vector<JointCandidates> joints{candidates(1, {"0.001*SIN(theta)", "0.001*SIN(theta)+0.000000001*theta"})};
+  const Selection selection =
+      select_corrections(data, poses_of(data, PoseSet::validation), nominal_robot(data), joints);
+  EXPECT_EQ(selection.robot.corrections[1].formula(),
+            apply(Primitive::multiply, constant_tree(1.0), joints[0].front[0].tree));
+}
+
+TEST(Selection, NeverMakesTheDecidingPosesWorse) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, 1e-4, seed, false);
+    const std::vector<std::size_t> deciding = poses_of(data, PoseSet::validation);
+    const CorrectedRobot nominal = nominal_robot(data);
+    std::vector<JointCandidates> joints;
+    for (std::uint32_t joint = 0; joint < 6; ++joint) {
+      joints.push_back(candidates(joint, {"0.00002*SIN(theta)", "0.00003*COS(3*theta)", "0-0.00002*SIN(theta)"}));
+    }
+    const Selection selection = select_corrections(data, deciding, nominal, joints);
+    EXPECT_LE(error_figures(selection.robot, data, deciding).rms_mm, error_figures(nominal, data, deciding).rms_mm);
+  }
+}
+
+TEST(Selection, DropsCandidatesWithoutFiniteValues) {
+  const DataSet data = measure(true_puma({"", "0.001", "", "", "", ""}), 30, 5e-5, 3, false);
+  JointCandidates joint = candidates(1, {"0.001"});
+  Tree overflowing = constant_tree(1e308);
+  overflowing = apply(Primitive::multiply, overflowing, overflowing);
+  joint.front.insert(joint.front.begin(), {overflowing, 0.0});
+  const Selection selection =
+      select_corrections(data, poses_of(data, PoseSet::validation), nominal_robot(data), {&joint, 1});
+  EXPECT_TRUE(selection.choices[0].kept);
+  EXPECT_NEAR(selection.robot.corrections[1](0.5), 0.001, 1e-12);
+}
+
+TEST(Selection, DoesNotConsiderACandidateWithAPoleInTheRange) {
+  const DataSet data = measure(true_puma({"", "0.001*SIN(theta)", "", "", "", ""}), 30, 5e-5, 4, false);
+  // Nowhere near the pole are there any poses to see it: it does as well as the other one.
+  const std::vector<JointCandidates> joints{candidates(1, {"0.001*SIN(theta)+0.000000000001%(theta-2.9)"})};
+  const Selection selection =
+      select_corrections(data, poses_of(data, PoseSet::validation), nominal_robot(data), joints);
+  EXPECT_FALSE(selection.choices[0].kept);
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,67 @@
+// The tables islands learn from keep what the joints should learn, at a scale of order one.
+#include "calibration/training.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "erring_arm.hpp"
+
+namespace demecal {
+namespace {
+
+JointTargets some_targets(double size) {
+  const DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, size, 6, true);
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  return joint_targets(data, poses, nominal_robot(data));
+}
+
+TEST(Training, TargetsTimesScaleAreTheJointErrors) {
+  const JointTargets targets = some_targets(1e-3);
+  const std::vector<JointTraining> tables = training_tables(puma(), targets);
+  ASSERT_EQ(tables.size(), 6U);
+  for (const JointTraining& training : tables) {
+    for (std::size_t row = 0; row < targets.poses.size(); ++row) {
+      const int joint = static_cast<int>(training.joint);
+      EXPECT_NEAR(training.table.target[row] * training.scale_rad, targets.error[row][joint], 1e-15);
+      EXPECT_EQ(training.table.variables[0][row], targets.commanded[row][joint]);
+    }
+  }
+}
+
+TEST(Training, ScaleIsARoundNumberWithinAFactorOfTheMeanTarget) {
+  for (const double size : {1e-5, 3e-4, 7e-3}) {
+    for (const JointTraining& training : training_tables(puma(), some_targets(size))) {
+      double sum = 0.0, weights = 0.0;
+      for (std::size_t row = 0; row < training.table.target.size(); ++row) {
+        sum += training.table.weight[row] * std::abs(training.table.target[row]);
+        weights += training.table.weight[row];
+      }
+      const double mean = sum / weights;
+      EXPECT_GE(mean, 0.999);
+      EXPECT_LT(mean, 2.51);
+      const double mantissa =
+          training.scale_rad / std::pow(10.0, std::floor(std::log10(training.scale_rad * 1.000001)));
+      EXPECT_TRUE(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6)
+          << mantissa;
+    }
+  }
+}
+
+TEST(Training, AJointThatStandsStillGetsNoTable) {
+  DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, 1e-4, 7, false);
+  for (MeasuredPose& pose : data.poses) pose.joints[3] = 0.7;
+  const JointTargets targets = joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data));
+  for (const JointTraining& training : training_tables(puma(), targets)) EXPECT_NE(training.joint, 3U);
+}
+
+TEST(Training, CorrectionIsTheEvolvedTreeTimesTheScale) {
+  const JointTraining training = training_tables(puma(), some_targets(1e-3))[1];
+  const Tree evolved = parse("SIN(theta)+0.25");
+  const JointCorrection correction = correction_from(training, evolved);
+  const double theta = 0.5 * (training.range_rad.lower + training.range_rad.upper);
+  EXPECT_DOUBLE_EQ(correction(theta), training.scale_rad * (std::sin(theta) + 0.25));
+}
+
+}  // namespace
+}  // namespace demecal

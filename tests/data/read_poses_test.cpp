@@ -1,0 +1,193 @@
+// Measured poses from tables, and the rules a table must keep.
+#include "data/read_poses.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kinematics/units.hpp"
+#include "small_arm.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string kHeading = "q1_deg,q2_deg,q3_mm,x_mm,y_mm,z_mm";
+
+std::vector<MeasuredPose> read(const std::string& text, const ColumnMap& map = small_map(),
+                               const AssumedUnits& units = {}) {
+  return read_poses(table_of(text), map, units, small_arm(), {{"A", Eigen::Vector3d(0.0, 0.0, 0.1)}});
+}
+
+std::string refusal(const std::string& text, const ColumnMap& map = small_map(), const AssumedUnits& units = {}) {
+  return complaint([&] { read(text, map, units); });
+}
+
+TEST(ReadPoses, ConvertsToMetresAndRadians) {
+  const auto poses = read(kHeading + "\n90,-45,100,1,2,3\n");
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_DOUBLE_EQ(poses[0].joints[0], radians(90.0));
+  EXPECT_DOUBLE_EQ(poses[0].joints[1], radians(-45.0));
+  EXPECT_DOUBLE_EQ(poses[0].joints[2], 0.1);
+  EXPECT_DOUBLE_EQ(poses[0].position_m->z(), 0.003);
+  EXPECT_EQ(poses[0].set, PoseSet::calibration);
+  EXPECT_EQ(poses[0].line, 2u);
+  EXPECT_FALSE(poses[0].orientation || poses[0].approach || poses[0].payload_kg || poses[0].time_s);
+}
+
+TEST(ReadPoses, TakesUnitsFromTheUserWhereNamesHaveNone) {
+  const AssumedUnits units{find_unit("rad"), find_unit("m")};
+  const auto poses =
+      read("q1,q2,q3,x,y,z\n1.5,-0.5,0.1,1,2,3\n", small_map({"q1", "q2", "q3"}, {"x", "y", "z"}), units);
+  EXPECT_EQ(poses[0].joints[0], 1.5);
+  EXPECT_EQ(poses[0].joints[2], 0.1);
+  EXPECT_EQ(poses[0].position_m->z(), 3.0);
+}
+
+TEST(ReadPoses, ReadsEveryCircumstance) {
+  ColumnMap map = small_map();
+  map.orientation = columns_named({"qw", "qx", "qy", "qz"});
+  map.distances = columns_named({"l1_mm", "l2_m"});
+  map.approach = columns_named({"s1", "s2", "s3"});
+  map.payload = column("payload_kg");
+  map.temperature = column("temperature_celsius");
+  map.time = column("order");
+  map.set = column("set");
+  map.pose = column("pose_id");
+  map.target = column("target_id");
+  const auto poses = read(kHeading +
+                              ",qw,qx,qy,qz,l1_mm,l2_m,s1,s2,s3,payload_kg,temperature_celsius,order,set,pose_id,"
+                              "target_id\n40,-45,100,1,2,3,0.9995,0,0,0,500,0.25,-1,0,+1,2.5,21,7,accept,P 1,A\n",
+                          map);
+  const MeasuredPose& pose = poses[0];
+  EXPECT_DOUBLE_EQ(pose.orientation->w(), 1.0);
+  EXPECT_THAT(pose.distances_m, ElementsAre(0.5, 0.25));
+  EXPECT_EQ(*pose.approach, ApproachSigns(Eigen::Vector3d(-1.0, 0.0, 1.0)));
+  EXPECT_EQ(pose.payload_kg, 2.5);
+  EXPECT_EQ(pose.temperature_celsius, 21.0);
+  EXPECT_EQ(pose.time_s, 7.0);
+  EXPECT_EQ(pose.set, PoseSet::accept);
+  EXPECT_EQ(pose.pose_id, "P 1");
+  EXPECT_EQ(pose.target, "A");
+}
+
+TEST(ReadPoses, GivesRowsWithoutPoseColumnTheirOwnIds) {
+  const auto poses = read(kHeading + "\n40,0,0,1,2,3\n\n40,0,0,1,2,3\n");
+  EXPECT_EQ(poses[0].pose_id, "line 2");
+  EXPECT_EQ(poses[1].pose_id, "line 4");
+}
+
+TEST(ReadPoses, RefusesBadValuesWithTheirLineAndColumn) {
+  const auto with = [](const std::string& row) { return refusal(kHeading + "\n40,0,0,1,2,3\n" + row + "\n"); };
+  EXPECT_EQ(with("abc,0,0,1,2,3"), "poses.csv:3: 'abc': column q1_deg is not a number");
+  EXPECT_EQ(with(",0,0,1,2,3"), "poses.csv:3: column q1_deg is empty where a number is expected");
+  EXPECT_EQ(with("40,0,0,nan,2,3"), "poses.csv:3: 'nan': column x_mm must be a finite number");
+  EXPECT_EQ(with("40,0,0,1,-Inf,3"), "poses.csv:3: '-Inf': column y_mm must be a finite number");
+  EXPECT_EQ(with("40,0,0,\"1,5\",2,3"), "poses.csv:3: '1,5': column x_mm is not a number");
+}
+
+TEST(ReadPoses, AllowsAToleranceBeyondLimitsAndNoMore) {
+  EXPECT_EQ(refusal(kHeading + "\n184,-184.9,309,1,2,3\n"), "");
+  EXPECT_EQ(refusal(kHeading + "\n40,0,0,1,2,3\n10,-200,0,1,2,3\n"),
+            "poses.csv:3: '-200 deg': column q2_deg is far outside the limits of joint 2, -180 deg to 180 deg");
+  EXPECT_THAT(refusal(kHeading + "\n40,0,320,1,2,3\n"), HasSubstr("limits of joint 3, 0 mm to 300 mm"));
+}
+
+TEST(ReadPoses, RefusesMapsThatDoNotFit) {
+  const std::string rows = kHeading + "\n40,0,0,1,2,3\n";
+  ColumnMap map = small_map({"q1_deg", "q2_deg"});
+  EXPECT_EQ(refusal(rows, map), "set.yaml:5: columns.joints must name 3 columns, not 2");
+  map = small_map({"q1_deg", "q2_deg", "q1_deg"});
+  EXPECT_EQ(refusal(rows, map), "set.yaml:5: 'q1_deg': is named twice under columns");
+  map = small_map({"q1_deg", "q9_deg", "q3_mm"});
+  EXPECT_EQ(refusal(rows, map), "set.yaml:5: 'q9_deg': is no column of poses.csv; the nearest is 'q1_deg'");
+  map = small_map({"q1_deg", "q2_deg", "q3_mm"}, {});
+  EXPECT_EQ(refusal(rows, map),
+            "set.yaml:4: columns must name position, orientation or distances: nothing was measured");
+  map = small_map({"q1_deg", "q2_deg", "q3_mm"}, {"x_mm", "y_mm"});
+  EXPECT_EQ(refusal(rows, map), "set.yaml:5: columns.position must name 3 columns, not 2");
+}
+
+TEST(ReadPoses, RefusesBrokenCircumstances) {
+  const auto with = [](const char* heading, const std::string& value, const auto& assign) {
+    ColumnMap map = small_map();
+    assign(map);
+    return refusal(kHeading + "," + heading + "\n40,0,0,1,2,3," + value + "\n", map);
+  };
+  const auto approach = [](ColumnMap& map) { map.approach = columns_named({"s1", "s2", "s3"}); };
+  const auto orientation = [](ColumnMap& map) { map.orientation = columns_named({"qw", "qx", "qy", "qz"}); };
+  const auto distance = [](ColumnMap& map) { map.distances = columns_named({"l1_mm"}); };
+  const auto payload = [](ColumnMap& map) { map.payload = column("payload_kg"); };
+  const auto set = [](ColumnMap& map) { map.set = column("set"); };
+  const auto pose = [](ColumnMap& map) { map.pose = column("pose"); };
+  const auto target = [](ColumnMap& map) { map.target = column("target"); };
+  EXPECT_EQ(with("s1,s2,s3", "1,0.5,0", approach),
+            "poses.csv:2: '0.5': column s2 must be -1, 0 or 1: the sign of the joint's last motion");
+  EXPECT_THAT(with("qw,qx,qy,qz", "0.7,0.7,0.7,0", orientation), HasSubstr("must be a unit quaternion w, x, y, z"));
+  EXPECT_EQ(with("l1_mm", "0", distance), "poses.csv:2: '0': column l1_mm must be positive: it is a measured length");
+  EXPECT_EQ(with("payload_kg", "-1", payload),
+            "poses.csv:2: '-1': column payload_kg must not be negative: it is a mass");
+  EXPECT_EQ(with("set", "training", set),
+            "poses.csv:2: 'training': column set must be calibration, validation or accept");
+  EXPECT_EQ(with("pose", "", pose), "poses.csv:2: column pose is empty where the name of a pose is expected");
+  EXPECT_EQ(with("target", "B", target), "poses.csv:2: 'B': is no target of tools_mm; the nearest is 'A'");
+  EXPECT_EQ(with("target", "", target), "");
+}
+
+TEST(ReadPoses, HoldsRepeatsOfAPoseTogether) {
+  ColumnMap map = small_map();
+  map.pose = column("pose");
+  map.set = column("set");
+  const std::string first = kHeading + ",pose,set\n40,0,0,1,2,3,a,accept\n";
+  EXPECT_EQ(refusal(first + "40.00000001,0,0,1.1,2,3,a,accept\n", map), "");
+  EXPECT_EQ(refusal(first + "40.1,0,0,1.1,2,3,a,accept\n", map),
+            "poses.csv:3: 'a': joints differ from those of line 2, which has the same pose id");
+  EXPECT_EQ(refusal(first + "40,0,0,1.1,2,3,a,validation\n", map),
+            "poses.csv:3: 'a': is in another set than line 2, which has the same pose id");
+}
+
+TEST(ReadPoses, DetectsRadiansUnderDegrees) {
+  EXPECT_EQ(refusal(exact_table(8, degrees(1.0), 1000.0, kHeading)), "");
+  EXPECT_THAT(refusal(exact_table(8, 1.0, 1000.0, kHeading)),
+              HasSubstr("poses.csv:1: 'q1_deg': this column and the other joints are in degrees, but their values look "
+                        "like radians"));
+}
+
+TEST(ReadPoses, DetectsRadiansUnderDegreesWithoutPositions) {
+  ColumnMap map = small_map({"q1_deg", "q2_deg", "q3_mm"}, {});
+  map.distances = columns_named({"l1_mm"});
+  const std::string heading = "q1_deg,q2_deg,q3_mm,l1_mm\n";
+  EXPECT_THAT(refusal(heading + "1.2,-0.4,0,500\n-0.3,0.9,0,400\n", map), HasSubstr("look like radians"));
+  EXPECT_EQ(refusal(heading + "70,-20,0,500\n-17,50,0,400\n", map), "");
+}
+
+TEST(ReadPoses, AcceptsRealDegreesNearZero) {
+  // Six degrees about zero: as small as radians, but the arm moved as little as that.
+  EXPECT_EQ(refusal(exact_table(8, degrees(1.0), 1000.0, kHeading)), "");
+  std::string rows = kHeading + "\n";
+  for (int k = 0; k < 6; ++k) {
+    JointVector q(3);
+    q << radians(k - 3.0), radians(2.0 - 0.7 * k), 0.0;
+    const Eigen::Vector3d p = 1000.0 * tool_position(small_arm(), q);
+    rows += number_text(k - 3.0) + "," + number_text(2.0 - 0.7 * k) + ",0," + number_text(p.x()) + "," +
+            number_text(p.y()) + "," + number_text(p.z()) + "\n";
+  }
+  EXPECT_EQ(refusal(rows), "");
+}
+
+TEST(ReadPoses, DetectsDegreesUnderRadians) {
+  const ColumnMap map = small_map({"q1_rad", "q2_rad", "q3_mm"});
+  EXPECT_EQ(refusal("q1_rad,q2_rad,q3_mm,x_mm,y_mm,z_mm\n1,0,0,1,2,3\n1,45,0,1,2,3\n", map),
+            "poses.csv:3: '45': column q2_rad is in radians, but this looks like degrees: it is more than two turns");
+}
+
+TEST(ReadPoses, DetectsLengthsOffByAThousand) {
+  EXPECT_THAT(refusal(exact_table(8, degrees(1.0), 1.0, kHeading)), HasSubstr("they look like metres"));
+  EXPECT_THAT(refusal(exact_table(8, degrees(1.0), 1000.0, "q1_deg,q2_deg,q3_mm,x_m,y_m,z_m"),
+                      small_map({"q1_deg", "q2_deg", "q3_mm"}, {"x_m", "y_m", "z_m"})),
+              HasSubstr("they look like millimetres"));
+}
+
+}  // namespace
+}  // namespace demecal

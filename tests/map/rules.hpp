@@ -1,0 +1,52 @@
+// The rules that hold every source file to the map of rooms. Each returns what breaks it, and nothing where all is
+// well.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "rooms.hpp"
+#include "source.hpp"
+
+namespace demecal::map {
+
+/// Where a rule is broken, and in what way.
+struct Violation {
+  std::string path;
+  int line = 0;  ///< from 1; 0 where the file as a whole is meant
+  std::string what;
+
+  friend std::ostream& operator<<(std::ostream& stream, const Violation& violation) {
+    stream << violation.path;
+    if (violation.line > 0) stream << ':' << violation.line;
+    return stream << ": " << violation.what;
+  }
+};
+
+using Violations = std::vector<Violation>;
+
+/// "room/file.hpp" names a room that the file's own room, or program, reaches; programs never include each other.
+Violations check_rooms(const Source& source, const Map& map);
+
+/// A third-party header belongs to a library that the room or program links to.
+Violations check_libraries(const Source& source, const Map& map);
+
+/// Whatever the build says: yaml-cpp only in config, Fast DDS and its generated types only in transport, Ceres only in
+/// fitting.
+Violations check_owners(const Source& source);
+
+/// A pure room includes no header of files, threads, clocks, streams to the terminal or the environment.
+Violations check_pure_headers(const Source& source);
+
+/// A pure room calls nothing that reads a clock, the environment or chance, opens files, or prints; nor a distribution
+/// of the standard library, whose numbers differ from one library to the next.
+Violations check_pure_calls(const Source& source);
+
+/// At most 300 lines; headers and tests begin with a // comment that says what they are for.
+Violations check_shape(const Source& source);
+
+/// No file or folder is called util, helper, manager, misc, or, below common/, common.
+Violations check_names(const Source& source);
+
+}  // namespace demecal::map

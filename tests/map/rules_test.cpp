@@ -1,0 +1,145 @@
+// Every rule of the map, held to sources that break it and to sources that do not.
+#include "rules.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace demecal::map {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const Map& made_up() {
+  static const Map map = [] {
+    Map made{parse_rooms("demecal_room(data LIBRARIES Eigen3::Eigen)\n"
+                         "demecal_room(fitting ROOMS data PRIVATE_LIBRARIES Ceres::ceres)\n"
+                         "demecal_room(evolution)\n"
+                         "demecal_room(report ROOMS fitting)\n"
+                         "demecal_room(config ROOMS report PRIVATE_LIBRARIES yaml-cpp)\n"
+                         "demecal_room(transport PRIVATE_LIBRARIES demecal_idl)\n"),
+             {}};
+    made.programs["coordinator"] = parse_program("target_link_libraries(x PUBLIC demecal_config)", made.rooms);
+    made.programs["worker"] = parse_program("target_link_libraries(x PUBLIC demecal_transport)", made.rooms);
+    return made;
+  }();
+  return map;
+}
+
+Source including(const std::string& path, const std::string& what) {
+  return {path, "// A file.\n#include " + what + "\n"};
+}
+
+TEST(RoomRule, LetsARoomIncludeItselfAndWhatItReaches) {
+  for (const char* const what : {"\"report/html.hpp\"", "\"fitting/fit.hpp\"", "\"data/pose.hpp\"", "<vector>"}) {
+    EXPECT_THAT(check_rooms(including("common/report/html.cpp", what), made_up()), IsEmpty()) << what;
+  }
+}
+
+TEST(RoomRule, ForbidsARoomWhatItDoesNotReach) {
+  for (const char* const what :
+       {"\"evolution/island.hpp\"", "\"config/job.hpp\"", "\"html.hpp\"", "\"../data/pose.hpp\""}) {
+    const Violations found = check_rooms(including("common/report/html.cpp", what), made_up());
+    ASSERT_THAT(found, SizeIs(1)) << what;
+    EXPECT_EQ(found[0].line, 2);
+  }
+}
+
+TEST(RoomRule, ForbidsAFolderThatIsOnNoMap) {
+  EXPECT_THAT(check_rooms({"common/attic/old.hpp", "// A file.\n"}, made_up()), SizeIs(1));
+}
+
+TEST(RoomRule, KeepsProgramsApartAndOutOfTheRooms) {
+  EXPECT_THAT(check_rooms(including("coordinator/main.cpp", "\"worker/loop.hpp\""), made_up()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"coordinator/run.hpp\""), made_up()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"config/job.hpp\""), made_up()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("common/data/pose.cpp", "\"worker/loop.hpp\""), made_up()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"worker/loop.hpp\""), made_up()), IsEmpty());
+  EXPECT_THAT(check_rooms(including("coordinator/main.cpp", "\"data/pose.hpp\""), made_up()), IsEmpty());
+}
+
+TEST(RoomRule, LetsTestsIncludeBothPrograms) {
+  const Source test{"tests/coordinator/run_test.cpp",
+                    "#include \"coordinator/run.hpp\"\n#include \"worker/loop.hpp\"\n"};
+  EXPECT_THAT(check_rooms(test, made_up()), IsEmpty());
+}
+
+TEST(LibraryRule, LetsARoomIncludeItsOwnAndThePublicOnesBelow) {
+  EXPECT_THAT(check_libraries(including("common/fitting/fit.cpp", "<ceres/ceres.h>"), made_up()), IsEmpty());
+  EXPECT_THAT(check_libraries(including("common/report/html.cpp", "<Eigen/Core>"), made_up()), IsEmpty());
+}
+
+TEST(LibraryRule, ForbidsWhatTheRoomDoesNotLinkTo) {
+  EXPECT_THAT(check_libraries(including("common/report/html.cpp", "<ceres/ceres.h>"), made_up()), SizeIs(1));
+  EXPECT_THAT(check_libraries(including("common/evolution/island.cpp", "<Eigen/Core>"), made_up()), SizeIs(1));
+  EXPECT_THAT(check_libraries(including("coordinator/main.cpp", "<CLI/CLI.hpp>"), made_up()), SizeIs(1));
+}
+
+TEST(OwnerRule, KeepsEachLibraryInItsRoom) {
+  for (const char* const what : {"<yaml-cpp/yaml.h>", "<fastdds/dds/domain/DomainParticipant.hpp>", "<fastcdr/Cdr.h>",
+                                 "<fastrtps/utils/x.h>", "\"calibrationPubSubTypes.h\"", "<ceres/ceres.h>"}) {
+    EXPECT_THAT(check_owners(including("common/report/html.cpp", what)), SizeIs(1)) << what;
+    EXPECT_THAT(check_owners(including("worker/main.cpp", what)), SizeIs(1)) << what;
+    EXPECT_THAT(check_owners(including("tests/report/html_test.cpp", what)), IsEmpty()) << what;
+  }
+  EXPECT_THAT(check_owners(including("common/config/job.cpp", "<yaml-cpp/yaml.h>")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/transport/dds.cpp", "\"calibrationPubSubTypes.h\"")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/fitting/fit.cpp", "<ceres/ceres.h>")), IsEmpty());
+}
+
+TEST(PureHeaderRule, ForbidsFilesThreadsAndClocks) {
+  for (const char* const what :
+       {"<fstream>", "<thread>", "<mutex>", "<chrono>", "<filesystem>", "<iostream>", "<sys/stat.h>"}) {
+    EXPECT_THAT(check_pure_headers(including("common/data/read.cpp", what)), SizeIs(1)) << what;
+    EXPECT_THAT(check_pure_headers(including("common/config/read.cpp", what)), IsEmpty()) << what;
+    EXPECT_THAT(check_pure_headers(including("common/transport/dds.cpp", what)), IsEmpty()) << what;
+    EXPECT_THAT(check_pure_headers(including("worker/main.cpp", what)), IsEmpty()) << what;
+  }
+  EXPECT_THAT(check_pure_headers(including("common/data/read.cpp", "<istream>")), IsEmpty());
+}
+
+TEST(PureCallRule, ForbidsChanceClocksAndPrinting) {
+  for (const char* const line :
+       {"std::random_device device;", "seed = time(0);", "seed = std::time(nullptr);", "srand(1);", "int i = rand();",
+        "std::normal_distribution<double> d;", "std::cout << 1;", "std::printf(\"x\");",
+        "auto t = steady_clock::now();", "std::getenv(\"HOME\");", "std::ofstream out;"}) {
+    EXPECT_THAT(check_pure_calls({"common/evolution/island.cpp", std::string(line) + "\n"}), SizeIs(1)) << line;
+    EXPECT_THAT(check_pure_calls({"common/transport/dds.cpp", std::string(line) + "\n"}), IsEmpty()) << line;
+  }
+}
+
+TEST(PureCallRule, TakesNoLikenessForTheThing) {
+  for (const char* const line : {"double t = row.time(3);", "// std::random_device", "throw Error(\"time(0)\");",
+                                 "const double runtime = operand(1);", "std::snprintf(text, 3, \"x\");", "grand(1);"}) {
+    EXPECT_THAT(check_pure_calls({"common/data/read.cpp", std::string(line) + "\n"}), IsEmpty()) << line;
+  }
+}
+
+TEST(ShapeRule, AllowsThreeHundredLinesAndNoMore) {
+  std::string text = "// A file.\n";
+  for (int line = 2; line <= 300; ++line) text += "\n";
+  EXPECT_THAT(check_shape({"common/data/long.cpp", text}), IsEmpty());
+  EXPECT_THAT(check_shape({"common/data/long.cpp", text + "\n"}), SizeIs(1));
+}
+
+TEST(ShapeRule, WantsHeadersAndTestsIntroduced) {
+  for (const char* const path : {"common/data/pose.hpp", "worker/loop.hpp", "tests/data/pose_test.cpp"}) {
+    EXPECT_THAT(check_shape({path, "#pragma once\n// A pose.\n"}), SizeIs(1)) << path;
+    EXPECT_THAT(check_shape({path, "// A pose.\n#pragma once\n"}), IsEmpty()) << path;
+  }
+  EXPECT_THAT(check_shape({"common/data/pose.cpp", "#include \"data/pose.hpp\"\n"}), IsEmpty());
+}
+
+TEST(NameRule, ForbidsNamesThatSayNothing) {
+  for (const char* const path : {"common/util/a.hpp", "common/data/string_utils.cpp", "common/data/helpers.hpp",
+                                 "worker/run_manager.cpp", "tests/misc/a_test.cpp", "common/common/a.hpp"}) {
+    EXPECT_THAT(check_names({path, ""}), SizeIs(1)) << path;
+  }
+  for (const char* const path :
+       {"common/data/pose.hpp", "coordinator/utilisation.cpp", "tests/data/common_mode_test.cpp"}) {
+    EXPECT_THAT(check_names({path, ""}), IsEmpty()) << path;
+  }
+}
+
+}  // namespace
+}  // namespace demecal::map

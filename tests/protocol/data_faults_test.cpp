@@ -1,0 +1,76 @@
+// A run's data as received: what is accepted and what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "protocol/faults.hpp"
+#include "small_run.hpp"
+
+namespace demecal {
+namespace {
+
+struct Spoiling {
+  const char* what;
+  std::function<void(CalibrationData&)> spoil;
+};
+
+const std::vector<Spoiling>& spoilings() {
+  static const std::vector<Spoiling> all{
+      {"no run", [](auto& d) { d.run = 0; }},
+      {"parameter out of its range", [](auto& d) { d.parameters.crossover_rate = 1.5; }},
+      {"population of none", [](auto& d) { d.parameters.population_size = 0; }},
+      {"no joints",
+       [](auto& d) {
+         d.archipelago.joints.clear();
+         d.tables.clear();
+       }},
+      {"joints descending",
+       [](auto& d) {
+         d.archipelago.joints = {2, 0};
+       }},
+      {"a joint twice",
+       [](auto& d) {
+         d.archipelago.joints = {2, 2};
+       }},
+      {"joint too high",
+       [](auto& d) {
+         d.archipelago.joints = {0, kMostJoints};
+       }},
+      {"no demes", [](auto& d) { d.archipelago.demes_per_joint = 0; }},
+      {"too many demes", [](auto& d) { d.archipelago.demes_per_joint = kMostDemes + 1; }},
+      {"unknown topology", [](auto& d) { d.archipelago.topology = static_cast<Topology>(9); }},
+      {"no migration interval", [](auto& d) { d.archipelago.migration_interval = 0; }},
+      {"more migrants than individuals", [](auto& d) { d.archipelago.migrants = 21; }},
+      {"a table too few", [](auto& d) { d.tables.pop_back(); }},
+      {"no rows",
+       [](auto& d) {
+         d.tables[0] = TrainingTable{{{}}, {}, {}};
+       }},
+      {"no variables", [](auto& d) { d.tables[1].variables.clear(); }},
+      {"too many variables", [](auto& d) { d.tables[1].variables.resize(256, d.tables[1].target); }},
+      {"a variable's column too short", [](auto& d) { d.tables[1].variables[0].pop_back(); }},
+      {"an infinite variable", [](auto& d) { d.tables[0].variables[0][3] = HUGE_VAL; }},
+      {"a target that is no number", [](auto& d) { d.tables[0].target[0] = std::nan(""); }},
+      {"a weight too few", [](auto& d) { d.tables[0].weight.pop_back(); }},
+      {"a weight below 0", [](auto& d) { d.tables[0].weight[0] = -0.1; }},
+      {"a weight above 1", [](auto& d) { d.tables[0].weight[11] = 1.1; }},
+  };
+  return all;
+}
+
+TEST(DataFaults, ASoundRunHasNone) {
+  EXPECT_EQ(find_fault(small_run()), std::nullopt);
+}
+
+TEST(DataFaults, EverySpoiltFieldIsFound) {
+  for (const auto& [what, spoil] : spoilings()) {
+    CalibrationData data = small_run();
+    spoil(data);
+    EXPECT_NE(find_fault(data), std::nullopt) << what;
+  }
+}
+
+}  // namespace
+}  // namespace demecal

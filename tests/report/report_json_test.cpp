@@ -1,0 +1,127 @@
+// The report's JSON has the keys that other programs rely on, and the report's figures to the bit.
+#include "report/report_json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kinematics/units.hpp"
+#include "made_up_report.hpp"
+
+namespace demecal {
+namespace {
+
+using nlohmann::json;
+
+void expect_figures(const json& written, const ErrorFigures& figures) {
+  EXPECT_EQ(written.at("mean"), figures.mean_mm);
+  EXPECT_EQ(written.at("rms"), figures.rms_mm);
+  EXPECT_EQ(written.at("p95"), figures.p95_mm);
+  EXPECT_EQ(written.at("max"), figures.max_mm);
+}
+
+TEST(ReportJson, HasEveryPromisedKeyAtTheTop) {
+  const json report = json::parse(to_json(made_up_report()));
+  for (const char* const key :
+       {"demecal_report", "job", "robot", "method", "seed", "data_sha256", "version", "poses", "error_mm",
+        "noise_floor_mm", "rounds", "not_found", "stopped", "performance_index_mm2", "joints", "runtime"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["demecal_report"], 1);
+  EXPECT_TRUE(report["rounds"].is_array());
+  EXPECT_TRUE(report["not_found"].is_array());
+}
+
+TEST(ReportJson, HasEveryPromisedKeyBelow) {
+  const json report = json::parse(to_json(made_up_report()));
+  for (const char* const key : {"calibration", "validation", "accept", "outliers"}) {
+    EXPECT_TRUE(report["poses"].contains(key)) << key;
+  }
+  for (const char* const stage : {"nominal", "registered", "before", "after"}) {
+    for (const char* const set : {"calibration", "validation", "accept"}) {
+      for (const char* const figure : {"mean", "rms", "p95", "max"}) {
+        EXPECT_TRUE(report["error_mm"][stage][set].contains(figure)) << stage << ' ' << set << ' ' << figure;
+      }
+    }
+  }
+  for (const char* const key : {"before", "after"}) EXPECT_TRUE(report["performance_index_mm2"].contains(key)) << key;
+  for (const char* const key : {"wall_s", "workers", "islands", "generations", "evaluations", "migrations"}) {
+    EXPECT_TRUE(report["runtime"].contains(key)) << key;
+  }
+  ASSERT_EQ(report["joints"].size(), 6u);
+  for (const json& joint : report["joints"]) {
+    for (const char* const key : {"joint", "expression", "mean_abs_error_rad", "range_rad", "bound_rad"}) {
+      EXPECT_TRUE(joint.contains(key)) << key;
+    }
+    EXPECT_TRUE(joint["mean_abs_error_rad"].contains("before") && joint["mean_abs_error_rad"].contains("after"));
+    EXPECT_EQ(joint["range_rad"].size(), 2u);
+  }
+}
+
+TEST(ReportJson, ReadsBackToTheBit) {
+  const CalibrationReport report = made_up_report();
+  const json written = json::parse(to_json(report));
+  EXPECT_EQ(written["seed"], report.seed);
+  EXPECT_EQ(written["robot"], report.robot);
+  EXPECT_EQ(written["poses"]["calibration"], report.poses.calibration);
+  EXPECT_EQ(written["poses"]["outliers"], json(report.outliers));
+  expect_figures(written["error_mm"]["nominal"]["calibration"], report.nominal.calibration);
+  expect_figures(written["error_mm"]["registered"]["validation"], report.registered.validation);
+  expect_figures(written["error_mm"]["declared"]["validation"], report.declared.validation);
+  expect_figures(written["error_mm"]["before"]["calibration"], report.before.calibration);
+  expect_figures(written["error_mm"]["after"]["validation"], report.after.validation);
+  EXPECT_EQ(written["noise_floor_mm"], *report.noise_floor_mm);
+  EXPECT_EQ(written["performance_index_mm2"]["after"], report.index_after_mm2);
+  EXPECT_EQ(written["runtime"]["evaluations"], report.runtime.evaluations);
+  for (std::size_t i = 0; i < report.joints.size(); ++i) {
+    const json& joint = written["joints"][i];
+    EXPECT_EQ(joint["joint"], i + 1);
+    EXPECT_EQ(joint["expression"], report.joints[i].expression);
+    EXPECT_EQ(joint["mean_abs_error_rad"]["after"], report.joints[i].summary.after_rad);
+    EXPECT_EQ(joint["range_rad"], json({report.joints[i].range_rad.lower, report.joints[i].range_rad.upper}));
+    EXPECT_EQ(joint["discontinuities_rad"], json(report.joints[i].summary.discontinuities_rad));
+  }
+}
+
+TEST(ReportJson, WritesParametersInTheUnitsTheirNamesSay) {
+  const CalibrationReport report = made_up_report();
+  const json written = json::parse(to_json(report));
+  ASSERT_EQ(written["parameters"].size(), report.estimates.size());
+  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
+    const ParameterEstimate& estimate = report.estimates[i];
+    const std::string name = written["parameters"][i]["name"];
+    const double border = name.ends_with("_mm") ? millimetres(1.0) : degrees(1.0);
+    EXPECT_DOUBLE_EQ(written["parameters"][i]["value"], estimate.value * border) << name;
+    EXPECT_DOUBLE_EQ(written["parameters"][i]["standard_error"], estimate.standard_error * border) << name;
+  }
+}
+
+TEST(ReportJson, WritesNullForFiguresThatDoNotExist) {
+  CalibrationReport report = made_up_report();
+  report.noise_floor_mm.reset();
+  report.joints[4].summary.bound_rad = std::numeric_limits<double>::infinity();
+  const json written = json::parse(to_json(report));
+  EXPECT_TRUE(written["error_mm"]["after"]["accept"]["mean"].is_null());
+  EXPECT_TRUE(written["noise_floor_mm"].is_null());
+  EXPECT_TRUE(written["joints"][4]["bound_rad"].is_null());
+}
+
+TEST(ReportJson, ReplacesBytesThatAreNoUtf8) {
+  CalibrationReport report = made_up_report();
+  report.robot = "M\xFCller";
+  EXPECT_EQ(json::parse(to_json(report))["robot"], "M\xEF\xBF\xBDller");
+}
+
+TEST(ErrorsJson, StandOnOneLineWithAllSets) {
+  const ErrorBySet errors = made_up_report().after;
+  const std::string text = errors_to_json(errors);
+  EXPECT_EQ(text.find('\n'), text.size() - 1);
+  const json written = json::parse(text);
+  expect_figures(written["error_mm"]["calibration"], errors.calibration);
+  expect_figures(written["error_mm"]["validation"], errors.validation);
+  EXPECT_TRUE(written["error_mm"]["accept"]["max"].is_null());
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,94 @@
+// What a terminal shows of a report.
+#include "report/terminal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "made_up_report.hpp"
+#include "page_reading.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> screen_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::size_t letters_of(const std::string& line) {
+  std::size_t letters = 0;
+  for (const char byte : line) letters += (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U ? 1u : 0u;
+  return letters;
+}
+
+TEST(Terminal, ShowsEveryStageOfEverySetThatHasPoses) {
+  const CalibrationReport report = made_up_report();
+  const std::string text = to_terminal(report);
+  for (const ErrorBySet* const stage : {&report.nominal, &report.registered, &report.declared, &report.before}) {
+    for (const ErrorFigures& figures : {stage->calibration, stage->validation}) {
+      for (const double value : {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm}) {
+        EXPECT_THAT(text, HasSubstr(" " + rounded(value, 3)));
+      }
+    }
+  }
+  EXPECT_THAT(text, HasSubstr("calibration poses"));
+  EXPECT_THAT(text, HasSubstr("validation poses"));
+  EXPECT_THAT(text, Not(HasSubstr("accept poses")));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
+  const CalibrationReport report = made_up_report();
+  const std::string text = to_terminal(report);
+  for (const JointLine& joint : report.joints) {
+    EXPECT_THAT(text, HasSubstr("\n  " + std::to_string(joint.summary.joint + 1) + "  "));
+  }
+  for (const std::string& pose : report.outliers) EXPECT_THAT(text, HasSubstr(pose));
+  for (const std::string& pose : report.near_singular) EXPECT_THAT(text, HasSubstr(pose));
+  EXPECT_THAT(text, HasSubstr("noise floor from repeats: 0.051 mm per axis"));
+}
+
+TEST(Terminal, IsAtMostAHundredColumnsWide) {
+  RandomStream random{451};
+  for (int trial = 0; trial < 100; ++trial) {
+    CalibrationReport report = made_up_report();
+    const auto name = [&random] {
+      std::string text;
+      for (std::size_t i = random.index(140); i > 0; --i) text += random.chance(0.1) ? " " : "ü";
+      return text;
+    };
+    for (JointLine& joint : report.joints) joint.summary.note = name();
+    report.unidentified = {name() + name() + name(), name()};
+    report.outliers = {name(), name(), name()};
+    for (const std::string& line : screen_lines(to_terminal(report))) EXPECT_LE(letters_of(line), 100u) << line;
+  }
+}
+
+TEST(Terminal, KeepsEveryWordThatFitsOnALine) {
+  CalibrationReport report = made_up_report();
+  std::string sentence;
+  for (int word = 0; word < 60; ++word) sentence += "word" + std::to_string(word) + " ";
+  report.unidentified = {sentence};
+  std::istringstream words(to_terminal(report));
+  int next = 0;
+  for (std::string word; words >> word;) next += word == "word" + std::to_string(next) ? 1 : 0;
+  EXPECT_EQ(next, 60);
+}
+
+TEST(Terminal, ShowsOneStageWithItsSets) {
+  const ErrorBySet errors = made_up_report().after;
+  const std::string text = errors_to_terminal(errors);
+  EXPECT_EQ(screen_lines(text).size(), 3u);
+  EXPECT_THAT(text, HasSubstr(rounded(errors.validation.p95_mm, 3)));
+  EXPECT_THAT(text, Not(HasSubstr("accept")));
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,126 @@
+// What only DDS has: leases, malformed samples, discovery servers, addresses.
+#include "transport/dds.hpp"
+
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <filesystem>
+#include <optional>
+
+#include "errors/input_error.hpp"
+#include "network.hpp"
+#include "transport/dds_participant.hpp"
+#include "transport/wire_form.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::uint32_t kJoint = 0;
+
+TEST(Dds, AWorkerWhoseLoopIsStuckIsLostAndComesBackWhenItGoesOn) {
+  DdsNetwork network;
+  const auto coordinator = network.join(Role::coordinator, "coordinator");
+  const auto stuck = network.join(Role::worker, "stuck");
+  stuck->publish(status_of("stuck"));
+  receive_up_to(*coordinator, status_of("stuck"));
+  // One sign of life, then silence for longer than the lease; again, should the sign have come before the two had met.
+  const Message lost = WorkerLost{"stuck"};
+  std::optional<Message> heard;
+  for (int i = 0; i < 5 && heard != lost; ++i) {
+    stuck->assert_alive();
+    heard = coordinator->receive(2 * kLease);
+  }
+  ASSERT_EQ(heard, lost);
+  // Signs of life as work loops give them: where the first one meets the end of the lease, the status tells later.
+  receive_until(*coordinator, [&](const auto& messages) {
+    stuck->assert_alive();
+    return !messages.empty() && messages.back() == Message(status_of("stuck"));
+  });
+}
+
+TEST(Dds, MalformedSamplesAreCountedAndDropped) {
+  DdsNetwork network;
+  const auto worker = network.join(Role::worker, "worker");
+  worker->follow_migrants(kJoint);
+  DdsParticipant stranger(local_options(), "stranger");
+  const auto writer = stranger.make_writer(Topic::migrants, kJoint);
+  const Migrants sound{1, {kJoint, 0}, 1, {{variable_tree(0), 0.5}}};
+  wire::Migrants unknown_code = encode(sound), no_deme = encode(sound), sample = encode(sound);
+  unknown_code.individuals()[0].formula().primitives({77});
+  no_deme.deme(0);
+  for (wire::Migrants* one : {&unknown_code, &no_deme, &sample}) ASSERT_TRUE(writer->write(one));
+  receive_until(*worker, [](const auto& messages) { return !messages.empty(); });
+  receive_until(*worker, [&](const auto&) { return worker->unreadable() == 2; });
+}
+
+TEST(Dds, AddressesThatAreNoneAreTheUsersError) {
+  DdsOptions no_port = local_options(), no_host = local_options(), no_peer = local_options();
+  no_port.discovery_server = "127.0.0.1";
+  EXPECT_THROW(join_dds(no_port, Role::worker, "worker"), InputError);
+  no_host.discovery_server = ":11811";
+  EXPECT_THROW(join_dds(no_host, Role::worker, "worker"), InputError);
+  no_peer.reach = DdsOptions::Reach::network;
+  no_peer.peers = {"no.such.host.invalid"};
+  EXPECT_THROW(join_dds(no_peer, Role::worker, "worker"), InputError);
+}
+
+TEST(Dds, ParticipantsOnANetworkMeetByNamedPeers) {
+  DdsOptions options = local_options();
+  options.reach = DdsOptions::Reach::network;
+  options.interfaces = {"127.0.0.1"};
+  options.peers = {"127.0.0.1"};
+  DdsNetwork network(options);
+  const auto coordinator = network.join(Role::coordinator, "coordinator");
+  const auto worker = network.join(Role::worker, "worker");
+  worker->publish(status_of("worker"));
+  receive_up_to(*coordinator, status_of("worker"));
+}
+
+/// Fast DDS's own server, for as long as the test runs.
+class DiscoveryServer {
+ public:
+  static constexpr const char* kProgram = "/usr/bin/fast-discovery-server";
+
+  explicit DiscoveryServer(const std::string& port) {
+    std::vector<std::string> words{kProgram, "-i", "0", "-l", "127.0.0.1", "-p", port};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t silent;
+    posix_spawn_file_actions_init(&silent);
+    posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", 01, 0);
+    EXPECT_EQ(posix_spawn(&process_, kProgram, &silent, nullptr, arguments.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&silent);
+  }
+  ~DiscoveryServer() {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  DiscoveryServer(const DiscoveryServer&) = delete;
+  DiscoveryServer& operator=(const DiscoveryServer&) = delete;
+
+ private:
+  pid_t process_ = 0;
+};
+
+TEST(Dds, ParticipantsMeetThroughADiscoveryServer) {
+  if (!std::filesystem::exists(DiscoveryServer::kProgram)) GTEST_SKIP() << "no " << DiscoveryServer::kProgram;
+  const std::string port = std::to_string(20000 + getpid() % 10000);
+  const DiscoveryServer server(port);
+  DdsOptions options = local_options();
+  options.discovery_server = "127.0.0.1:" + port;
+  DdsNetwork network(options);
+  const auto coordinator = network.join(Role::coordinator, "coordinator");
+  auto worker = network.join(Role::worker, "worker");
+  worker->publish(status_of("worker"));
+  receive_up_to(*coordinator, status_of("worker"));
+  coordinator->publish(Control{1, Control::State::running, ""});
+  receive_up_to(*worker, Control{1, Control::State::running, ""});
+  worker.reset();
+  receive_up_to(*coordinator, WorkerLost{"worker"});
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,87 @@
+// What transport tests run over: a network that participants join, in memory or DDS on this machine alone.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "transport/dds.hpp"
+#include "transport/in_memory.hpp"
+
+namespace demecal {
+
+/// Longer than anything takes on a busy machine: tests wait for messages, and fail after this.
+inline constexpr std::chrono::seconds kDeadline{30};
+
+/// A domain that tests running at the same time do not share, since each is a process.
+inline DdsOptions local_options() {
+  DdsOptions options;
+  options.domain = 1 + static_cast<std::uint32_t>(getpid()) % 100;
+  return options;
+}
+
+class Network {
+ public:
+  virtual ~Network() = default;
+  virtual std::unique_ptr<Transport> join(Role role, const std::string& name) = 0;
+};
+
+class InMemoryNetwork final : public Network {
+ public:
+  std::unique_ptr<Transport> join(Role role, const std::string& name) override {
+    return demecal::join(exchange_, role, name);
+  }
+
+ private:
+  std::shared_ptr<Exchange> exchange_ = make_exchange();
+};
+
+class DdsNetwork final : public Network {
+ public:
+  explicit DdsNetwork(DdsOptions options = local_options()) : options_(std::move(options)) {}
+  std::unique_ptr<Transport> join(Role role, const std::string& name) override {
+    return join_dds(options_, role, name);
+  }
+
+ private:
+  DdsOptions options_;
+};
+
+/// Receives until `enough(messages so far)`; fails the test where that does not come about.
+template <class Enough>
+std::vector<Message> receive_until(Transport& transport, Enough enough) {
+  const auto deadline = std::chrono::steady_clock::now() + kDeadline;
+  std::vector<Message> messages;
+  while (!enough(messages) && std::chrono::steady_clock::now() < deadline)
+    if (auto message = transport.receive(std::chrono::seconds{1})) messages.push_back(std::move(*message));
+  EXPECT_TRUE(enough(messages)) << "after " << messages.size() << " messages";
+  return messages;
+}
+
+/// Receives up to and with the first message equal to `awaited`.
+inline std::vector<Message> receive_up_to(Transport& transport, const Message& awaited) {
+  return receive_until(transport,
+                       [&](const auto& messages) { return !messages.empty() && messages.back() == awaited; });
+}
+
+/// Those of one kind, in order of arrival.
+template <class Plain>
+std::vector<Plain> only(const std::vector<Message>& messages) {
+  std::vector<Plain> chosen;
+  for (const Message& message : messages)
+    if (const auto* plain = std::get_if<Plain>(&message)) chosen.push_back(*plain);
+  return chosen;
+}
+
+inline WorkerStatus status_of(const std::string& worker, bool leaving = false) {
+  WorkerStatus status;
+  status.worker = worker;
+  status.leaving = leaving;
+  return status;
+}
+
+}  // namespace demecal

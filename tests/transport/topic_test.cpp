@@ -1,0 +1,62 @@
+// Who may say what, and which values belong together.
+#include "transport/topic.hpp"
+
+#include <gtest/gtest.h>
+
+#include "random_messages.hpp"
+
+namespace demecal {
+namespace {
+
+TEST(Topics, EveryTopicIsWrittenByOneRoleAndReadByAnother) {
+  for (const Topic topic : kTopics) {
+    EXPECT_NE(writes(Role::coordinator, topic), writes(Role::worker, topic));
+    EXPECT_TRUE(reads(Role::coordinator, topic) || reads(Role::worker, topic));
+  }
+}
+
+TEST(Topics, WatchersReadAllAndWriteNothing) {
+  for (const Topic topic : kTopics) {
+    EXPECT_TRUE(reads(Role::watcher, topic));
+    EXPECT_FALSE(writes(Role::watcher, topic));
+  }
+}
+
+TEST(Topics, OnlyMigrantsAreReadByTheRoleThatWritesThem) {
+  for (const Topic topic : kTopics)
+    for (const Role role : {Role::coordinator, Role::worker})
+      EXPECT_EQ(writes(role, topic) && reads(role, topic), topic == Topic::migrants && role == Role::worker);
+  EXPECT_FALSE(reads(Role::coordinator, Topic::migrants));
+}
+
+TEST(Topics, AnEmptyMessageHasTheKeyItWasMadeFor) {
+  RandomMessages random(29);
+  const std::vector<Message> messages{random.data(),       random.task(),    random.migrants(), random.progress(),
+                                      random.checkpoint(), random.outcome(), random.status(),   random.control()};
+  for (const Message& message : messages) EXPECT_EQ(key_of(empty_message(key_of(message))), key_of(message));
+}
+
+TEST(Topics, OnlyAControlThatIsNotRunningEndsItsRun) {
+  EXPECT_EQ(ended_run(Control{4, Control::State::finished, ""}), 4u);
+  EXPECT_EQ(ended_run(Control{4, Control::State::cancelled, ""}), 4u);
+  EXPECT_EQ(ended_run(Control{4, Control::State::running, ""}), 0u);
+  EXPECT_EQ(ended_run(RandomMessages(1).outcome()), 0u);
+}
+
+TEST(TopicsDeathTest, WatchersCannotPublish) {
+  EXPECT_DEATH(check_may_publish(Role::watcher, "eye", key_of(Control{})), "broken promise");
+}
+
+TEST(TopicsDeathTest, WorkersCannotSpeakForOthers) {
+  WorkerStatus status;
+  status.worker = "two";
+  check_may_publish(Role::worker, "two", key_of(status));
+  EXPECT_DEATH(check_may_publish(Role::worker, "one", key_of(status)), "'one' speaks as 'two'");
+}
+
+TEST(TopicsDeathTest, LossesAreNotPublished) {
+  EXPECT_DEATH(key_of(WorkerLost{"one"}), "never sent");
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,123 @@
+// The wire form loses nothing, and what was never encoded is not decoded.
+#include <gtest/gtest.h>
+
+#include "random_messages.hpp"
+#include "transport/wire_form.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kRounds = 100;
+
+/// Messages made by `make` come back equal.
+template <class Plain>
+void expect_round_trips(Plain (RandomMessages::*make)()) {
+  RandomMessages random(17);
+  for (int i = 0; i < kRounds; ++i) {
+    const Plain message = (random.*make)();
+    const auto decoded = decode(encode(message));
+    ASSERT_TRUE(decoded.has_value());
+    EXPECT_EQ(*decoded, message);
+  }
+}
+
+TEST(WireForm, EveryMessageRoundTrips) {
+  expect_round_trips(&RandomMessages::data);
+  expect_round_trips(&RandomMessages::task);
+  expect_round_trips(&RandomMessages::migrants);
+  expect_round_trips(&RandomMessages::progress);
+  expect_round_trips(&RandomMessages::checkpoint);
+  expect_round_trips(&RandomMessages::outcome);
+  expect_round_trips(&RandomMessages::status);
+  expect_round_trips(&RandomMessages::tree);
+}
+
+TEST(WireForm, EveryStateOfARunRoundTrips) {
+  for (const auto state : {Control::State::running, Control::State::finished, Control::State::cancelled}) {
+    const Control control{3, state, "note"};
+    EXPECT_EQ(decode(encode(control)), control);
+  }
+}
+
+TEST(WireForm, JointsAndDemesCountFromOneOnTheWire) {
+  const wire::Migrants encoded = encode(Migrants{1, {0, 4}, 1, {}});
+  EXPECT_EQ(encoded.joint(), 1u);
+  EXPECT_EQ(encoded.deme(), 5u);
+}
+
+TEST(WireForm, TextIsCutOffAtItsBound) {
+  WorkerStatus status;
+  status.worker = std::string(300, 'w');
+  EXPECT_EQ(decode(encode(status))->worker, std::string(255, 'w'));
+}
+
+TEST(WireForm, FormulasWithUnknownCodesOrWrongCountsAreRefused) {
+  const wire::Formula sound = encode(apply(Primitive::add, variable_tree(0), constant_tree(0.5)));
+  ASSERT_TRUE(decode(sound).has_value());
+  wire::Formula unknown = sound;
+  unknown.primitives()[1] = 10;
+  EXPECT_FALSE(decode(unknown).has_value());
+  wire::Formula variable_missing = sound, variable_left = sound, constant_missing = sound, constant_left = sound;
+  variable_missing.variables().clear();
+  EXPECT_FALSE(decode(variable_missing).has_value());
+  variable_left.variables().push_back(0);
+  EXPECT_FALSE(decode(variable_left).has_value());
+  constant_missing.constants().clear();
+  EXPECT_FALSE(decode(constant_missing).has_value());
+  constant_left.constants().push_back(1.0);
+  EXPECT_FALSE(decode(constant_left).has_value());
+  wire::Formula endless;
+  endless.primitives().assign(65536, static_cast<std::uint8_t>(Primitive::sine));
+  EXPECT_FALSE(decode(endless).has_value());
+}
+
+TEST(WireForm, OneBadFormulaRefusesTheMessageThatHoldsIt) {
+  wire::Individual bad;
+  bad.formula().primitives({200});
+  wire::Migrants migrants = encode(Migrants{1, {0, 0}, 1, {}});
+  migrants.individuals({bad});
+  EXPECT_FALSE(decode(migrants).has_value());
+  wire::Checkpoint of_state = encode(Checkpoint{});
+  of_state.state().front({bad});
+  EXPECT_FALSE(decode(of_state).has_value());
+  wire::Checkpoint of_recent = encode(Checkpoint{});
+  of_recent.recent({migrants});
+  EXPECT_FALSE(decode(of_recent).has_value());
+  wire::IslandTask task = encode(IslandTask{});
+  task.start().population({bad});
+  EXPECT_FALSE(decode(task).has_value());
+  wire::Outcome outcome = encode(Outcome{});
+  outcome.front({bad});
+  EXPECT_FALSE(decode(outcome).has_value());
+}
+
+TEST(WireForm, JointOrDemeZeroIsRefused) {
+  wire::Progress progress = encode(Progress{});
+  ASSERT_TRUE(decode(progress).has_value());
+  progress.joint(0);
+  EXPECT_FALSE(decode(progress).has_value());
+  progress.joint(1);
+  progress.deme(0);
+  EXPECT_FALSE(decode(progress).has_value());
+}
+
+TEST(WireForm, UnknownCodesInARunsDataAreRefused) {
+  const wire::CalibrationData sound = encode(RandomMessages(3).data());
+  ASSERT_TRUE(decode(sound).has_value());
+  wire::CalibrationData topology = sound, function = sound, joint = sound;
+  topology.archipelago().topology(static_cast<wire::Topology>(3));
+  EXPECT_FALSE(decode(topology).has_value());
+  function.parameters().functions().push_back(10);
+  EXPECT_FALSE(decode(function).has_value());
+  joint.archipelago().joints().push_back(0);
+  EXPECT_FALSE(decode(joint).has_value());
+}
+
+TEST(WireForm, AnUnknownStateOfARunIsRefused) {
+  wire::Control control;
+  control.state(static_cast<wire::RunState>(3));
+  EXPECT_FALSE(decode(control).has_value());
+}
+
+}  // namespace
+}  // namespace demecal
