@@ -66,7 +66,7 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
   std::vector<std::size_t> deciding = poses_of(data, PoseSet::validation);
   if (deciding.empty()) deciding = fitted;
-  const Selection selection = select_corrections(data, deciding, preparation.declared.robot, candidates);
+  const Selection selection = select_corrections(data, fitted, deciding, preparation.declared.robot, candidates);
   Calibration result{.robot = selection.robot, .estimates = preparation.declared.estimates, .joints = {}};
   bool any = false;
   for (const JointChoice& choice : selection.choices) any = any || choice.kept;

@@ -11,7 +11,8 @@ namespace demecal {
 namespace {
 
 constexpr int kSweeps = 5;
-constexpr double kMostOverTarget = 5.0;
+constexpr double kMostOverTarget = 3.0;
+constexpr double kEarned = 2.0;  ///< standard errors of the gain: about one false keep in forty
 
 using SquaredErrors = std::vector<double>;  ///< mm^2, one per deciding pose
 
@@ -49,25 +50,29 @@ struct Trial {
   double sum = 0.0;
 };
 
-double largest_target_rad(const JointTraining& training) {
-  double largest = 0.0;
+/// The target error that one row in twenty exceeds: the largest ones are often poses near a singularity.
+double large_target_rad(const JointTraining& training) {
+  std::vector<double> sizes;
   for (std::size_t row = 0; row < training.table.target.size(); ++row) {
-    if (training.table.weight[row] == 1.0) largest = std::max(largest, std::abs(training.table.target[row]));
+    if (training.table.weight[row] == 1.0) sizes.push_back(std::abs(training.table.target[row]));
   }
-  return largest * training.scale_rad;
+  if (sizes.empty()) return 0.0;
+  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return *place * training.scale_rad;
 }
 
-bool is_bounded(const JointCorrection& correction, double largest_rad) {
-  return magnitude_bound(correction.formula(), correction.range_rad()) <= kMostOverTarget * largest_rad;
+bool is_bounded(const JointCorrection& correction, double large_rad) {
+  return magnitude_bound(correction.formula(), correction.range_rad()) <= kMostOverTarget * large_rad;
 }
 
 std::vector<Trial> try_all(const DataSet& data, std::span<const std::size_t> deciding, CorrectedRobot robot,
                            const JointCandidates& candidates) {
   std::vector<Trial> trials;
-  const double largest_rad = largest_target_rad(candidates.training);
+  const double large_rad = large_target_rad(candidates.training);
   for (const Individual& individual : candidates.front) {
     Trial trial{correction_from(candidates.training, individual.tree), individual.tree.size(), {}, 0.0};
-    if (!is_bounded(trial.correction, largest_rad)) continue;
+    if (!is_bounded(trial.correction, large_rad)) continue;
     robot.corrections[candidates.training.joint] = trial.correction;
     trial.errors = squared_errors(robot, data, deciding);
     trial.sum = sum(trial.errors);
@@ -89,17 +94,32 @@ const Trial* frugal(const std::vector<Trial>& trials) {
   return chosen;
 }
 
+/// Poses by what they are asked.
+struct Juries {
+  std::span<const std::size_t> deciding;
+  std::span<const std::size_t> fitted;
+};
+
+/// Whether putting `with` in place of `without` lowers the error beyond doubt.
+bool earns_its_place(const PairedDifference& gain) {
+  return gain.mean > kEarned * gain.standard_error;
+}
+
 /// The correction this joint is best given while the others stand as they do in `robot`.
-JointCorrection choose(const DataSet& data, std::span<const std::size_t> deciding, CorrectedRobot robot,
+JointCorrection choose(const DataSet& data, const Juries& juries, CorrectedRobot robot,
                        const JointCandidates& candidates, JointChoice& choice) {
-  robot.corrections[candidates.training.joint] = JointCorrection{};
-  const SquaredErrors neutral = squared_errors(robot, data, deciding);
-  const std::vector<Trial> trials = try_all(data, deciding, robot, candidates);
+  JointCorrection& correction = robot.corrections[candidates.training.joint];
+  correction = JointCorrection{};
+  const SquaredErrors neutral = squared_errors(robot, data, juries.deciding);
+  const SquaredErrors neutral_fitted = squared_errors(robot, data, juries.fitted);
+  const std::vector<Trial> trials = try_all(data, juries.deciding, robot, candidates);
   const Trial* chosen = frugal(trials);
   choice.kept = false;
   if (chosen == nullptr) return {};
+  correction = chosen->correction;
   const PairedDifference gain = paired(neutral, chosen->errors);
-  choice.kept = gain.mean > gain.standard_error;
+  choice.kept =
+      earns_its_place(gain) && earns_its_place(paired(neutral_fitted, squared_errors(robot, data, juries.fitted)));
   choice.gain_mm2 = gain.mean;
   choice.gain_error_mm2 = gain.standard_error;
   return choice.kept ? chosen->correction : JointCorrection{};
@@ -110,14 +130,14 @@ bool same(const JointCorrection& a, const JointCorrection& b) {
 }
 
 /// Sweeps over the joints from the corrections in `selection.robot` until nothing changes.
-Selection settle(const DataSet& data, std::span<const std::size_t> deciding, Selection selection,
+Selection settle(const DataSet& data, const Juries& juries, Selection selection,
                  std::span<const JointCandidates> candidates) {
   bool changed = true;
   for (int sweep = 0; sweep < kSweeps && changed; ++sweep) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       JointCorrection& present = selection.robot.corrections[candidates[i].training.joint];
-      const JointCorrection next = choose(data, deciding, selection.robot, candidates[i], selection.choices[i]);
+      const JointCorrection next = choose(data, juries, selection.robot, candidates[i], selection.choices[i]);
       changed = changed || !same(present, next);
       present = next;
     }
@@ -128,10 +148,10 @@ Selection settle(const DataSet& data, std::span<const std::size_t> deciding, Sel
 /// Every joint with what fits its own targets best: the targets belong together, one joint's with another's.
 CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates> candidates) {
   for (const JointCandidates& joint : candidates) {
-    const double largest_rad = largest_target_rad(joint.training);
+    const double large_rad = large_target_rad(joint.training);
     for (const Individual& individual : joint.front) {  // falling fitness: the last one that is bounded stays
       const JointCorrection correction = correction_from(joint.training, individual.tree);
-      if (is_bounded(correction, largest_rad)) robot.corrections[joint.training.joint] = correction;
+      if (is_bounded(correction, large_rad)) robot.corrections[joint.training.joint] = correction;
     }
   }
   return robot;
@@ -139,7 +159,8 @@ CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates
 
 }  // namespace
 
-Selection select_corrections(const DataSet& data, std::span<const std::size_t> deciding, const CorrectedRobot& declared,
+Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
+                             std::span<const std::size_t> deciding, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates) {
   Selection start{declared, {}};
   for (const JointCandidates& joint : candidates) {
@@ -149,7 +170,7 @@ Selection select_corrections(const DataSet& data, std::span<const std::size_t> d
   double least = sum(squared_errors(declared, data, deciding));
   for (const CorrectedRobot& from : {declared, all_fittest(declared, candidates)}) {
     start.robot = from;
-    const Selection settled = settle(data, deciding, start, candidates);
+    const Selection settled = settle(data, {deciding, fitted}, start, candidates);
     const double left = sum(squared_errors(settled.robot, data, deciding));
     if (left < least) {
       best = settled;

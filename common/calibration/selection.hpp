@@ -30,12 +30,15 @@ struct Selection {
 };
 
 /// Joint by joint, in sweeps until nothing changes, once from all joints neutral and once from all joints with what
-/// fits their own targets best (the targets of a pose belong together), whichever ends better: among a joint's
-/// candidates, with the other joints as they stand, the shortest whose mean squared tool error over `deciding` poses is
-/// within half a standard error (paired, pose by pose) of the best; it is kept only if it beats the neutral correction
-/// by more than one standard error. So no correction ever makes the error on the deciding poses worse. `deciding` holds
-/// validation poses; calibration poses where there are none.
-Selection select_corrections(const DataSet& data, std::span<const std::size_t> deciding, const CorrectedRobot& declared,
+/// fits their own targets best (the targets of a pose belong together), whichever ends better. Of a joint's candidates,
+/// with the other joints as they stand, the shortest is taken whose mean squared tool error over the `deciding` poses
+/// is within half a standard error (paired, pose by pose) of the best. It is kept only if it beats the neutral
+/// correction by more than two standard errors on these poses and on the `fitted` ones too, and the whole never does
+/// worse on the deciding poses than no correction. A candidate that interval arithmetic cannot hold below three times
+/// the joint's 95th percentile of target errors over its range (a pole, most often) is not considered (thesis 6.2.2).
+/// `deciding` holds validation poses; the calibration poses where there are none.
+Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
+                             std::span<const std::size_t> deciding, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates);
 
 }  // namespace demecal

@@ -73,7 +73,7 @@ std::string explained_tile(const JsonValue& report, const Verdict& judged) {
 std::string noise_tile(const JsonValue& report) {
   const std::optional<double> floor = report["noise_floor_mm"].number();
   if (!floor) return {};
-  return tile("noise floor", fixed(floor, 3), "mm", "per axis, " + fixed(noise_mean_mm(report), 3) + " mm mean");
+  return tile("noise floor", fixed(floor, 3), "mm", "per axis; mean " + fixed(noise_mean_mm(report), 3));
 }
 
 std::string tiles(const JsonValue& report, const std::optional<Verdict>& judged) {

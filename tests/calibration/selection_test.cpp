@@ -28,7 +28,7 @@ TEST(Selection, KeepsTheTrueErrorsAndLeavesTheRestNeutral) {
   const std::vector<JointCandidates> joints{candidates(0, {"0.0005*COS(theta)", "0.0001*theta"}),
                                             candidates(1, {"0.0003", "0.001*SIN(theta)"}),
                                             candidates(2, {"0.0012*COS(theta)", "0.002*theta"})};
-  const Selection selection = select_corrections(data, deciding, nominal, joints);
+  const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration), deciding, nominal, joints);
   EXPECT_FALSE(selection.choices[0].kept);
   EXPECT_TRUE(selection.choices[1].kept);
   EXPECT_TRUE(selection.choices[2].kept);
@@ -39,8 +39,8 @@ TEST(Selection, KeepsTheTrueErrorsAndLeavesTheRestNeutral) {
 TEST(Selection, TakesTheShorterOfTwoThatDoEquallyWell) {
   const DataSet data = measure(true_puma({"", "0.001*SIN(theta)", "", "", "", ""}), 90, 5e-5, 2, false);
   const std::vector<JointCandidates> joints{candidates(1, {"0.001*SIN(theta)", "0.001*SIN(theta)+0.000000001*theta"})};
-  const Selection selection =
-      select_corrections(data, poses_of(data, PoseSet::validation), nominal_robot(data), joints);
+  const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
+                                                 poses_of(data, PoseSet::validation), nominal_robot(data), joints);
   EXPECT_EQ(selection.robot.corrections[1].formula(),
             apply(Primitive::multiply, constant_tree(1.0), joints[0].front[0].tree));
 }
@@ -54,7 +54,8 @@ TEST(Selection, NeverMakesTheDecidingPosesWorse) {
     for (std::uint32_t joint = 0; joint < 6; ++joint) {
       joints.push_back(candidates(joint, {"0.00002*SIN(theta)", "0.00003*COS(3*theta)", "0-0.00002*SIN(theta)"}));
     }
-    const Selection selection = select_corrections(data, deciding, nominal, joints);
+    const Selection selection =
+        select_corrections(data, poses_of(data, PoseSet::calibration), deciding, nominal, joints);
     EXPECT_LE(error_figures(selection.robot, data, deciding).rms_mm, error_figures(nominal, data, deciding).rms_mm);
   }
 }
@@ -65,8 +66,8 @@ TEST(Selection, DropsCandidatesWithoutFiniteValues) {
   Tree overflowing = constant_tree(1e308);
   overflowing = apply(Primitive::multiply, overflowing, overflowing);
   joint.front.insert(joint.front.begin(), {overflowing, 0.0});
-  const Selection selection =
-      select_corrections(data, poses_of(data, PoseSet::validation), nominal_robot(data), {&joint, 1});
+  const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
+                                                 poses_of(data, PoseSet::validation), nominal_robot(data), {&joint, 1});
   EXPECT_TRUE(selection.choices[0].kept);
   EXPECT_NEAR(selection.robot.corrections[1](0.5), 0.001, 1e-12);
 }
@@ -75,8 +76,8 @@ TEST(Selection, DoesNotConsiderACandidateWithAPoleInTheRange) {
   const DataSet data = measure(true_puma({"", "0.001*SIN(theta)", "", "", "", ""}), 30, 5e-5, 4, false);
   // Nowhere near the pole are there any poses to see it: it does as well as the other one.
   const std::vector<JointCandidates> joints{candidates(1, {"0.001*SIN(theta)+0.000000000001%(theta-2.9)"})};
-  const Selection selection =
-      select_corrections(data, poses_of(data, PoseSet::validation), nominal_robot(data), joints);
+  const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
+                                                 poses_of(data, PoseSet::validation), nominal_robot(data), joints);
   EXPECT_FALSE(selection.choices[0].kept);
 }
 
