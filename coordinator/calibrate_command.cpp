@@ -62,14 +62,14 @@ ExitCode run(Request request) {
   CalibrateOptions options;
   options.quiet = request.quiet;
   options.worker_patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
-  CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
+  const CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
   const RunEnd end = result.end;
   if (end == RunEnd::no_worker) {
     fmt::print(stderr, "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default\n",
                request.worker_timeout_s, request.dds.domain);
     return ExitCode::no_worker;
   }
-  const CalibrationReport report = write_results(request.out, data, std::move(result));
+  const CalibrationReport report = write_results(request.out, data, result);
   fmt::print(
       "{}\n  {} islands on {} workers, {} evaluations in {:.1f} s\n  {}: {}/model.yaml, report.json, report.html, "
       "history.csv\n",

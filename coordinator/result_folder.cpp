@@ -36,7 +36,7 @@ void make_writable(const std::string& folder) {
   std::filesystem::remove(probe, failure);
 }
 
-CalibrationReport write_results(const std::string& folder, const DataSet& data, CalibrateResult result) {
+CalibrationReport write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result) {
   const std::string model_path = folder + "/model.yaml";
   write_file(model_path, model_text(result.model));
   CalibratedModel written = load_model(model_path);

@@ -41,7 +41,7 @@ class Worker {
   void begin(const IslandTask& task);
   void start_ready();
   bool start_one();
-  void finish(const std::shared_ptr<Tenancy>& tenancy);
+  void finish(const std::shared_ptr<Tenancy>& done);
   void announce(bool leaving);
   void forget_run(RunId run);
   void keep_alive();

@@ -9,7 +9,8 @@ namespace demecal {
 /// The bytes of the file. Throws InputError naming the file and the reason where it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Writes the bytes, making the folders on the way; the file appears whole or not at all. Throws InputError naming the file and the reason where it cannot.
+/// Writes the bytes, making the folders on the way; the file appears whole or not at all. Throws InputError naming the
+/// file and the reason where it cannot.
 void write_file(const std::filesystem::path& path, const std::string& bytes);
 
 /// `named` as written in the file `by`: relative to that file's folder unless absolute.

@@ -70,7 +70,8 @@ std::string model_text(const CalibratedModel& model) {
   text << "declared: " << declared_text(model.declared) << '\n';
   text << "base: " << rigid_text(model.robot.sensor_from_base) << "\ntools:\n";
   for (const auto& [target, tool] : model.robot.tools) {
-    text << "  - {" << (target.empty() ? "" : "target: " + yaml_text(target) + ", ") << "pose: " << rigid_text(tool) << "}\n";
+    text << "  - {" << (target.empty() ? "" : "target: " + yaml_text(target) + ", ") << "pose: " << rigid_text(tool)
+         << "}\n";
   }
   text << "links:\n";
   for (const Joint& joint : model.robot.chain.joints) text << "  - " << link_text(joint) << '\n';

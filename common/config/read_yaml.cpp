@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kDeepest = 32;                 // an alias within its own anchor would have no end
+constexpr int kDeepest = 32;                // an alias within its own anchor would have no end
 constexpr std::size_t kMostNodes = 100000;  // aliases of aliases grow beyond any memory
 
 std::size_t line_of(const YAML::Mark& mark) {

@@ -35,8 +35,8 @@ struct DataSet {
   std::map<std::string, Eigen::Vector3d> tools_m;  ///< nominal tool point of each target; empty: the robot's tool
   std::vector<Eigen::Vector3d> anchors_m;          ///< known fixed points of the distances
   bool anchors_unknown = false;
-  std::string file;                                ///< of the poses, as named to the user
-  std::string sha256;                              ///< of the bytes the poses were read from
+  std::string file;    ///< of the poses, as named to the user
+  std::string sha256;  ///< of the bytes the poses were read from
 };
 
 /// Indices into poses, in their order.

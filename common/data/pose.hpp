@@ -16,18 +16,18 @@ enum class PoseSet { calibration, validation, accept };
 using ApproachSigns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxJoints, 1>;
 
 struct MeasuredPose {
-  JointVector joints;                            ///< commanded, rad or m
-  std::optional<Eigen::Vector3d> position_m;     ///< measured tool point
-  std::optional<Eigen::Quaterniond> orientation; ///< measured, unit
-  std::vector<double> distances_m;               ///< measured from fixed points, in the order of DataSet::anchors
+  JointVector joints;                             ///< commanded, rad or m
+  std::optional<Eigen::Vector3d> position_m;      ///< measured tool point
+  std::optional<Eigen::Quaterniond> orientation;  ///< measured, unit
+  std::vector<double> distances_m;                ///< measured from fixed points, in the order of DataSet::anchors
   std::optional<ApproachSigns> approach;
   std::optional<double> payload_kg;
   std::optional<double> temperature_celsius;
   std::optional<double> time_s;
   PoseSet set = PoseSet::calibration;
-  std::string pose_id;                           ///< equal ids are repeats of one pose
-  std::string target;                            ///< which point on the tool; empty: the robot's own tool
-  std::size_t line = 0;                          ///< where it stands in its file
+  std::string pose_id;   ///< equal ids are repeats of one pose
+  std::string target;    ///< which point on the tool; empty: the robot's own tool
+  std::size_t line = 0;  ///< where it stands in its file
 };
 
 }  // namespace demecal

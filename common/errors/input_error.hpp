@@ -12,8 +12,8 @@ namespace demecal {
 class InputError : public std::runtime_error {
  public:
   struct Where {
-    std::string file{};     ///< as the user wrote it; empty where unknown
-    std::size_t line = 0;   ///< from 1; 0 where the fault belongs to no line
+    std::string file{};    ///< as the user wrote it; empty where unknown
+    std::size_t line = 0;  ///< from 1; 0 where the fault belongs to no line
   };
 
   InputError(Where where, const std::string& value, const std::string& rule);

@@ -23,11 +23,11 @@ using RunId = std::uint64_t;
 /// Coordinator -> workers, once per run: all that islands need to know but which of them to work on.
 struct CalibrationData {
   RunId run = 0;
-  std::string job;                     ///< the job's name, for those who watch
+  std::string job;  ///< the job's name, for those who watch
   std::uint64_t seed = 0;
   GpParameters parameters;
   Archipelago archipelago;
-  std::vector<TrainingTable> tables;   ///< parallel to archipelago.joints
+  std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints
 
   bool operator==(const CalibrationData&) const = default;
 };
@@ -36,7 +36,7 @@ struct CalibrationData {
 struct Migrants {
   RunId run = 0;
   IslandKey island;
-  std::uint32_t epoch = 0;             ///< epochs completed when they left: 1 after the first
+  std::uint32_t epoch = 0;  ///< epochs completed when they left: 1 after the first
   Population individuals;
 
   bool operator==(const Migrants&) const = default;
@@ -49,8 +49,8 @@ struct IslandTask {
   IslandKey island;
   std::uint32_t attempt = 0;
   std::string worker;
-  IslandState start;                   ///< epoch 0 and empty for a fresh island
-  std::vector<Migrants> recent;        ///< of that island, published again by the worker that goes on with it
+  IslandState start;             ///< epoch 0 and empty for a fresh island
+  std::vector<Migrants> recent;  ///< of that island, published again by the worker that goes on with it
 
   bool operator==(const IslandTask&) const = default;
 };
@@ -63,21 +63,21 @@ struct Progress {
   std::uint32_t epoch = 0;
   std::uint32_t generation = 0;
   IslandFigures figures;
-  std::uint64_t evaluations = 0;       ///< since the island began
-  double evaluations_per_s = 0.0;      ///< of the last epoch
+  std::uint64_t evaluations = 0;   ///< since the island began
+  double evaluations_per_s = 0.0;  ///< of the last epoch
   std::uint64_t migrants_taken = 0;
 
   bool operator==(const Progress&) const = default;
 };
 
-/// Worker -> coordinator, after each epoch: where another worker can go on, with the emigrants that slower neighbours may
-/// still need.
+/// Worker -> coordinator, after each epoch: where another worker can go on, with the emigrants that slower neighbours
+/// may still need.
 struct Checkpoint {
   RunId run = 0;
   std::uint32_t attempt = 0;
   IslandKey island;
   IslandState state;
-  std::vector<Migrants> recent;        ///< its last kMigrantEpochs emigrations
+  std::vector<Migrants> recent;  ///< its last kMigrantEpochs emigrations
 
   bool operator==(const Checkpoint&) const = default;
 };
@@ -91,20 +91,20 @@ struct Outcome {
   std::uint32_t generations = 0;
   std::uint64_t evaluations = 0;
   std::uint64_t migrants_taken = 0;
-  Population front;                    ///< best of each length
+  Population front;  ///< best of each length
 
   bool operator==(const Outcome&) const = default;
 };
 
 /// Worker -> coordinator and watchers: who I am; repeated as a sign of life.
 struct WorkerStatus {
-  std::string worker;                  ///< unique: host, process id and start time
+  std::string worker;  ///< unique: host, process id and start time
   std::string host;
   std::uint32_t process = 0;
-  std::uint32_t slots = 1;             ///< islands it computes at once
+  std::uint32_t slots = 1;  ///< islands it computes at once
   std::string version;
   bool leaving = false;
-  RunId only_run = 0;                  ///< 0: serves every run
+  RunId only_run = 0;  ///< 0: serves every run
 
   bool operator==(const WorkerStatus&) const = default;
 };
@@ -114,7 +114,7 @@ struct Control {
   enum class State { running, finished, cancelled };
   RunId run = 0;
   State state = State::running;
-  std::string note;                    ///< for those who watch
+  std::string note;  ///< for those who watch
 
   bool operator==(const Control&) const = default;
 };
@@ -126,7 +126,7 @@ struct WorkerLost {
   bool operator==(const WorkerLost&) const = default;
 };
 
-using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus, Control,
-                             WorkerLost>;
+using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus,
+                             Control, WorkerLost>;
 
 }  // namespace demecal

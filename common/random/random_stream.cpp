@@ -27,7 +27,9 @@ std::size_t RandomStream::index(std::size_t n) {
   return static_cast<std::size_t>((static_cast<Wide>(engine_()) * n) >> 64);
 }
 
-double RandomStream::real() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+double RandomStream::real() {
+  return static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+}
 
 double RandomStream::normal() {
   const double radius = std::sqrt(-2.0 * std::log1p(-real()));

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <sstream>
 #include <utility>
-#include <utility>
 
 namespace demecal {
 namespace {

@@ -10,15 +10,16 @@ namespace demecal {
 
 struct DdsOptions {
   std::uint32_t domain = 0;
-  /// local: this machine only, unicast over 127.0.0.1; network: every interface, multicast discovery; with peers, unicast
-  /// discovery to them; with a discovery server, through it.
+  /// local: this machine only, unicast over 127.0.0.1; network: every interface, multicast discovery; with peers,
+  /// unicast discovery to them; with a discovery server, through it.
   enum class Reach { local, network } reach = Reach::local;
-  std::vector<std::string> interfaces;      ///< addresses to bind to; empty: all (network) or 127.0.0.1 (local)
-  std::vector<std::string> peers;           ///< "ADDRESS" of other hosts
-  std::string discovery_server;             ///< "ADDRESS:PORT", or empty
+  std::vector<std::string> interfaces;  ///< addresses to bind to; empty: all (network) or 127.0.0.1 (local)
+  std::vector<std::string> peers;       ///< "ADDRESS" of other hosts
+  std::string discovery_server;         ///< "ADDRESS:PORT", or empty
 };
 
-/// Joins the domain. `name` identifies a worker in WorkerLost. Throws std::runtime_error where no participant can be made.
+/// Joins the domain. `name` identifies a worker in WorkerLost. Throws std::runtime_error where no participant can be
+/// made.
 std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name);
 
 }  // namespace demecal

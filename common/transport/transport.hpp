@@ -17,8 +17,9 @@ enum class Role { coordinator, worker, watcher };
 /// One participant. publish() and receive() may be called from different threads; each of them from one at a time.
 /// Every message is delivered to all participants whose role reads it, never to the sender. Those who come late get the
 /// last value of every key of data, tasks, control, progress, checkpoints, outcomes and worker status, and the last
-/// `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and until a Control
-/// says that the run is over. A slow reader may miss values between, never the last; there is no order between topics.
+/// `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and until a
+/// Control says that the run is over. A slow reader may miss values between, never the last; there is no order between
+/// topics.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -30,8 +31,8 @@ class Transport {
   virtual void wake() = 0;
   /// From now on migrants of this joint (counted from 0) are received, and can be published.
   virtual void follow_migrants(std::uint32_t joint) = 0;
-  /// A sign of life, due at least every third of kLease from each worker's own work loop. From time to time it repeats the
-  /// last WorkerStatus, which others receive only if they took the worker for lost.
+  /// A sign of life, due at least every third of kLease from each worker's own work loop. From time to time it repeats
+  /// the last WorkerStatus, which others receive only if they took the worker for lost.
   virtual void assert_alive() = 0;
   /// Whether all that was published has reached those who read it, within `patience`.
   virtual bool flush(std::chrono::milliseconds patience) = 0;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -17,10 +19,31 @@ namespace demecal {
 /// Longer than anything takes on a busy machine: tests wait for messages, and fail after this.
 inline constexpr std::chrono::seconds kDeadline{30};
 
-/// A domain that tests running at the same time do not share, since each is a process.
+/// A DDS domain of this test process alone: the first from its process id on in which the port of a first participant
+/// is free. DDS gives a domain's ports to whoever asks, so a domain that others are in shows by that port being taken.
+inline std::uint32_t free_domain() {
+  // Their ports lie above those that Linux gives away (to 60999), and people rarely choose domains this high.
+  constexpr std::uint32_t kFirstDomain = 215, kDomains = 17;
+  for (std::uint32_t i = 0; i < kDomains; ++i) {
+    const std::uint32_t domain = kFirstDomain + (static_cast<std::uint32_t>(getpid()) + i) % kDomains;
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_ANY);
+    address.sin_port = htons(static_cast<std::uint16_t>(7410 + 250 * domain));
+    const int socket_of_domain = socket(AF_INET, SOCK_DGRAM, 0);
+    const bool is_free = bind(socket_of_domain, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    close(socket_of_domain);
+    if (is_free) return domain;
+  }
+  ADD_FAILURE() << "no DDS domain is free";
+  return 0;
+}
+
+/// On this machine alone, in one domain for all of this test process.
 inline DdsOptions local_options() {
+  static const std::uint32_t domain = free_domain();
   DdsOptions options;
-  options.domain = 1 + static_cast<std::uint32_t>(getpid()) % 100;
+  options.domain = domain;
   return options;
 }
 

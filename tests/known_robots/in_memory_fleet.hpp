@@ -1,0 +1,40 @@
+// A fleet inside the test's own process.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "coordinator/calibrate.hpp"
+#include "coordinator/in_memory_run.hpp"
+
+namespace demecal {
+
+class InMemoryFleet : public Fleet {
+ public:
+  explicit InMemoryFleet(int workers)
+      : workers_(workers), transport_(join(exchange_, Role::coordinator, "coordinator")) {}
+
+  Transport& transport() override { return *transport_; }
+  void launch(RunId) override {
+    for (int i = 0; i < workers_; ++i) {
+      threads_.push_back(std::make_unique<WorkerThread>(exchange_, std::string("worker-").append(std::to_string(i))));
+    }
+  }
+
+ private:
+  int workers_;
+  std::shared_ptr<Exchange> exchange_ = make_exchange();
+  std::unique_ptr<Transport> transport_;
+  std::vector<std::unique_ptr<WorkerThread>> threads_;
+};
+
+/// The whole calibration of `data`, without files and processes.
+inline CalibrateResult calibrate_in_memory(const DataSet& data, const Job& job, int workers = 2) {
+  const std::atomic<bool> interrupt{false};
+  CalibrateOptions options;
+  options.quiet = true;
+  return calibrate(
+      data, job, [workers] { return std::make_unique<InMemoryFleet>(workers); }, interrupt, options);
+}
+
+}  // namespace demecal
