@@ -33,7 +33,7 @@ TEST(Calibrate, WritesModelReportAndHistoryAndPrintsTheErrors) {
   EXPECT_NE(ended.err.find("generation"), std::string::npos);
   const Json report = Json::parse(job.text("out/report.json"));
   EXPECT_EQ(report["demecal_report"], 1);
-  EXPECT_EQ(report["poses"]["calibration"], 20);
+  EXPECT_EQ(report["poses"]["calibration"], 40);
   EXPECT_EQ(report["runtime"]["islands"], 12);
   EXPECT_EQ(report["runtime"]["generations"], 12 * 20);
   EXPECT_GT(report["runtime"]["migrations"], 0);
