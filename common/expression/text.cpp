@@ -179,7 +179,7 @@ std::string to_text(std::span<const Node> tree, const VariableNames& names) {
                DEMECAL_CHECK(node.variable < names.size(), "variable=" << int{node.variable});
                return Written{names[node.variable]};
              },
-             [](Primitive function, Written argument) {
+             [](Primitive function, const Written& argument) {
                return Written{std::string(traits(function).symbol) + "(" + argument.text + ")"};
              },
              joined)

@@ -8,7 +8,7 @@ namespace {
 constexpr double kSmallestMove = 2e-3;
 
 /// What the random streams of a scenario are for. Apart, so that another noise leaves the poses as they are.
-enum Purpose : std::uint64_t { kPoses = 1, kNoise, kPayload, kRepeats };
+constexpr std::uint64_t kPoses = 1, kNoise = 2, kPayload = 3, kRepeats = 4;
 
 ApproachSigns signs_of_move(const JointVector& from, const JointVector& to) {
   ApproachSigns signs(to.size());

@@ -42,8 +42,8 @@ class SimulatedRobot {
 
  private:
   Situation situation(const Visit& visit) const;
-  JointVector joints_in(const Situation& situation) const;
-  std::vector<Eigen::Vector3d> axis_tilts(const Situation& situation) const;
+  JointVector joints_in(const Situation& at) const;
+  std::vector<Eigen::Vector3d> axis_tilts(const Situation& at) const;
 
   Scenario scenario_;
   Chain true_chain_;

@@ -29,15 +29,15 @@ class DdsParticipant {
 
   /// An end of a topic (with `joint` from 0, for migrants); it must not outlive the participant, nor the listener the
   /// reader. Throws std::runtime_error where Fast DDS refuses.
-  Owned<eprosima::fastdds::dds::DataWriter> make_writer(Topic topic, std::uint32_t joint = 0);
-  Owned<eprosima::fastdds::dds::DataReader> make_reader(Topic topic, std::uint32_t joint,
+  Owned<eprosima::fastdds::dds::DataWriter> make_writer(Topic which, std::uint32_t joint = 0);
+  Owned<eprosima::fastdds::dds::DataReader> make_reader(Topic which, std::uint32_t joint,
                                                         eprosima::fastdds::dds::DataReaderListener* listener);
 
   /// Whether the writer with this handle is one of this participant's.
   bool is_own(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
 
  private:
-  eprosima::fastdds::dds::Topic* topic(Topic topic, std::uint32_t joint);
+  eprosima::fastdds::dds::Topic* topic(Topic which, std::uint32_t joint);
 
   Owned<eprosima::fastdds::dds::DomainParticipant> participant_;
   Owned<eprosima::fastdds::dds::Publisher> publisher_;
