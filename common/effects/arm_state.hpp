@@ -1,0 +1,42 @@
+// How the nominal arm stands at a stop: its axes, its masses' weight on each of them, and its circumstances.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "effects/stop.hpp"
+
+namespace demecal {
+
+/// The places of an arm at which effects move it: place i < n is the frame whose z is the axis of joint i (from 0),
+/// before the joint's own motion; place n is the flange; kSensorPlace is the frame of the measurements.
+inline constexpr int kSensorPlace = -1;
+
+/// Weight at one place, in that place's frame.
+struct PlaceLoad {
+  Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_nm = Eigen::Vector3d::Zero();  ///< about the place's origin
+};
+
+/// Everything an effect may depend on, at the commanded joints of the nominal arm.
+struct ArmState {
+  Stop stop;
+  std::vector<Eigen::Isometry3d> places;  ///< n + 1, in the base frame
+  std::vector<Eigen::Isometry3d> links;   ///< n: the frame fixed in each link, in the base frame
+  std::vector<PlaceLoad> loads;           ///< n: of all links and the payload beyond; known masses only
+  Eigen::Vector3d gravity_mps2;           ///< base frame
+  Eigen::Vector3d payload_point_m;        ///< where the payload hangs: the nominal tool point, base frame
+  Eigen::Vector3d tool_in_sensor_m;       ///< the tool point in the frame of the measurements
+
+  const JointVector& joints() const { return stop.joints; }
+  /// The sign of the joint's last motion; 0 where unknown.
+  double approach(int joint) const { return stop.approach.size() > 0 ? stop.approach[joint] : 0.0; }
+  /// What gravity does to the joint along its axis: Nm for revolute, N for prismatic joints.
+  double torque(const Chain& chain, int joint) const;
+};
+
+/// The state of `robot` at `stop`; the tool point in the sensor's frame is set by the caller who knows it.
+ArmState arm_state(const Robot& robot, const Stop& stop);
+
+}  // namespace demecal

@@ -1,0 +1,111 @@
+// An effect that a model may lack: small motions of the arm, linear in a few coefficients, and what people call it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "effects/arm_state.hpp"
+#include "expression/interval.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+
+namespace demecal {
+
+/// The joints' measured ranges within which an effect was identified: joint (from 0) and interval (rad or m).
+using MeasuredRanges = std::map<int, Interval>;
+
+/// One effect as a value: which law, where, and how much of it.
+struct Effect {
+  std::string kind;                        ///< a word of the catalogue
+  int joint = -1;                          ///< from 0; -1: of the whole arm or of the instrument
+  std::map<std::string, double> settings;  ///< given numbers by their name with unit: "ratio", "order", "from"
+  std::string form;                        ///< which form of the law, where there are several
+  Tree formula;                            ///< of a symbolic effect, in symbolic_variables(); empty otherwise
+  std::vector<double> values;              ///< coefficients, SI; empty: all zero
+  std::vector<double> standard_errors;     ///< of the coefficients, SI; empty: unknown
+  MeasuredRanges ranges;                   ///< empty: everywhere
+
+  double setting(const std::string& name) const;  ///< must exist
+  double value(std::size_t coefficient) const { return values.empty() ? 0.0 : values[coefficient]; }
+  /// Whether both are the same law at the same place with the same settings, whatever the coefficients.
+  bool same_law_as(const Effect& other) const;
+};
+
+/// What a unit of one coefficient does at a stop: `size` of motion along or about an axis of a place.
+struct UnitMotion {
+  int coefficient = 0;
+  int place = 0;
+  int axis = 0;       ///< of the place's frame: 0-2 translation along x, y, z (m); 3-5 rotation about them (rad)
+  double size = 0.0;  ///< per unit of the coefficient
+};
+
+/// The name of a coefficient as reports and models write it, with its unit; values at borders are SI.
+struct CoefficientLabel {
+  std::string name;  ///< "width_rad", "cosine_rad", "rad_per_nm"
+  std::string unit;  ///< "rad", "rad/Nm", "1"
+};
+
+/// What a data set must hold for an effect to be seen.
+struct Needs {
+  bool approach = false, payload = false, temperature = false, time = false, masses = false;
+};
+
+/// What the data at hand hold: proposals are made within it.
+struct Evidence {
+  bool approach = false, payload = false, temperature = false, time = false, masses = false;  ///< recorded and varied
+  std::vector<Interval> joint_ranges;      ///< one per joint, rad or m
+  double mean_temperature_celsius = 20.0;  ///< a reference for thermal effects
+  double mean_time_s = 0.0;                ///< a reference for drift
+  int highest_ratio = 200;                 ///< of the scan over gear harmonics
+  std::vector<double> stated_ratios;       ///< beyond the scan
+};
+
+/// A law of the catalogue. Laws know no coefficients' values unless an effect brings them.
+class EffectLaw {
+ public:
+  virtual ~EffectLaw() = default;
+
+  /// The catalogue's word.
+  virtual std::string_view kind() const = 0;
+  /// The coefficients of this effect, in order.
+  virtual std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const = 0;
+  /// Appends what a unit of each coefficient does at `state`.
+  virtual void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                            std::vector<UnitMotion>& motions) const = 0;
+  /// The effects of this kind that are worth trying on such data, coefficients unknown.
+  virtual std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const = 0;
+  /// What data must hold for it to be seen.
+  virtual Needs needs(const Effect& effect) const = 0;
+  /// "dq2 = -0.00025 rad s2": value, law and unit in one line.
+  virtual std::string formula(const Effect& effect, const Robot& robot) const = 0;
+  /// For a person: what is the matter, how much of it, and where.
+  virtual std::string diagnosis(const Effect& effect, const Robot& robot) const = 0;
+  /// Names of the settings this law has.
+  virtual std::vector<std::string> settings() const { return {}; }
+  /// Names of the forms this law has; empty: one form only.
+  virtual std::vector<std::string> forms() const { return {}; }
+  /// Whether the effect is of one joint.
+  virtual bool of_joint() const { return true; }
+  /// The joints whose value it depends on and beyond whose measured range it is not known.
+  virtual std::vector<int> ranged_joints(const Effect&) const { return {}; }
+};
+
+/// All laws, in the catalogue's order.
+const std::vector<const EffectLaw*>& catalogue();
+/// The law of a kind; null where there is none.
+const EffectLaw* find_law(std::string_view kind);
+/// The law of an effect, which must be of the catalogue.
+const EffectLaw& law_of(const Effect& effect);
+
+/// What a unit of each coefficient does at `state`, less outside the ranges the effect was measured in: there it fades
+/// within 0.1 rad (or m).
+void append_unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                         std::vector<UnitMotion>& motions);
+
+/// 1 inside the ranges, 0 beyond 0.1 rad (m) from them, smooth between. Whole turns of revolute joints do not count.
+double known_share(const Effect& effect, const Chain& chain, const JointVector& joints);
+
+}  // namespace demecal
