@@ -33,7 +33,8 @@ struct CalibrateResult {
   RunEnd end = RunEnd::finished;
   CalibratedModel model;
   Preparation preparation;
-  Calibration calibration;
+  Calibration calibration;  ///< what the closed loop started from
+  LoopOutcome loop;
   std::vector<Progress> history;
   RunFacts facts;
 };

@@ -42,7 +42,9 @@ CalibrationReport write_results(const std::string& folder, const DataSet& data, 
   CalibratedModel written = load_model(model_path);
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
-  const CalibrationReport report = make_report(data, written, result.preparation, result.calibration, result.facts);
+  const CorrectedRobot& before = written.robot.effects.empty() ? written.robot : result.calibration.robot;
+  const CalibrationReport report =
+      make_report(data, written, before, result.loop, result.preparation, result.calibration, result.facts);
   const std::string json = to_json(report);
   const std::string history = history_csv(history_rows(result.history));
   write_file(folder + "/report.json", json);

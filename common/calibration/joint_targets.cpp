@@ -18,7 +18,7 @@ double characteristic_length_m(const Chain& chain) {
 
 Eigen::Vector3d measured_position(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
   if (pose.position_m) return *pose.position_m;
-  Eigen::Isometry3d at = robot.predict(pose.joints, pose.target);
+  Eigen::Isometry3d at = robot.predict(Stop(pose), pose.target);
   CorrectedRobot moved = robot;
   for (int iteration = 0; iteration < 5; ++iteration) {
     const Eigen::VectorXd missing = residual(moved, data, pose);
@@ -31,7 +31,7 @@ Eigen::Vector3d measured_position(const CorrectedRobot& robot, const DataSet& da
 }
 
 Eigen::Isometry3d goal(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  Eigen::Isometry3d target = robot.predict(pose.joints, pose.target);
+  Eigen::Isometry3d target = robot.predict(Stop(pose), pose.target);
   if (pose.orientation) target.linear() = pose.orientation->toRotationMatrix();
   target.translation() = measured_position(robot, data, pose);
   return target;
@@ -74,7 +74,10 @@ JointTargets joint_targets(const DataSet& data, std::span<const std::size_t> pos
   options.length_m = characteristic_length_m(robot.chain);
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = data.poses[index];
-    const PoseFunction model = [&](const JointVector& q) { return robot.predict_with_jacobian(q, pose.target); };
+    const Stop stop(pose);
+    const PoseFunction model = [&](const JointVector& q) {
+      return robot.predict_with_jacobian(stop.with_joints(q), pose.target);
+    };
     const InverseSolution solution = inverse(model, goal(robot, data, pose), pose.joints, options);
     const double weight = pose_weight(solution, options);
     if (weight < 1.0) targets.singular.push_back({index, solution.smallest_singular, solution.status});

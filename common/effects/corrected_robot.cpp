@@ -13,6 +13,20 @@ Eigen::Isometry3d tool_at(const Eigen::Vector3d& point_m) {
   return Eigen::Isometry3d(Eigen::Translation3d(point_m));
 }
 
+struct StandingArm {
+  Kinematics at;
+  Eigen::Isometry3d base;  ///< in the measurements' frame, as the instrument's own effects show it
+};
+
+StandingArm kinematics_at(const CorrectedRobot& robot, const Stop& stop, const std::string& target) {
+  const JointVector corrected = robot.corrected_joints(stop.joints);
+  const Eigen::Vector3d point_m = robot.tool(target).translation();
+  if (robot.effects.empty()) return {differential_kinematics(robot.chain, corrected, point_m), robot.sensor_from_base};
+  const Displacement by = displacement(robot.chain, robot.effects, robot.motions(stop, target));
+  return {differential_kinematics(robot.chain, corrected + by.joints, point_m, by.places).at,
+          moved(Eigen::Isometry3d::Identity(), by.sensor) * robot.sensor_from_base};
+}
+
 }  // namespace
 
 const Eigen::Isometry3d& CorrectedRobot::tool(const std::string& target) const {
@@ -21,27 +35,48 @@ const Eigen::Isometry3d& CorrectedRobot::tool(const std::string& target) const {
   return found->second;
 }
 
-JointVector CorrectedRobot::actual_joints(const JointVector& commanded) const {
+JointVector CorrectedRobot::corrected_joints(const JointVector& commanded) const {
   DEMECAL_CHECK(commanded.size() == static_cast<Eigen::Index>(corrections.size()),
                 commanded.size() << " joint values for " << corrections.size() << " corrections");
-  JointVector actual = commanded;
-  for (Eigen::Index i = 0; i < actual.size(); ++i) {
-    actual[i] += corrections[static_cast<std::size_t>(i)](commanded[i]);
+  JointVector corrected = commanded;
+  for (Eigen::Index i = 0; i < corrected.size(); ++i) {
+    corrected[i] += corrections[static_cast<std::size_t>(i)](commanded[i]);
   }
-  return actual;
+  return corrected;
 }
 
-Eigen::Isometry3d CorrectedRobot::predict(const JointVector& commanded, const std::string& target) const {
-  return sensor_from_base * forward(chain, actual_joints(commanded)) * tool(target);
+JointVector CorrectedRobot::actual_joints(const Stop& stop) const {
+  if (effects.empty()) return corrected_joints(stop.joints);
+  const auto at = effect_motions(effects, described, arm_state(described, stop));
+  return corrected_joints(stop.joints) + displacement(chain, effects, at).joints;
 }
 
-PoseAndJacobian CorrectedRobot::predict_with_jacobian(const JointVector& commanded, const std::string& target) const {
+std::vector<EffectMotion> CorrectedRobot::motions(const Stop& stop, const std::string& target) const {
+  if (effects.empty()) return {};
+  ArmState state = arm_state(described, stop);
+  state.tool_in_sensor_m = predict(corrected_joints(stop.joints), {}, target).translation();
+  return effect_motions(effects, described, state);
+}
+
+Eigen::Isometry3d CorrectedRobot::predict(const Stop& stop, const std::string& target) const {
+  return predict(corrected_joints(stop.joints), motions(stop, target), target);
+}
+
+Eigen::Isometry3d CorrectedRobot::predict(const JointVector& corrected, const std::vector<EffectMotion>& motions,
+                                          const std::string& target) const {
+  if (motions.empty()) return sensor_from_base * forward(chain, corrected) * tool(target);
+  const Displacement by = displacement(chain, effects, motions);
+  const Eigen::Isometry3d base = moved(Eigen::Isometry3d::Identity(), by.sensor) * sensor_from_base;
+  return base * forward(chain, corrected + by.joints, by.places) * tool(target);
+}
+
+PoseAndJacobian CorrectedRobot::predict_with_jacobian(const Stop& stop, const std::string& target) const {
   const Eigen::Isometry3d& flange_from_tool = tool(target);
-  const Kinematics at = differential_kinematics(chain, actual_joints(commanded), flange_from_tool.translation());
-  PoseAndJacobian result{sensor_from_base * at.flange * flange_from_tool, at.joints};
-  const Eigen::Matrix3d rotation = sensor_from_base.linear();
+  const auto [at, base] = kinematics_at(*this, stop, target);
+  PoseAndJacobian result{base * at.flange * flange_from_tool, at.joints};
+  const Eigen::Matrix3d rotation = base.linear();
   for (Eigen::Index i = 0; i < result.jacobian.cols(); ++i) {
-    const double gain = 1.0 + corrections[static_cast<std::size_t>(i)].slope(commanded[i]);
+    const double gain = 1.0 + corrections[static_cast<std::size_t>(i)].slope(stop.joints[i]);
     result.jacobian.col(i).head<3>() = gain * rotation * at.joints.col(i).head<3>();
     result.jacobian.col(i).tail<3>() = gain * rotation * at.joints.col(i).tail<3>();
   }
@@ -51,6 +86,7 @@ PoseAndJacobian CorrectedRobot::predict_with_jacobian(const JointVector& command
 CorrectedRobot nominal_robot(const DataSet& data) {
   CorrectedRobot robot;
   robot.chain = data.robot.chain;
+  robot.described = data.robot;
   robot.tools[""] = tool_at(robot.chain.tool_m);
   for (const auto& [target, point_m] : data.tools_m) robot.tools[target] = tool_at(point_m);
   for (const MeasuredPose& pose : data.poses) robot.tools.try_emplace(pose.target, tool_at(nominal_tool(data, pose)));
@@ -58,18 +94,20 @@ CorrectedRobot nominal_robot(const DataSet& data) {
   return robot;
 }
 
-InverseSolution corrected_command(const CorrectedRobot& robot, const Chain& nominal, const JointVector& desired,
+InverseSolution corrected_command(const CorrectedRobot& robot, const Chain& nominal, const Stop& desired,
                                   const InverseOptions& options) {
   const std::string own_tool;
-  const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, desired) * robot.tool(own_tool);
-  const auto model = [&](const JointVector& commanded) { return robot.predict_with_jacobian(commanded, own_tool); };
-  const InverseSolution exact = inverse(model, goal, desired, options);
+  const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, desired.joints) * robot.tool(own_tool);
+  const PoseFunction model = [&](const JointVector& commanded) {
+    return robot.predict_with_jacobian(desired.with_joints(commanded), own_tool);
+  };
+  const InverseSolution exact = inverse(model, goal, desired.joints, options);
   const bool converged = exact.status == InverseStatus::converged;
-  if (converged && (exact.q - desired).cwiseAbs().maxCoeff() <= kLargestCorrection) return exact;
+  if (converged && (exact.q - desired.joints).cwiseAbs().maxCoeff() <= kLargestCorrection) return exact;
 
   InverseSolution nearest = exact;
-  nearest.q = damped_least_squares(model, goal, desired);
-  const PoseError left = pose_error(robot.predict(nearest.q, own_tool), goal);
+  nearest.q = damped_least_squares(model, goal, desired.joints);
+  const PoseError left = pose_error(robot.predict(desired.with_joints(nearest.q), own_tool), goal);
   nearest.position_residual_m = left.head<3>().norm();
   nearest.orientation_residual_rad = left.tail<3>().norm();
   if (converged) nearest.status = InverseStatus::damped;

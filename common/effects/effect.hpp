@@ -19,14 +19,14 @@ using MeasuredRanges = std::map<int, Interval>;
 
 /// One effect as a value: which law, where, and how much of it.
 struct Effect {
-  std::string kind;                        ///< a word of the catalogue
-  int joint = -1;                          ///< from 0; -1: of the whole arm or of the instrument
-  std::map<std::string, double> settings;  ///< given numbers by their name with unit: "ratio", "order", "from"
-  std::string form;                        ///< which form of the law, where there are several
-  Tree formula;                            ///< of a symbolic effect, in symbolic_variables(); empty otherwise
-  std::vector<double> values;              ///< coefficients, SI; empty: all zero
-  std::vector<double> standard_errors;     ///< of the coefficients, SI; empty: unknown
-  MeasuredRanges ranges;                   ///< empty: everywhere
+  std::string kind;                          ///< a word of the catalogue
+  int joint = -1;                            ///< from 0; -1: of the whole arm or of the instrument
+  std::map<std::string, double> settings{};  ///< given numbers by name with unit; "from" is a joint, from 1
+  std::string form{};                        ///< which form of the law, where there are several; empty: its first
+  Tree formula{};                            ///< of a symbolic effect, in symbolic_variables(); empty otherwise
+  std::vector<double> values{};              ///< coefficients, SI; empty: all zero
+  std::vector<double> standard_errors{};     ///< of the coefficients, SI; empty: unknown
+  MeasuredRanges ranges{};                   ///< empty: everywhere
 
   double setting(const std::string& name) const;  ///< must exist
   double value(std::size_t coefficient) const { return values.empty() ? 0.0 : values[coefficient]; }
@@ -55,12 +55,14 @@ struct Needs {
 
 /// What the data at hand hold: proposals are made within it.
 struct Evidence {
-  bool approach = false, payload = false, temperature = false, time = false, masses = false;  ///< recorded and varied
-  std::vector<Interval> joint_ranges;      ///< one per joint, rad or m
+  bool approach = false, payload = false, temperature = false, time = false;  ///< recorded and varied
+  bool masses = false;                     ///< the links' masses are known, and trusted
+  bool orientation = false;                ///< measured
+  std::vector<Interval> joint_ranges{};    ///< one per joint, rad or m
   double mean_temperature_celsius = 20.0;  ///< a reference for thermal effects
   double mean_time_s = 0.0;                ///< a reference for drift
   int highest_ratio = 200;                 ///< of the scan over gear harmonics
-  std::vector<double> stated_ratios;       ///< beyond the scan
+  std::vector<double> stated_ratios{};     ///< beyond the scan
 };
 
 /// A law of the catalogue. Laws know no coefficients' values unless an effect brings them.
@@ -78,7 +80,7 @@ class EffectLaw {
   /// The effects of this kind that are worth trying on such data, coefficients unknown.
   virtual std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const = 0;
   /// What data must hold for it to be seen.
-  virtual Needs needs(const Effect& effect) const = 0;
+  virtual Needs needs(const Effect& effect, const Robot& robot) const = 0;
   /// "dq2 = -0.00025 rad s2": value, law and unit in one line.
   virtual std::string formula(const Effect& effect, const Robot& robot) const = 0;
   /// For a person: what is the matter, how much of it, and where.
@@ -90,7 +92,7 @@ class EffectLaw {
   /// Whether the effect is of one joint.
   virtual bool of_joint() const { return true; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
-  virtual std::vector<int> ranged_joints(const Effect&) const { return {}; }
+  virtual std::vector<int> ranged_joints(const Effect& /*effect*/, const Robot& /*robot*/) const { return {}; }
 };
 
 /// All laws, in the catalogue's order.
@@ -99,6 +101,10 @@ const std::vector<const EffectLaw*>& catalogue();
 const EffectLaw* find_law(std::string_view kind);
 /// The law of an effect, which must be of the catalogue.
 const EffectLaw& law_of(const Effect& effect);
+
+/// What the formula of a symbolic effect may speak of: q1 .. qn (rad or m), and of its own joint tau (Nm or N, of
+/// gravity), s (approach sign) and T (K above the setting reference_celsius).
+VariableNames symbolic_variables(const Chain& chain);
 
 /// What a unit of each coefficient does at `state`, less outside the ranges the effect was measured in: there it fades
 /// within 0.1 rad (or m).

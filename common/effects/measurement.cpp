@@ -44,7 +44,7 @@ MeasurementRows rows_of(const MeasuredPose& pose) {
 }
 
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  return residual(robot.predict(pose.joints, pose.target), data, pose);
+  return residual(robot.predict(Stop(pose), pose.target), data, pose);
 }
 
 Eigen::VectorXd residual(const Eigen::Isometry3d& predicted, const DataSet& data, const MeasuredPose& pose) {
@@ -72,7 +72,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const Eigen::Isome
 }
 
 double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  const Eigen::Vector3d predicted = robot.predict(pose.joints, pose.target).translation();
+  const Eigen::Vector3d predicted = robot.predict(Stop(pose), pose.target).translation();
   if (pose.position_m) return (*pose.position_m - predicted).norm();
   if (pose.distances_m.empty()) return kNone;
   return distance_errors(predicted, data, pose).norm() / std::sqrt(static_cast<double>(pose.distances_m.size()));

@@ -9,4 +9,10 @@ Stop::Stop(const MeasuredPose& pose)
       temperature_celsius(pose.temperature_celsius),
       time_s(pose.time_s) {}
 
+Stop Stop::with_joints(const JointVector& commanded) const {
+  Stop stop = *this;
+  stop.joints = commanded;
+  return stop;
+}
+
 }  // namespace demecal

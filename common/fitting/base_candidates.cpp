@@ -10,7 +10,7 @@ namespace {
 
 /// The tool of an observation as the robot has it, in the robot's base.
 Eigen::Vector3d point_in_base(const DataSet& data, const CorrectedRobot& robot, const Observation& observation) {
-  return forward(robot.chain, observation.actual) * robot.tool(data.poses[observation.pose].target).translation();
+  return forward(robot.chain, observation.corrected) * robot.tool(data.poses[observation.pose].target).translation();
 }
 
 Eigen::Isometry3d standing(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& point_in_base,

@@ -32,7 +32,8 @@ void turn_tools(CorrectedRobot& robot, const DataSet& data, const std::vector<Ob
   for (const Observation& observation : observations) {
     const MeasuredPose& pose = data.poses[observation.pose];
     if (!pose.orientation) continue;
-    const Eigen::Matrix3d flange = robot.sensor_from_base.linear() * forward(robot.chain, observation.actual).linear();
+    const Eigen::Matrix3d flange =
+        robot.sensor_from_base.linear() * forward(robot.chain, observation.corrected).linear();
     const Eigen::Matrix3d tool = flange.transpose() * pose.orientation->toRotationMatrix();
     sums.try_emplace(pose.target, Eigen::Matrix3d::Zero()).first->second += tool;
   }
@@ -107,13 +108,17 @@ class Search {
 CorrectedRobot place(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                      const CorrectedRobot& start, const FitOptions& options) {
   if (options.starts == 0 || !(declared.registration || declared.tool)) return start;
-  const Search search(data, poses, declared, start, options);
+  CorrectedRobot without_effects = start;
+  without_effects.effects.clear();
+  const Search search(data, poses, declared, without_effects, options);
   std::vector<Eigen::Isometry3d> bases{start.sensor_from_base};
   if (declared.registration && data.frame == Frame::sensor) {
-    const auto others = base_candidates(data, search.observations(), start, options.starts);
+    const auto others = base_candidates(data, search.observations(), without_effects, options.starts);
     bases.insert(bases.end(), others.begin(), others.end());
   }
-  return search.best_of(bases);
+  CorrectedRobot placed = search.best_of(bases);
+  placed.effects = start.effects;
+  return placed;
 }
 
 }  // namespace demecal

@@ -12,7 +12,8 @@ namespace demecal {
 /// one to the end. Starts are: the start's own base; the closed-form registration of its predicted points to the
 /// measured ones; and options.starts orientations spread evenly over all (super-Fibonacci spiral, Alexa 2022) with the
 /// middle of the points brought together or, where only distances were measured, set down around the anchors. The base
-/// is searched for only in a data set whose frame is the instrument's. With options.starts 0 the start is trusted.
+/// is searched for only in a data set whose frame is the instrument's. The start's effects are too small to matter to
+/// the search, which leaves them out. With options.starts 0 the start is trusted.
 CorrectedRobot place(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                      const CorrectedRobot& start, const FitOptions& options);
 

@@ -29,6 +29,7 @@ std::string link_name(LinkParameter parameter) {
 
 std::string ParameterId::name() const {
   if (kind == Kind::link) return "joint " + std::to_string(index + 1) + " " + link_name(link);
+  if (kind == Kind::effect) return effect;
   const std::string axis = kAxes.at(static_cast<std::size_t>(index));
   const std::string of_what = kind == Kind::base_translation || kind == Kind::base_rotation ? "base_" : "tool_";
   const std::string suffix = target.empty() ? "" : " of " + target;
@@ -36,6 +37,7 @@ std::string ParameterId::name() const {
 }
 
 bool ParameterId::is_angle() const {
+  if (kind == Kind::effect) return false;
   if (kind != Kind::link) return kind == Kind::base_rotation || kind == Kind::tool_rotation;
   return link == LinkParameter::theta || link == LinkParameter::alpha || link == LinkParameter::beta;
 }

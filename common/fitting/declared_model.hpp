@@ -18,17 +18,21 @@ struct DeclaredModel {
 
 /// One number of the model that can be identified.
 struct ParameterId {
-  enum class Kind { base_translation, base_rotation, tool_translation, tool_rotation, link };
+  enum class Kind { base_translation, base_rotation, tool_translation, tool_rotation, link, effect };
   Kind kind = Kind::link;
-  int index = 0;  ///< axis 0..2 of base and tool parameters; joint (from 0) of link parameters
+  int index = 0;  ///< axis 0..2 of base and tool parameters; joint (from 0) of links; which of the model's effects
   LinkParameter link = LinkParameter::theta;
-  std::string target;  ///< of tool parameters
+  std::string target{};  ///< of tool parameters
+  int coefficient = 0;   ///< of an effect's parameters
+  std::string effect{};  ///< what the coefficient is called, with unit: "backlash joint 2 width_rad"
 
   bool operator==(const ParameterId&) const = default;
 
-  /// As reports and models write it, with unit: "base_x_mm", "tool_rz_deg", "joint 2 alpha_deg".
+  /// As reports and models write it, with unit: "base_x_mm", "tool_rz_deg", "joint 2 alpha_deg", "backlash
+  /// joint 2 width_rad". Coefficients of effects are in SI units.
   std::string name() const;
-  /// Whether it is an angle (rad inside, degrees at borders) or a length (m, mm).
+  /// Whether it is an angle (rad inside, degrees at borders); otherwise it is a length (m, mm) or, of an effect,
+  /// neither.
   bool is_angle() const;
 };
 

@@ -103,6 +103,16 @@ std::string summary_of(const Fit& fit, std::size_t poses) {
   return text;
 }
 
+/// Standard errors to the robot's effects: all of an effect's coefficients are free, or none.
+void tell_effects(const std::vector<ParameterEstimate>& estimates, std::vector<Effect>& effects) {
+  for (const ParameterEstimate& estimate : estimates) {
+    if (estimate.id.kind != ParameterId::Kind::effect) continue;
+    Effect& effect = effects[static_cast<std::size_t>(estimate.id.index)];
+    effect.standard_errors.resize(effect.values.size());
+    effect.standard_errors[static_cast<std::size_t>(estimate.id.coefficient)] = estimate.standard_error;
+  }
+}
+
 Fit reported(const LeastSquares& problem, const Result& result, const CorrectedRobot& nominal,
              const Eigen::MatrixXd& covariance) {
   const Scatter& scatter = result.scatter;
@@ -115,6 +125,7 @@ Fit reported(const LeastSquares& problem, const Result& result, const CorrectedR
   fit.sigma_distance_m = scatter.deviation[kDistance];
   fit.outliers = scatter.outliers;
   fit.estimates = estimates_of(problem.space, point, nominal, covariance);
+  tell_effects(fit.estimates, fit.robot.effects);
   return fit;
 }
 
@@ -135,20 +146,32 @@ Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double
   return fit;
 }
 
-}  // namespace
+/// The declared parameters and, where they are to be refitted, the coefficients of the start's effects.
+std::vector<ParameterId> parameters_of(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& start,
+                                       const FitOptions& options) {
+  std::vector<ParameterId> ids = free_parameters(data, declared, options);
+  if (!options.refit_effects) return ids;
+  for (ParameterId& id : effect_parameters(start)) ids.push_back(std::move(id));
+  return ids;
+}
 
-Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
-                 const CorrectedRobot& start, const FitOptions& options) {
-  refuse_unknown_anchors(data, poses);
-  const std::vector<ParameterId> ids = free_parameters(data, declared, options);
+/// Whether effects that depend on where the tool is seen are told something else at the robot fitted than at its start.
+bool moved_on(const std::vector<Observation>& before, const std::vector<Observation>& after) {
+  const auto same = [](const EffectMotion& a, const EffectMotion& b) { return a.unit.size == b.unit.size; };
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto &a = before[i].motions, &b = after[i].motions;
+    if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) return true;
+  }
+  return false;
+}
+
+/// Fits from a start whose base and tools stand about where they should.
+Fit fit_placed(const DataSet& data, const std::vector<Observation>& observations, const std::vector<ParameterId>& ids,
+               const CorrectedRobot& placed, bool tool, const FitOptions& options) {
+  const RowScales scales = first_scales(data, placed, observations, tool);
   const auto parameters = static_cast<int>(ids.size());
-  const auto observations = observe(data, poses, start);
-  const int measured = rows_in_use(data, observations, {1.0, 1.0, 1.0});
-  if (measured <= parameters) return too_few(start, poses.size(), measured, parameters);
-  const CorrectedRobot placed = place(data, poses, declared, start, options);
-  const RowScales scales = first_scales(data, placed, observations, declared.tool);
   const int usable = rows_in_use(data, observations, scales);
-  if (usable <= parameters) return too_few(start, poses.size(), usable, parameters);
+  if (usable <= parameters) return too_few(placed, observations.size(), usable, parameters);
   const ParameterSpace space(placed, ids);
   const CorrectedRobot nominal = nominal_robot(data);
   return fit_identifiable({.data = data,
@@ -162,9 +185,32 @@ Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const 
                           nominal, options.rank_tolerance);
 }
 
+}  // namespace
+
+Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
+                 const CorrectedRobot& start, const FitOptions& options) {
+  refuse_unknown_anchors(data, poses);
+  const std::vector<ParameterId> ids = parameters_of(data, declared, start, options);
+  const auto parameters = static_cast<int>(ids.size());
+  int measured = 0;
+  for (const std::size_t pose : poses) measured += rows_of(data.poses[pose]).total();
+  if (measured <= parameters) return too_few(start, poses.size(), measured, parameters);
+  const CorrectedRobot placed = place(data, poses, declared, start, options);
+  const auto observations = observe(data, poses, placed);
+  Fit fit = fit_placed(data, observations, ids, placed, declared.tool, options);
+  if (fit.status == FitStatus::too_few_poses) {
+    fit.robot = start;
+    return fit;
+  }
+  const auto seen_anew = observe(data, poses, fit.robot);
+  return moved_on(observations, seen_anew) ? fit_placed(data, seen_anew, ids, fit.robot, declared.tool, options) : fit;
+}
+
 Fit fit_registration(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                      const CorrectedRobot& start, const FitOptions& options) {
-  return fit_declared(data, poses, {.registration = declared.registration, .tool = declared.tool}, start, options);
+  FitOptions kept = options;
+  kept.refit_effects = false;
+  return fit_declared(data, poses, {.registration = declared.registration, .tool = declared.tool}, start, kept);
 }
 
 }  // namespace demecal

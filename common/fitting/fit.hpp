@@ -36,6 +36,7 @@ struct FitOptions {
   int max_iterations = 100;
   double rank_tolerance = 1e-9;  ///< relative singular value below which a direction is held
   bool robust = true;            ///< down-weights poses far out (Huber); costs 1 % of precision on clean data
+  bool refit_effects = true;     ///< frees the coefficients of the start's effects; otherwise they are kept
   double near_parallel_rad = 0.02;
   /// Standard deviations of a maker's link figures about the truth, m and rad; 0: nothing is assumed of them. They keep
   /// parameters that the poses hardly show from running away, and vanish beside those that the poses do show.
@@ -63,7 +64,12 @@ struct Fit {
 /// axis has a direction but no place, the two angles theta and alpha (beta and alpha on such a link).
 std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared, const FitOptions& options);
 
-/// Least squares over the poses `poses` of what they measured, from `start` (its corrections are kept as they are).
+/// Every coefficient of the robot's effects, by effect.
+std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot);
+
+/// Least squares over the poses `poses` of what they measured, from `start`: the declared parameters and the
+/// coefficients of the start's effects together (its corrections are kept as they are). The effects of the result have
+/// standard errors.
 /// Position, orientation and distance rows are weighed against each other by their own residual scales, re-estimated
 /// until they settle. Without the tool declared, orientations more than 0.1 rad off the start's tool are taken to be a
 /// target mounted otherwise, and not used. With the frame the instrument's and registration declared, the base is first
@@ -74,7 +80,7 @@ std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredMode
 Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                  const CorrectedRobot& start, const FitOptions& options = {});
 
-/// Only registration, and tool where declared: the "registered" robot of the report.
+/// Only registration, and tool where declared: the "registered" robot of the report. Effects are kept as they are.
 Fit fit_registration(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                      const CorrectedRobot& start, const FitOptions& options = {});
 

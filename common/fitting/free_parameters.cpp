@@ -1,4 +1,5 @@
 #include <set>
+#include <sstream>
 
 #include "fitting/fit.hpp"
 
@@ -63,7 +64,36 @@ void add_tools(std::vector<ParameterId>& ids, const DataSet& data) {
   }
 }
 
+/// "gear_harmonic joint 2 (ratio 107)": which law, where, with which settings.
+std::string effect_name(const Effect& effect) {
+  std::ostringstream name;
+  name << effect.kind;
+  if (effect.joint >= 0) name << " joint " << effect.joint + 1;
+  const char* before = " (";
+  for (const auto& [setting, value] : effect.settings) {
+    name << before << setting << ' ' << value;
+    before = ", ";
+  }
+  if (!effect.settings.empty()) name << ')';
+  return name.str();
+}
+
 }  // namespace
+
+std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot) {
+  std::vector<ParameterId> ids;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    const Effect& effect = robot.effects[i];
+    int coefficient = 0;
+    for (const CoefficientLabel& label : law_of(effect).coefficients(effect, robot.described)) {
+      ids.push_back({.kind = Kind::effect,
+                     .index = static_cast<int>(i),
+                     .coefficient = coefficient++,
+                     .effect = effect_name(effect) + ' ' + label.name});
+    }
+  }
+  return ids;
+}
 
 std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared,
                                          const FitOptions& options) {

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "errors/check.hpp"
 
@@ -12,10 +13,31 @@ namespace demecal {
 namespace {
 
 /// How far parameters may usually move: links by about a millimetre or what turns half a metre of arm as far; base and
-/// tool by much more.
+/// tool by much more. Coefficients of effects have no usual size: see usual_changes.
 double usual_change(const ParameterId& id) {
   const double change = id.is_angle() ? 2e-3 : 1e-3;
   return id.kind == ParameterId::Kind::link ? change : 1e3 * change;
+}
+
+/// The usual changes of all parameters. Effects are taken to move the measurements a thousandth as far as the other
+/// parameters do at least: what a link can explain is not laid at an effect's door.
+Eigen::VectorXd usual_changes(const Effects& effects, const std::vector<ParameterId>& ids) {
+  constexpr double kLittle = 1e-3;
+  const auto n = static_cast<Eigen::Index>(ids.size());
+  Eigen::VectorXd usual(n);
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    usual[i] = usual_change(ids[static_cast<std::size_t>(i)]);
+    if (ids[static_cast<std::size_t>(i)].kind != ParameterId::Kind::effect && !effects.scaled.col(i).isZero(0.0)) {
+      least = std::min(least, usual[i] * effects.lengths[i]);
+    }
+  }
+  if (!std::isfinite(least)) least = 1.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (ids[static_cast<std::size_t>(i)].kind != ParameterId::Kind::effect) continue;
+    usual[i] = kLittle * least / effects.lengths[i];
+  }
+  return usual;
 }
 
 /// The largest absolute entry outside rows already taken.
@@ -117,8 +139,7 @@ Identifiable identifiable_subspace(const Effects& effects, const std::vector<Par
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(effects.scaled, Eigen::ComputeFullV);
   const Eigen::Index held = (svd.singularValues().array() <= rank_tolerance * effects.largest).count();
   const Eigen::MatrixXd null = svd.matrixV().rightCols(held);
-  Eigen::VectorXd usual(n);
-  for (Eigen::Index i = 0; i < n; ++i) usual[i] = usual_change(ids[static_cast<std::size_t>(i)]);
+  const Eigen::VectorXd usual = usual_changes(effects, ids);
   const Eigen::VectorXd in_usual = (effects.lengths.array() * usual.array()).inverse();
   const Eigen::MatrixXd seen = usual.asDiagonal() * complement(in_usual.asDiagonal() * null);
   return {whitened(effects.scaled * effects.lengths.asDiagonal(), seen),

@@ -27,7 +27,8 @@ struct Identifiable {
 
 /// Splits the parameters by the singular values of their effects: directions below `rank_tolerance` times the largest
 /// are held. Of all changes with the same effect the basis holds the smallest, a change of base or tool counting next
-/// to nothing: what a base or a tool can explain is not laid at a joint's door.
+/// to nothing and one of an effect's coefficients most: what a base or a tool can explain is not laid at a joint's
+/// door, nor what a joint can at an effect's.
 Identifiable identifiable_subspace(const Effects& effects, const std::vector<ParameterId>& ids, double rank_tolerance);
 
 /// The directions that the prior knows better than the poses do: those whose variance (`covariance` of the changes,

@@ -29,7 +29,9 @@ std::vector<Observation> observe(const DataSet& data, std::span<const std::size_
   std::vector<Observation> observations;
   observations.reserve(poses.size());
   for (const std::size_t pose : poses) {
-    observations.push_back({pose, robot.actual_joints(data.poses[pose].joints)});
+    const MeasuredPose& measured = data.poses[pose];
+    observations.push_back(
+        {pose, robot.corrected_joints(measured.joints), robot.motions(Stop(measured), measured.target)});
   }
   return observations;
 }
@@ -60,8 +62,7 @@ int rows_in_use(const DataSet& data, const std::vector<Observation>& observation
 
 Eigen::VectorXd unscaled_residual(const DataSet& data, const CorrectedRobot& robot, const Observation& observation) {
   const MeasuredPose& pose = data.poses[observation.pose];
-  const Eigen::Isometry3d flange = robot.sensor_from_base * forward(robot.chain, observation.actual);
-  return residual(flange * robot.tool(pose.target), data, pose);
+  return residual(robot.predict(observation.corrected, observation.motions, pose.target), data, pose);
 }
 
 void scaled_residual(const DataSet& data, const CorrectedRobot& robot, const Observation& observation,
@@ -72,7 +73,7 @@ void scaled_residual(const DataSet& data, const CorrectedRobot& robot, const Obs
 void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point,
                  const Observation& observation, const RowScales& scales, ScaledRows& rows) {
   const MeasuredPose& pose = data.poses[observation.pose];
-  space.move_tool(point, observation.actual, pose.target, rows.motion);
+  space.move_tool(point, observation.corrected, observation.motions, pose.target, rows.motion);
   scale_residual(residual(rows.motion.predicted, data, pose), pose, scales, rows);
   const auto measured = measurement_jacobian(rows.motion.predicted, data, pose);
   rows.jacobian.resize(rows.residual.size(), space.size());

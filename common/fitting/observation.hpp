@@ -18,10 +18,11 @@ inline constexpr std::size_t kPosition = 0, kOrientation = 1, kDistance = 2, kRo
 using RowScales = std::array<double, kRowKinds>;
 using RowCounts = std::array<int, kRowKinds>;
 
-/// One pose of a fit. Corrections do not change during a fit, so the joints' real angles are known beforehand.
+/// One pose of a fit. Corrections and what the effects depend on do not change during a fit: they are known beforehand.
 struct Observation {
-  std::size_t pose = 0;  ///< in the data set
-  JointVector actual;    ///< joints after corrections
+  std::size_t pose = 0;                 ///< in the data set
+  JointVector corrected;                ///< joints after corrections, before effects
+  std::vector<EffectMotion> motions{};  ///< of the robot's effects, per unit of their coefficients
 };
 std::vector<Observation> observe(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot);
 

@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "fitting/rotation_vector.hpp"
+#include "kinematics/rotation_vector.hpp"
 
 namespace demecal {
 namespace {
 
 using Kind = ParameterId::Kind;
-using Twist = Eigen::Matrix<double, 6, 1>;
+using Twist = SmallMotion;
 
 /// The rotation vectors a change holds, of the base and of each target's tool.
 struct Turns {
@@ -39,6 +39,9 @@ void add(CorrectedRobot& robot, const ParameterId& id, double change) {
       return;
     case Kind::link:
       robot.chain.joints[static_cast<std::size_t>(id.index)].parameter(id.link) += change;
+      return;
+    case Kind::effect:
+      robot.effects[static_cast<std::size_t>(id.index)].values[static_cast<std::size_t>(id.coefficient)] += change;
       return;
     case Kind::base_rotation:
     case Kind::tool_rotation:
@@ -75,6 +78,8 @@ Twist twist_of(const ParameterId& id, const ModelPoint& point, const Frames& fra
       twist.tail<3>() = frames.base * link.tail<3>();
       break;
     }
+    case Kind::effect:  // added by motion, since one coefficient may move several places
+      break;
   }
   return twist;
 }
@@ -83,10 +88,85 @@ bool is_of_other_tool(const ParameterId& id, const std::string& target) {
   return (id.kind == Kind::tool_translation || id.kind == Kind::tool_rotation) && id.target != target;
 }
 
+/// Fills predicted pose and twists of everything but effects.
+void move_declared(const std::vector<ParameterId>& ids, const ModelPoint& point, const Kinematics& at,
+                   const std::string& target, ToolMotion& motion) {
+  const CorrectedRobot& robot = point.robot;
+  const Eigen::Isometry3d flange = robot.sensor_from_base * at.flange;
+  motion.predicted = flange * robot.tool(target);
+  const Frames frames{robot.sensor_from_base.linear(), flange.linear(),
+                      motion.predicted.translation() - robot.sensor_from_base.translation()};
+  motion.twists.resize(6, static_cast<Eigen::Index>(ids.size()));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    auto twist = motion.twists.col(static_cast<Eigen::Index>(i));
+    if (is_of_other_tool(ids[i], target)) {
+      twist.setZero();
+    } else {
+      twist = twist_of(ids[i], point, frames, at.links);
+    }
+  }
+}
+
+/// Moves everything as the instrument's own effects show it.
+void move_by_sensor(const SmallMotion& sensor, ToolMotion& motion) {
+  if (sensor.isZero(0.0)) return;
+  const Eigen::Isometry3d shown = moved(Eigen::Isometry3d::Identity(), sensor);
+  motion.predicted = shown * motion.predicted;
+  for (auto twist : motion.twists.colwise()) {
+    twist.head<3>() = (shown.linear() * twist.head<3>()).eval();
+    twist.tail<3>() = (shown.linear() * twist.tail<3>()).eval();
+  }
+}
+
+/// The twist of a tool point (measurements' frame) per unit of an effect's motion.
+class EffectTwists {
+ public:
+  EffectTwists(const Chain& chain, const Displacement& by, const DisplacedKinematics& arm,
+               const Eigen::Isometry3d& sensor_from_base, const Eigen::Vector3d& predicted_m)
+      : chain_(chain),
+        by_(by),
+        arm_(arm),
+        base_(moved(Eigen::Isometry3d::Identity(), by.sensor) * sensor_from_base),
+        predicted_m_(predicted_m),
+        in_base_m_(base_.inverse() * predicted_m) {}
+
+  Twist operator()(const UnitMotion& unit) const {
+    if (unit.place == kSensorPlace) {
+      return unit_twist(Eigen::Isometry3d::Identity(), by_.sensor, unit.axis, predicted_m_);
+    }
+    const auto place = static_cast<std::size_t>(unit.place);
+    const Twist twist = is_joint_motion(chain_, unit)
+                            ? Twist(arm_.at.joints.col(unit.place))
+                            : unit_twist(arm_.places[place], by_.places.col(unit.place), unit.axis, in_base_m_);
+    Twist turned;
+    turned << base_.linear() * twist.head<3>(), base_.linear() * twist.tail<3>();
+    return turned;
+  }
+
+ private:
+  const Chain& chain_;
+  const Displacement& by_;
+  const DisplacedKinematics& arm_;
+  Eigen::Isometry3d base_;
+  Eigen::Vector3d predicted_m_, in_base_m_;
+};
+
 }  // namespace
 
 ParameterSpace::ParameterSpace(CorrectedRobot reference, std::vector<ParameterId> ids)
-    : reference_(std::move(reference)), ids_(std::move(ids)) {}
+    : reference_(std::move(reference)), ids_(std::move(ids)), effect_columns_(reference_.effects.size()) {
+  for (int i = 0; i < size(); ++i) {
+    const ParameterId& id = ids_[static_cast<std::size_t>(i)];
+    if (id.kind != Kind::effect) continue;
+    DEMECAL_CHECK(id.index < std::ssize(reference_.effects), id.name() << " of " << reference_.effects.size());
+    const auto effect = static_cast<std::size_t>(id.index), coefficient = static_cast<std::size_t>(id.coefficient);
+    auto& columns = effect_columns_[effect];
+    if (columns.size() <= coefficient) columns.resize(coefficient + 1, -1);
+    columns[coefficient] = i;
+    auto& values = reference_.effects[effect].values;
+    if (values.size() <= coefficient) values.resize(coefficient + 1, 0.0);
+  }
+}
 
 ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
   DEMECAL_CHECK(change.size() == size(), change.size() << " changes of " << size() << " parameters");
@@ -102,23 +182,25 @@ ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
   return point;
 }
 
-void ParameterSpace::move_tool(const ModelPoint& point, const JointVector& actual, const std::string& target,
+void ParameterSpace::move_tool(const ModelPoint& point, const JointVector& corrected,
+                               const std::vector<EffectMotion>& motions, const std::string& target,
                                ToolMotion& motion) const {
   const CorrectedRobot& robot = point.robot;
-  const Eigen::Isometry3d& tool = robot.tool(target);
-  const Kinematics at = differential_kinematics(robot.chain, actual, tool.translation());
-  const Eigen::Isometry3d flange = robot.sensor_from_base * at.flange;
-  motion.predicted = flange * tool;
-  const Frames frames{robot.sensor_from_base.linear(), flange.linear(),
-                      motion.predicted.translation() - robot.sensor_from_base.translation()};
-  motion.twists.resize(6, size());
-  for (int i = 0; i < size(); ++i) {
-    const ParameterId& id = ids_[static_cast<std::size_t>(i)];
-    if (is_of_other_tool(id, target)) {
-      motion.twists.col(i).setZero();
-    } else {
-      motion.twists.col(i) = twist_of(id, point, frames, at.links);
-    }
+  const Eigen::Vector3d& point_m = robot.tool(target).translation();
+  if (motions.empty()) {
+    move_declared(ids_, point, differential_kinematics(robot.chain, corrected, point_m), target, motion);
+    return;
+  }
+  const Displacement by = displacement(robot.chain, robot.effects, motions);
+  const DisplacedKinematics arm = differential_kinematics(robot.chain, corrected + by.joints, point_m, by.places);
+  move_declared(ids_, point, arm.at, target, motion);
+  move_by_sensor(by.sensor, motion);
+  const EffectTwists twist(robot.chain, by, arm, robot.sensor_from_base, motion.predicted.translation());
+  for (const auto& [effect, unit] : motions) {
+    const auto& columns = effect_columns_[static_cast<std::size_t>(effect)];
+    const auto coefficient = static_cast<std::size_t>(unit.coefficient);
+    if (coefficient >= columns.size() || columns[coefficient] < 0) continue;
+    motion.twists.col(columns[coefficient]) += unit.size * twist(unit);
   }
 }
 
@@ -134,6 +216,10 @@ double parameter_value(const CorrectedRobot& robot, const ParameterId& id) {
       return vector_of(robot.tool(id.target).linear())[id.index];
     case Kind::link:
       return robot.chain.joints[static_cast<std::size_t>(id.index)].parameter(id.link);
+    case Kind::effect:
+      return static_cast<std::size_t>(id.index) < robot.effects.size()
+                 ? robot.effects[static_cast<std::size_t>(id.index)].value(static_cast<std::size_t>(id.coefficient))
+                 : 0.0;
   }
   DEMECAL_CHECK(false, "parameter kind " << static_cast<int>(id.kind));
 }

@@ -28,7 +28,7 @@ struct ToolMotion {
 
 /// Changes (rad, m) of a reference robot's parameters. Link parameters and translations add; rotations are rotation
 /// vectors applied before the reference's: the base's in the measurements' frame about the base's origin, the tools'
-/// in the flange frame about the tool point.
+/// in the flange frame about the tool point. Coefficients of effects add too.
 class ParameterSpace {
  public:
   ParameterSpace(CorrectedRobot reference, std::vector<ParameterId> ids);
@@ -40,17 +40,19 @@ class ParameterSpace {
   /// The model changed by `change` (size()).
   ModelPoint at(const Eigen::VectorXd& change) const;
 
-  /// The tool of `target` at joints that really stand at `actual` (corrections applied). `motion` is overwritten; given
-  /// again it is not reallocated.
-  void move_tool(const ModelPoint& point, const JointVector& actual, const std::string& target,
-                 ToolMotion& motion) const;
+  /// The tool of `target` at joints already corrected, with the motions of the robot's effects there. `motion` is
+  /// overwritten; given again it is not reallocated.
+  void move_tool(const ModelPoint& point, const JointVector& corrected, const std::vector<EffectMotion>& motions,
+                 const std::string& target, ToolMotion& motion) const;
 
  private:
   CorrectedRobot reference_;
   std::vector<ParameterId> ids_;
+  std::vector<std::vector<int>> effect_columns_;  ///< by effect and coefficient; -1 where it is not free
 };
 
-/// The value of a parameter in a robot, rad or m; rotations by the components of their rotation vector.
+/// The value of a parameter in a robot, rad or m (an effect's coefficient: SI; 0 in a robot without that effect);
+/// rotations by the components of their rotation vector.
 double parameter_value(const CorrectedRobot& robot, const ParameterId& id);
 
 /// The matrix (n x n) that takes small differences of changes to differences of parameter_value: the identity but for

@@ -27,7 +27,8 @@ double round_step(double least) {
 }
 
 std::vector<double> linear_ticks(const Axis& axis, int wanted) {
-  const double step = round_step((axis.upper - axis.lower) / wanted);
+  const double least = (axis.upper - axis.lower) / wanted;
+  const double step = round_step(axis.whole ? std::max(1.0, least) : least);
   const double first = std::ceil(axis.lower / step - 1e-9);
   const double last = std::floor(axis.upper / step + 1e-9);
   std::vector<double> found;

@@ -12,6 +12,7 @@ struct Axis {
   double from_px = 0.0;  ///< where lower stands
   double to_px = 1.0;    ///< where upper stands; less than from_px on an axis that points up
   bool logarithmic = false;
+  bool whole = false;  ///< ticks at whole numbers only
 
   /// Where `value` stands, px. On a logarithmic axis what is not above 0 stands at `lower`.
   double operator()(double value) const;

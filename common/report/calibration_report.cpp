@@ -1,17 +1,22 @@
 #include "report/calibration_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "expression/text.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
 
 std::vector<std::string> ids(const DataSet& data, const std::vector<std::size_t>& poses) {
   std::vector<std::string> names;
-  for (const std::size_t pose : poses) names.push_back(data.poses[pose].pose_id);
+  for (const std::size_t pose : poses) {
+    const std::string& name = data.poses[pose].pose_id;
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
   return names;
 }
 
@@ -55,8 +60,9 @@ std::optional<double> noise_floor_mm(const DataSet& data) {
   return 1e3 * std::sqrt(squares / static_cast<double>(freedom));
 }
 
-CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const Preparation& preparation,
-                              const Calibration& calibration, const RunFacts& runtime) {
+CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& before,
+                              const LoopOutcome& loop, const Preparation& preparation, const Calibration& calibration,
+                              const RunFacts& runtime) {
   CalibrationReport report;
   report.job = model.job;
   report.robot = model.nominal.name;
@@ -66,15 +72,17 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   report.seed = model.seed;
   report.poses = {poses_of(data, PoseSet::calibration).size(), poses_of(data, PoseSet::validation).size(),
                   poses_of(data, PoseSet::accept).size()};
-  report.outliers = ids(data, preparation.declared.outliers);
+  const bool looped = loop.stopped != StopReason::not_run;
+  report.outliers = ids(data, looped ? loop.outliers : preparation.declared.outliers);
   report.near_singular = singular_ids(data, preparation.targets);
   report.nominal = errors_by_set(preparation.nominal, data);
   report.registered = errors_by_set(preparation.registered.robot, data);
   report.declared = errors_by_set(preparation.declared.robot, data);
-  report.before = errors_by_set(model.robot, data);
-  report.after = report.before;
-  report.noise_floor_mm = noise_floor_mm(data);
-  report.stopped = "not_run";
+  report.before = errors_by_set(before, data);
+  report.after = errors_by_set(model.robot, data);
+  report.noise_floor_mm = loop.noise_m ? millimetres(*loop.noise_m) : noise_floor_mm(data);
+  report.loop = loop;
+  report.described = model.nominal;
   report.index_before_mm2 = calibration.index_before_mm2;
   report.index_after_mm2 = calibration.index_after_mm2;
   report.joints = joint_lines(model);

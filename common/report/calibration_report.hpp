@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/calibrated_model.hpp"
+#include "diagnosis/outcome.hpp"
 #include "effects/measurement.hpp"
 
 namespace demecal {
@@ -41,7 +42,7 @@ struct CalibrationReport {
   std::string job, robot, method, data_sha256, version;
   std::uint64_t seed = 0;
   PoseCounts poses;
-  std::vector<std::string> outliers;       ///< pose ids
+  std::vector<std::string> outliers;       ///< pose ids: of the loop's last fit; without it, of the declared fit
   std::vector<std::string> near_singular;  ///< pose ids, down-weighted
   ErrorBySet nominal;                      ///< the uncalibrated robot in the frame the data came in
   ErrorBySet registered;                   ///< after the best-fit base, and tool where declared
@@ -49,7 +50,8 @@ struct CalibrationReport {
   ErrorBySet before;                       ///< after everything declared
   ErrorBySet after;                        ///< with the effects that the closed loop added
   std::optional<double> noise_floor_mm;    ///< standard deviation of repeats per axis, where there are repeats
-  std::string stopped;
+  LoopOutcome loop;
+  Robot described;  ///< the arm as its maker describes it, by which the loop's effects stand
   double index_before_mm2 = 0.0, index_after_mm2 = 0.0;
   std::vector<JointLine> joints;
   std::vector<ParameterEstimate> estimates;
@@ -58,9 +60,10 @@ struct CalibrationReport {
 };
 
 /// All figures of a finished calibration. `model` is what was written to the model file, so that evaluating that file
-/// gives the same figures.
-CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const Preparation& preparation,
-                              const Calibration& calibration, const RunFacts& runtime);
+/// gives the same figures; `before` is the robot that the closed loop started from, and `loop` what it made of it.
+CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& before,
+                              const LoopOutcome& loop, const Preparation& preparation, const Calibration& calibration,
+                              const RunFacts& runtime);
 
 /// The standard deviation per axis of position about the mean of its repeats, mm; nothing where no pose is repeated.
 std::optional<double> noise_floor_mm(const DataSet& data);

@@ -54,7 +54,7 @@ ErrorStages error_stages(const JsonValue& report) {
   return errors;
 }
 
-std::optional<Verdict> verdict(const ErrorStages& errors) {
+std::optional<Judgement> judgement(const ErrorStages& errors) {
   if (errors.stages.size() < 2) return std::nullopt;
   const Stage* const registered = errors.find("registered");
   const Stage& before = registered != nullptr ? *registered : errors.stages.front();
@@ -62,7 +62,7 @@ std::optional<Verdict> verdict(const ErrorStages& errors) {
   if (&before == &after) return std::nullopt;
   for (std::size_t set = ErrorStages::kSets.size(); set-- > 0;) {
     if (before.sets[set].mean_mm && after.sets[set].mean_mm)
-      return Verdict{set, before.title, after.title, before.sets[set], after.sets[set]};
+      return Judgement{set, before.title, after.title, before.sets[set], after.sets[set]};
   }
   return std::nullopt;
 }

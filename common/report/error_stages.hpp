@@ -35,7 +35,7 @@ struct ErrorStages {
 ErrorStages error_stages(const JsonValue& report);
 
 /// The figures a calibration is judged by: those of accept poses; without these of validation poses, and so on.
-struct Verdict {
+struct Judgement {
   std::size_t set = 0;   ///< of ErrorStages::kSets
   std::string from, to;  ///< titles of the stages
   StageFigures before;   ///< the robot with its base fitted and nothing else, or the first stage there is
@@ -43,6 +43,6 @@ struct Verdict {
 };
 
 /// Nothing where no set has a mean before and after.
-std::optional<Verdict> verdict(const ErrorStages& errors);
+std::optional<Judgement> judgement(const ErrorStages& errors);
 
 }  // namespace demecal

@@ -1,99 +1,92 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "report/harmonics_chart.hpp"
 #include "report/html_text.hpp"
+#include "report/loop_chart.hpp"
+#include "report/loop_tables.hpp"
+#include "report/loop_words.hpp"
 #include "report/sections.hpp"
 
 namespace demecal {
 namespace {
 
-/// "backlash, joint 2"; only the kind where no joint is meant.
-std::string effect_name(const JsonValue& effect) {
-  std::string name = effect["kind"].text();
-  const JsonValue joint = effect["joint"];
-  const bool named = joint.exists() && joint.words() != "0";
-  if (named) name += ", joint " + joint.words();
-  return escaped(name);
+std::vector<JsonValue> added_rounds(const JsonValue& report) {
+  std::vector<JsonValue> rounds = report["rounds"].elements();
+  std::erase_if(rounds, [](const JsonValue& round) { return round["verdict"].text() != "added"; });
+  return rounds;
 }
 
-std::string parameters(const JsonValue& effect) {
-  std::string text;
-  for (const auto& [name, value] : effect["parameters"].members()) {
-    text += fmt::format("{}<code>{}</code> {}", text.empty() ? "" : ", ", escaped(name), escaped(value.words()));
+std::string paragraph(const std::string& markup) {
+  return markup.empty() ? "" : "<p>" + markup + "</p>\n";
+}
+
+std::string search_sentence(const JsonValue& report) {
+  const std::uint64_t candidates = report["candidates"].count().value_or(0);
+  const std::uint64_t permutations = report["permutations"].count().value_or(0);
+  if (candidates == 0) return {};
+  const std::string against =
+      permutations > 0 ? " against " + grouped(permutations) + " permutations of the poses" : "";
+  const std::size_t added = added_rounds(report).size();
+  return fmt::format("{} effects were tried in every round{}; {} {} added. ", grouped(candidates), against,
+                     added == 0 ? std::string("none") : std::to_string(added), added == 1 ? "was" : "were");
+}
+
+std::string summary(const JsonValue& report) {
+  const std::string stopped = stop_sentence(report["stopped"].text());
+  if (stopped.empty()) return {};
+  return paragraph(search_sentence(report) + escaped(stopped)) +
+         paragraph(escaped(statistics_sentences({report["lack_of_fit_p"].number(), report["explained_share"].number(),
+                                                 report["structure_left_p"].number()})));
+}
+
+std::string dropped(const JsonValue& report) {
+  std::vector<std::string> names;
+  for (const JsonValue& effect : report["dropped"].elements()) names.push_back(effect_entry(effect).name());
+  if (names.empty()) return {};
+  return "<p class=\"note\">Added, and taken back once others had explained the same:</p>\n" + name_list(names);
+}
+
+std::string figure(const std::string& picture, const std::string& caption) {
+  if (picture.empty()) return {};
+  return "<figure>" + picture + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string fall_figure(const JsonValue& report) {
+  const std::optional<double> noise_mm = noise_mean_mm(report);
+  const std::string noise = noise_mm ? " Dashed: what measurement noise alone would make." : "";
+  return figure(loop_chart(report, noise_mm),
+                "The error on the validation poses from round to round; hollow: a round that added nothing." + noise);
+}
+
+std::string harmonics_figures(const JsonValue& report) {
+  std::vector<EffectEntry> effects;
+  for (const JsonValue& round : added_rounds(report)) effects.push_back(effect_entry(round["effect"]));
+  const auto joints = harmonics_of(effects);
+  double highest = 0.0;  // one scale for all joints, lest small ones look large
+  for (const auto& [joint, harmonics] : joints) {
+    for (const Harmonic& harmonic : harmonics) highest = std::max(highest, harmonic.amplitude);
   }
-  return text;
-}
-
-std::string rivals(const JsonValue& round) {
-  std::string text;
-  for (const JsonValue& rival : round["rivals"].elements()) {
-    text += (text.empty() ? "" : "; ") + effect_name(rival);
-    if (const auto cosine = rival["cosine"].number()) text += " (cosine " + fixed(cosine, 2) + ")";
+  std::string figures;
+  for (const auto& [joint, harmonics] : joints) {
+    figures += figure(harmonics_chart(joint, harmonics, highest),
+                      fmt::format("Joint {}: {}.", joint, escaped(harmonics_words(harmonics))));
   }
-  return text;
+  return figures;
 }
 
-std::string badge(const std::string& verdict) {
-  const std::string look = verdict == "added" ? " yes" : (verdict == "rejected" ? " no" : "");
-  return "<span class=\"badge" + look + "\">" + escaped(verdict) + "</span>";
-}
-
-std::string probability(std::optional<double> value) {
-  return value ? fmt::format("{:.3g}", *value) : "–";
-}
-
-std::string round_row(const JsonValue& round, std::size_t number) {
-  const JsonValue effect = round["effect"];
-  const auto before = round["validation_before_mm"].number(), after = round["validation_after_mm"].number();
-  const auto words = [](const std::string& cell) { return "<td class=\"words\">" + cell + "</td>"; };
-  return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
-                     round["round"].count().value_or(number), words(badge(round["verdict"].text())),
-                     words(effect_name(effect)), words(parameters(effect)), probability(round["p_family"].number()),
-                     fixed(before, 3), fixed(after, 3), change(before, after), words(rivals(round)));
-}
-
-std::string rounds_table(const JsonValue& report) {
-  std::string rows;
-  std::size_t number = 0;
-  for (const JsonValue& round : report["rounds"].elements()) rows += round_row(round, ++number);
-  if (rows.empty()) return {};
-  return "<div class=\"panel\"><table id=\"rounds\">\n<thead><tr><th scope=\"row\">round</th><th "
-         "class=\"words\">verdict"
-         "</th><th class=\"words\">effect</th><th class=\"words\">parameters</th><th>family-wise p</th>"
-         "<th>before, mm</th><th>after, mm</th><th>change</th><th class=\"words\">rivals these poses cannot tell apart"
-         "</th></tr></thead>\n<tbody>\n" +
-         rows +
-         "</tbody></table></div>\n<p class=\"note\">Before and after: mean tool error on the validation poses.</p>\n";
-}
-
-std::string stop_sentence(const std::string& stopped) {
-  if (stopped == "no_structure") return "The loop stopped because the error that is left shows no more structure.";
-  if (stopped == "no_gain") return "The loop stopped because no further effect improved the validation poses.";
-  if (stopped == "max_effects") return "The loop stopped at the largest number of effects it was allowed to add.";
-  if (stopped.empty() || stopped == "not_run") return {};
-  return "The loop stopped: " + escaped(stopped) + ".";
-}
-
-std::string not_found_table(const JsonValue& report) {
-  std::string rows;
-  for (const JsonValue& missing : report["not_found"].elements()) {
-    const auto smallest = missing["smallest_detectable"].number();
-    rows += table_row(effect_name(missing),
-                      {smallest ? fmt::format("{:.3g}", *smallest) : "–", escaped(missing["unit"].text())});
-  }
-  if (rows.empty()) return {};
-  return "<h3>Not found</h3>\n<p class=\"note\">Effects of these kinds, if present, are smaller than these poses could "
-         "have detected.</p>\n<div class=\"panel\"><table id=\"not-found\" class=\"compact\">\n<thead><tr><th "
-         "scope=\"row\">effect</th>"
-         "<th>smallest detectable</th><th>unit</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+std::string pictures(const JsonValue& report) {
+  const std::string figures = fall_figure(report) + harmonics_figures(report);
+  return figures.empty() ? "" : "<div class=\"panel\"><div class=\"pair\">\n" + figures + "</div></div>\n";
 }
 
 }  // namespace
 
 std::string loop_section(const JsonValue& report) {
-  const std::string stopped = stop_sentence(report["stopped"].text());
   return section("loop", "What the model lacked",
-                 rounds_table(report) + (stopped.empty() ? "" : "<p>" + stopped + "</p>\n") + not_found_table(report));
+                 summary(report) + rounds_table(report) + dropped(report) + pictures(report) + further_list(report) +
+                     evidence_table(report) + not_found_table(report) + unseen_table(report) + decoys_table(report));
 }
 
 }  // namespace demecal

@@ -31,7 +31,7 @@ std::string role_of(std::size_t set) {
   return "The model was fitted to these same poses: no others were measured to judge it by.";
 }
 
-std::string headline(const ErrorStages& errors, const std::optional<Verdict>& judged) {
+std::string headline(const ErrorStages& errors, const std::optional<Judgement>& judged) {
   if (!judged) return "<p class=\"headline\">The report holds no tool error before and after calibration.</p>\n";
   const double before = *judged->before.mean_mm, after = *judged->after.mean_mm;
   const std::string how_much = change(before, after);
@@ -60,7 +60,7 @@ std::string error_tile(const std::string& what, std::optional<double> before, st
 }
 
 /// The share of the error beyond the measurement's noise that the model explains.
-std::string explained_tile(const JsonValue& report, const Verdict& judged) {
+std::string explained_tile(const JsonValue& report, const Judgement& judged) {
   const std::optional<double> floor = report["noise_floor_mm"].number();
   if (!floor || !judged.before.rms_mm || !judged.after.rms_mm) return {};
   const double noise = 3.0 * *floor * *floor;
@@ -76,7 +76,7 @@ std::string noise_tile(const JsonValue& report) {
   return tile("noise floor", fixed(floor, 3), "mm", "per axis; mean " + fixed(noise_mean_mm(report), 3));
 }
 
-std::string tiles(const JsonValue& report, const std::optional<Verdict>& judged) {
+std::string tiles(const JsonValue& report, const std::optional<Judgement>& judged) {
   std::string all;
   if (judged) {
     all += error_tile("mean error", judged->before.mean_mm, judged->after.mean_mm);
@@ -105,7 +105,7 @@ std::optional<double> noise_mean_mm(const JsonValue& report) {
 
 std::string opening(const JsonValue& report, const ErrorStages& errors) {
   const std::string robot = report["robot"].text();
-  const std::optional<Verdict> judged = verdict(errors);
+  const std::optional<Judgement> judged = judgement(errors);
   return "<p class=\"soft\">Robot calibration</p>\n<h1>" + (robot.empty() ? "Unnamed robot" : escaped(robot)) +
          "</h1>\n" + subject(report, errors) + banner(report) + headline(errors, judged) + tiles(report, judged);
 }

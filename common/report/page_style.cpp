@@ -44,6 +44,11 @@ th, td { padding: 5px 9px; text-align: right; border-bottom: 1px solid var(--gri
 thead th { color: var(--soft); font-size: 12.5px; vertical-align: bottom; border-bottom-color: var(--line); }
 thead th.set { text-align: center; color: var(--ink); font-size: 13.5px; font-weight: 600; border-bottom: 0; }
 thead th.set i { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 6px; }
+.panel.long { max-height: 720px; overflow: auto; padding-top: 0; }
+.long thead th { position: sticky; top: 0; background: var(--card); padding-top: 12px; }
+td.words .why { display: block; color: var(--soft); font-size: 13px; } td.words.wide { min-width: 19em; }
+td.numbers { text-align: left; font-size: 13px; line-height: 1.45; } td.numbers span { display: block; }
+td code.law { font-size: 12.5px; overflow-wrap: anywhere; }
 table.compact { width: auto; min-width: 50%; }
 th[scope="row"] { text-align: left; }
 td.words, th.words { text-align: left; white-space: normal; }
@@ -83,6 +88,9 @@ svg.bars { min-width: 620px; }
 .chart .whisker { stroke: var(--soft); fill: none; stroke-width: 1.3; } .chart .cut { stroke: var(--card); fill: none; stroke-width: 3; }
 .chart .noise { stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 4 3; }
 .chart .zero { stroke: var(--soft); stroke-width: 1; } .chart .jump { stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 3 3; }
+.chart .fall { fill: none; stroke: var(--validation); stroke-width: 2; }
+.chart circle.added { fill: var(--validation); } .chart circle.refused { fill: var(--card); stroke: var(--soft); stroke-width: 1.4; }
+.chart .stem { stroke: var(--accent); stroke-width: 2.4; } .chart circle.stem { fill: var(--accent); stroke: none; }
 .chart .curve { fill: none; stroke: var(--accent); stroke-width: 2; stroke-linejoin: round; }
 .chart polyline.island { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
 .chart polyline.i0 { stroke: var(--i0); } .chart polyline.i1 { stroke: var(--i1); } .chart polyline.i2 { stroke: var(--i2); }
@@ -94,7 +102,7 @@ svg.bars { min-width: 620px; }
   body { font-size: 11pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
   .joint, .tile, tr, figure { break-inside: avoid; } h2, h3 { break-after: avoid; }
-  .panel { overflow: visible; } pre.formula { max-height: none; }
+  .panel, .panel.long { overflow: visible; max-height: none; } .long thead th { position: static; } pre.formula { max-height: none; }
 }
 )css";
 

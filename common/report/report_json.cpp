@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kinematics/units.hpp"
+#include "report/loop_json.hpp"
 
 namespace demecal {
 namespace {
@@ -81,9 +82,7 @@ std::string to_json(const CalibrationReport& report) {
                    {"near_singular", report.near_singular}};
   json["error_mm"] = error_stages(report);
   json["noise_floor_mm"] = report.noise_floor_mm ? number(*report.noise_floor_mm) : Json(nullptr);
-  json["rounds"] = Json::array();
-  json["not_found"] = Json::array();
-  json["stopped"] = report.stopped;
+  add_loop(report.loop, report.described, json);
   json["performance_index_mm2"] = {{"before", number(report.index_before_mm2)},
                                    {"after", number(report.index_after_mm2)}};
   json["joints"] = Json::array();

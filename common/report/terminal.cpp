@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
+#include <vector>
+
+#include "report/loop_terminal.hpp"
+#include "report/terminal_text.hpp"
 
 namespace demecal {
 namespace {
@@ -15,7 +17,6 @@ struct NamedSet {
   const char* name;
   ErrorFigures ErrorBySet::*figures;
 };
-constexpr std::size_t kColumns = 100;
 constexpr std::array<NamedSet, 3> kSets{{{"calibration", &ErrorBySet::calibration},
                                          {"validation", &ErrorBySet::validation},
                                          {"accept", &ErrorBySet::accept}}};
@@ -30,10 +31,11 @@ std::string heading(const char* what) {
 }
 
 std::string stages(const CalibrationReport& report) {
-  const std::array<std::pair<const char*, const ErrorBySet*>, 4> rows{{{"nominal", &report.nominal},
-                                                                       {"base fitted", &report.registered},
-                                                                       {"declared model fitted", &report.declared},
-                                                                       {"with joint corrections", &report.before}}};
+  std::vector<std::pair<const char*, const ErrorBySet*>> rows{{"nominal", &report.nominal},
+                                                              {"base fitted", &report.registered},
+                                                              {"declared model fitted", &report.declared},
+                                                              {"with joint corrections", &report.before}};
+  if (loop_added(report.loop)) rows.emplace_back("with the effects found", &report.after);
   std::string text;
   for (const NamedSet& set : kSets) {
     if (!std::isfinite((report.before.*set.figures).mean_mm)) continue;
@@ -41,32 +43,6 @@ std::string stages(const CalibrationReport& report) {
     for (const auto& [name, errors] : rows) text += figures_line(std::string("  ") + name, errors->*set.figures);
   }
   return text;
-}
-
-/// How many letters of UTF-8 text stand side by side.
-std::size_t columns_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) != 0x80U; }));
-}
-
-/// `word` with an ellipsis for what does not fit.
-std::string cut(std::string word, std::size_t columns) {
-  if (columns_of(word) <= columns) return word;
-  while (!word.empty() && columns_of(word) > columns - 3) word.pop_back();
-  return word + "...";
-}
-
-/// `first` and the words of `text` after it, in lines of at most kColumns that begin with `indent` spaces.
-std::string wrapped(const std::string& first, const std::string& text, std::size_t indent) {
-  std::string all, line = first;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    word = cut(word, kColumns - indent - 1);
-    if (columns_of(line) + 1 + columns_of(word) > kColumns)
-      all += std::exchange(line, std::string(indent - 1, ' ')) + "\n";
-    line += " " + word;
-  }
-  return all + line + "\n";
 }
 
 std::string joints(const CalibrationReport& report) {
@@ -103,6 +79,8 @@ std::string errors_to_terminal(const ErrorBySet& errors) {
 std::string to_terminal(const CalibrationReport& report) {
   std::string text = stages(report);
   if (!report.joints.empty()) text.append("\n").append(joints(report));
+  if (const std::string loop = loop_to_terminal(report.loop, report.described); !loop.empty())
+    text.append("\n").append(loop).append("\n");
   text += named("poses far out, kept in all figures", report.outliers);
   text += named("poses near a singularity, weighed less", report.near_singular);
   for (const std::string& sentence : report.unidentified) text += wrapped("  not seen by these poses:", sentence, 4);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fitting/fit.hpp"
-#include "fitting/rotation_vector.hpp"
 #include "kinematics/random_arm.hpp"
+#include "kinematics/rotation_vector.hpp"
 
 namespace demecal {
 
@@ -103,12 +103,16 @@ inline Eigen::Isometry3d far_pose(RandomStream& stream) {
   return pose;
 }
 
-/// Adds one pose at `joints` as the instrument sees it.
-inline void measure(KnownArm& arm, RandomStream& stream, const Instrument& instrument, const JointVector& joints,
+/// Adds one pose at the stop as the instrument sees it.
+inline void measure(KnownArm& arm, RandomStream& stream, const Instrument& instrument, const Stop& stop,
                     const std::string& target = "") {
-  const Eigen::Isometry3d tool = arm.truth.predict(joints, target);
+  const Eigen::Isometry3d tool = arm.truth.predict(stop, target);
   MeasuredPose pose;
-  pose.joints = joints;
+  pose.joints = stop.joints;
+  if (stop.approach.size() > 0) pose.approach = stop.approach;
+  if (stop.payload_kg > 0) pose.payload_kg = stop.payload_kg;
+  pose.temperature_celsius = stop.temperature_celsius;
+  pose.time_s = stop.time_s;
   pose.target = target;
   if (instrument.position) pose.position_m = tool.translation() + random_vector(stream, instrument.noise_m);
   if (instrument.orientation) {

@@ -43,7 +43,7 @@ TEST_P(EveryColumn, IsTheTwistThatDifferencesShow) {
   for (const MeasuredPose& pose : arm_.data.poses) {
     const Eigen::VectorXd change = random_change_of(stream_, space_.size());
     ToolMotion motion;
-    space_.move_tool(space_.at(change), pose.joints, pose.target, motion);
+    space_.move_tool(space_.at(change), pose.joints, {}, pose.target, motion);
     for (int i = 0; i < space_.size(); ++i) {
       const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(space_.size(), i);
       const Eigen::Isometry3d before = space_.at(change - step).robot.predict(pose.joints, pose.target);

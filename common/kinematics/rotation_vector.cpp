@@ -1,4 +1,4 @@
-#include "fitting/rotation_vector.hpp"
+#include "kinematics/rotation_vector.hpp"
 
 #include <cmath>
 

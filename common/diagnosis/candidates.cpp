@@ -1,0 +1,99 @@
+#include "diagnosis/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace demecal {
+namespace {
+
+/// No ratio of integers near it, and beyond the scan.
+constexpr double kImpossibleRatio = 1.7320508;
+
+bool is_wanted(const std::vector<std::string>& kinds, std::string_view kind) {
+  return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
+bool is_declared(std::string_view kind, const DeclaredModel& declared) {
+  return (kind == "registration" && declared.registration) || (kind == "tool" && declared.tool) ||
+         (kind == "joint_offset" && declared.joint_offset) || (kind == "geometry" && declared.geometry);
+}
+
+void set_ranges(Effect& effect, const Robot& robot, const Evidence& evidence) {
+  for (const int joint : law_of(effect).ranged_joints(effect, robot)) {
+    effect.ranges[joint] = evidence.joint_ranges[static_cast<std::size_t>(joint)];
+  }
+}
+
+bool has_kind(const std::vector<Candidate>& candidates, std::string_view kind) {
+  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.effect.kind == kind; });
+}
+
+/// A copy of every candidate of a kind (of the first of every joint) in a disguise.
+void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, Disguise disguise, double ratio) {
+  std::vector<Candidate> decoys;
+  int last = -2;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.disguise != Disguise::none) continue;
+    if (candidate.effect.form == "seated") continue;
+    last = candidate.effect.joint;
+    decoys.push_back(candidate);
+    decoys.back().disguise = disguise;
+    if (disguise == Disguise::wrong_ratio) decoys.back().effect.settings["ratio"] = ratio;
+  }
+  candidates.insert(candidates.end(), decoys.begin(), decoys.end());
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& evidence, const DeclaredModel& declared,
+                                      const CandidateOptions& options) {
+  std::vector<Candidate> candidates;
+  for (const EffectLaw* law : catalogue()) {
+    if (!is_wanted(options.kinds, law->kind()) || is_declared(law->kind(), declared)) continue;
+    std::vector<Effect> proposals = law->proposals(robot, evidence);
+    const double nats = proposals.empty() ? 0.0 : std::log(static_cast<double>(proposals.size()));
+    for (Effect& effect : proposals) {
+      set_ranges(effect, robot, evidence);
+      candidates.push_back({std::move(effect), Disguise::none, nats});
+    }
+  }
+  if (!options.decoys) return candidates;
+  const bool harmonics = has_kind(candidates, "gear_harmonic"), sides = has_kind(candidates, "backlash");
+  const bool heat = has_kind(candidates, "thermal_offset");
+  if (harmonics) {
+    add_decoys(candidates, "gear_harmonic", Disguise::wrong_ratio, kImpossibleRatio * evidence.highest_ratio);
+  }
+  if (sides && evidence.approach) add_decoys(candidates, "backlash", Disguise::shuffled_approach, 0.0);
+  if (heat) add_decoys(candidates, "thermal_offset", Disguise::shuffled_temperature, 0.0);
+  return candidates;
+}
+
+std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise disguise, RandomStream random) {
+  std::vector<ArmState> changed = states;
+  std::vector<std::size_t> from(states.size());
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] = i;
+  for (std::size_t i = from.size(); i > 1; --i) std::swap(from[i - 1], from[random.index(i)]);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Stop& other = states[from[i]].stop;
+    if (disguise == Disguise::shuffled_approach) changed[i].stop.approach = other.approach;
+    if (disguise == Disguise::shuffled_temperature) changed[i].stop.temperature_celsius = other.temperature_celsius;
+  }
+  return changed;
+}
+
+std::string decoy_name(const Candidate& candidate) {
+  std::string name = candidate.effect.kind + " of joint " + std::to_string(candidate.effect.joint + 1);
+  switch (candidate.disguise) {
+    case Disguise::wrong_ratio:
+      return name + " at a ratio no gear has (" + std::to_string(candidate.effect.setting("ratio")) + ")";
+    case Disguise::shuffled_approach:
+      return name + " by shuffled approach signs";
+    case Disguise::shuffled_temperature:
+      return name + " by shuffled temperatures";
+    case Disguise::none:
+      break;
+  }
+  return name;
+}
+
+}  // namespace demecal

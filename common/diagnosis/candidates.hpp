@@ -1,0 +1,39 @@
+// The effects that are tried in every round, and those among them that cannot be true.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "effects/effect.hpp"
+#include "fitting/declared_model.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+
+/// From what a decoy's columns are made.
+enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
+
+struct Candidate {
+  Effect effect;
+  Disguise disguise = Disguise::none;
+  double name_nats = 0.0;  ///< the price of naming it: log of the number of its like
+};
+
+struct CandidateOptions {
+  std::vector<std::string> kinds;  ///< words of the catalogue; empty: all
+  bool decoys = true;
+};
+
+/// All proposals of the laws within the evidence, ranges of validity set, less what is declared already, and decoys:
+/// gear harmonics at ratios that no gear has, backlash by shuffled approach signs, thermal offsets by shuffled
+/// temperatures.
+std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& evidence, const DeclaredModel& declared,
+                                      const CandidateOptions& options);
+
+/// The states that a disguise sees: `states` with approach signs or temperatures dealt out anew over the poses.
+std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise disguise, RandomStream random);
+
+/// "gear_harmonic of joint 2 at ratio 347.3", for people.
+std::string decoy_name(const Candidate& candidate);
+
+}  // namespace demecal

@@ -1,0 +1,129 @@
+#include "diagnosis/diagnosed_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/triangular_factor.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
+
+std::vector<ParameterId> free_ids(const DiagnosisData& of, const CorrectedRobot& robot, const FitOptions& options) {
+  std::vector<ParameterId> ids = free_parameters(of.data, of.declared, options);
+  for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
+  return ids;
+}
+
+RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
+  RowMatrix both(left.rows(), left.cols() + right.cols());
+  both << left, right;
+  return both;
+}
+
+Eigen::VectorXd smooth_precision(const ModelColumns& columns, const Eigen::VectorXd& residual,
+                                 const Eigen::VectorXd& present) {
+  const Eigen::Index terms = present.size(), n = columns.fitted.cols();
+  if (terms == 0) return {};
+  TriangularFactor factor(static_cast<int>(n) + 1);
+  const Eigen::VectorXd whole = residual + columns.fitted.rightCols(terms) * present;
+  factor.add(beside(columns.fitted, whole));
+  RowMatrix beliefs = RowMatrix::Zero(n - terms, n + 1);
+  for (Eigen::Index i = 0; i < n - terms; ++i) {
+    beliefs(i, i) = columns.precision[i];
+    beliefs(i, n) = -columns.precision[i] * columns.offset[i];
+  }
+  factor.add(beliefs);
+  return relevance(factor.factor(), terms, static_cast<double>(residual.size()));
+}
+
+ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
+                           const ResidualField& fitted, const ResidualField& judging) {
+  ModelColumns columns{beside(fitted.declared, smooth.columns(fitted)), beside(judging.declared, smooth.columns(judging)),
+                       {}, {}};
+  const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
+  columns.precision.setZero(n + terms);
+  columns.precision.head(n) = prior.precision;
+  columns.offset.setZero(n + terms);
+  columns.offset.head(n) = prior.offset;
+  columns.offset.tail(terms) = smooth.coefficients;
+  columns.precision.tail(terms) = smooth_precision(columns, fitted.residual, smooth.coefficients);
+  return columns;
+}
+
+/// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
+RowScales scales_of(const DiagnosisData& of, const Linearised& at, const RowScales& present) {
+  RowScales squares{}, freedom{};
+  for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
+    const RowCounts count = count_rows(of.data.poses[at.fitted.poses[i]]);
+    Eigen::Index row = at.fitted.first_row[i];
+    for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+      if (present[kind] <= 0) continue;
+      for (int k = 0; k < count[kind]; ++k, ++row) {
+        squares[kind] += std::pow(at.projection.left()[row], 2);
+        freedom[kind] += std::pow(at.fitted.root_weight[i], 2) - at.projection.basis().row(row).squaredNorm();
+      }
+    }
+  }
+  RowScales scales{};
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    if (present[kind] <= 0) continue;
+    const double share = freedom[kind] > 1.0 ? squares[kind] / freedom[kind] : 1.0;
+    scales[kind] = std::max(kSmallestScale, present[kind] * std::sqrt(share));
+  }
+  return scales;
+}
+
+bool settled(const RowScales& before, const RowScales& after) {
+  constexpr double kSettled = 0.02;
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1.0) > kSettled) return false;
+  }
+  return true;
+}
+
+void set_standard_errors(CorrectedRobot& robot, const Linearised& at) {
+  for (std::size_t i = 0; i < at.ids.size(); ++i) {
+    const ParameterId& id = at.ids[i];
+    if (id.kind != ParameterId::Kind::effect) continue;
+    Effect& effect = robot.effects[static_cast<std::size_t>(id.index)];
+    effect.standard_errors.resize(effect.values.size());
+    const auto row = static_cast<Eigen::Index>(i);
+    effect.standard_errors[static_cast<std::size_t>(id.coefficient)] = std::sqrt(at.covariance(row, row));
+  }
+}
+
+}  // namespace
+
+Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
+  const FitOptions options;
+  std::vector<ParameterId> ids = free_ids(of, model.robot, options);
+  const ParameterSpace space(model.robot, ids);
+  const Prior prior = link_prior(space, nominal_robot(of.data), options);
+  ResidualField fitted = residual_field(of.data, of.fitted, space, model.scales, true);
+  ResidualField judging = residual_field(of.data, of.judging, space, model.scales, false);
+  const ModelColumns columns = model_columns(space, prior, model.smooth, fitted, judging);
+  Projection projection(columns, fitted.residual, judging.residual);
+  Eigen::VectorXd changes = projection.changes();
+  Eigen::MatrixXd covariance = projection.covariance();
+  return {std::move(ids),        std::move(fitted),  std::move(judging), std::move(projection),
+          std::move(changes), std::move(covariance)};
+}
+
+DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps) {
+  for (int step = 0; step < steps; ++step) {
+    const Linearised at = linearise(of, model);
+    const ParameterSpace space(model.robot, at.ids);
+    model.robot = space.at(at.changes.head(space.size())).robot;
+    model.smooth.coefficients += at.changes.tail(model.smooth.coefficients.size());
+    model.robot.corrections = model.smooth.corrections();
+    set_standard_errors(model.robot, at);
+    const RowScales before = std::exchange(model.scales, scales_of(of, at, model.scales));
+    const double gained = (at.fitted.residual - at.projection.left()).squaredNorm();
+    if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(at.fitted.rows())) break;
+  }
+  return model;
+}
+
+}  // namespace demecal

@@ -1,0 +1,47 @@
+// The model while it is being diagnosed: everything declared, smooth corrections and the effects added so far.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "diagnosis/projection.hpp"
+#include "diagnosis/smooth_corrections.hpp"
+#include "fitting/prior.hpp"
+
+namespace demecal {
+
+/// One value of all the numbers of the model, and how its residuals scatter.
+struct DiagnosedModel {
+  CorrectedRobot robot;  ///< with its effects; corrections are those of `smooth`
+  SmoothCorrections smooth;
+  RowScales scales{};
+};
+
+/// The model's surroundings to first order: fields over the fitted and the judging poses, and the residual with all of
+/// the model's numbers at their least-squares values.
+struct Linearised {
+  std::vector<ParameterId> ids;
+  ResidualField fitted, judging;
+  Projection projection;
+  Eigen::VectorXd changes;          ///< least-squares steps of `ids`, then of the smooth terms
+  Eigen::MatrixXd covariance;       ///< of the same numbers, in rows of unit variance
+};
+
+/// What stays the same from step to step.
+struct DiagnosisData {
+  const DataSet& data;
+  DeclaredModel declared;
+  std::vector<std::size_t> fitted, judging;  ///< poses
+};
+
+/// Linearises at `model`. Smooth terms are believed to be near zero by automatic relevance determination, links to be
+/// near their maker's figures.
+Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model);
+
+/// The model at its least-squares values: Gauss and Newton's steps, far poses down-weighted and the scales of the kinds
+/// of rows taken from what is left, until neither changes; at most `steps`. Effects get standard errors.
+DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps);
+
+}  // namespace demecal

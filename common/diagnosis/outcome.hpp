@@ -1,0 +1,93 @@
+// What the closed loop found, round by round, with the number behind every step.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/corrected_robot.hpp"
+#include "effects/effect.hpp"
+
+namespace demecal {
+
+enum class Verdict { added, rejected, none };
+
+/// An effect that these poses cannot tell from the named one, or hardly.
+struct Rival {
+  Effect effect;
+  double cosine = 0.0;       ///< between what either would explain, beyond the model
+  double nats_behind = 0.0;  ///< description length that it leaves above the named one's
+};
+
+/// The measurement that would split an effect from its rivals.
+struct FurtherMeasurement {
+  std::string sentence;  ///< what to measure, for a person
+  int poses = 0;         ///< how many give power 0.9
+};
+
+/// One step of the loop: the best candidate, and what became of it.
+struct Round {
+  int number = 0;  ///< from 1
+  int group = 0;   ///< rounds of one group were judged against the same permutations and refitted together; from 1
+  Verdict verdict = Verdict::none;
+  Effect effect;  ///< with its values at the end of its group; of the best candidate where none was added
+  std::string diagnosis;       ///< one sentence for an engineer
+  std::string formula;         ///< one line
+  std::string reason;          ///< why it was not added; empty where it was
+  std::vector<Rival> rivals;   ///< nearest first
+  double p_structure = 1.0;    ///< of the omnibus test for dependence before this group
+  double p_family = 1.0;       ///< family-wise, over all candidates
+  double fall_nats = 0.0;      ///< of the description length
+  double gain_lower_mm2 = 0.0;  ///< one-sided 95 % bound of the fall of the mean squared error on validation poses
+  double sign_stability = 0.0;  ///< share of resamples in which the leading coefficient keeps its sign
+  std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient, by resampling poses; SI
+  double validation_before_mm = 0.0;  ///< mean tool error on the validation poses
+  double validation_after_mm = 0.0;
+  std::optional<FurtherMeasurement> further;  ///< where there are rivals
+};
+
+/// An effect that was looked for and not found.
+struct NotFound {
+  Effect effect;                     ///< kind and joint
+  double smallest_detectable = 0.0;  ///< the smallest amplitude that these poses would show with power 0.9
+  std::string unit;                  ///< "rad", "rad/Nm", ...
+};
+
+/// A kind of effect that these data cannot show at all.
+struct Unseen {
+  std::string kind;
+  std::string reason;  ///< "no approach columns: ..."
+};
+
+/// A candidate that cannot be true, and how it fared.
+struct Decoy {
+  std::string name;          ///< "backlash of joint 2 by shuffled approach signs"
+  double best_fall_nats = 0.0;  ///< over all groups
+  bool won = false;
+};
+
+enum class StopReason { not_run, no_structure, no_gain, max_effects, decoy };
+
+struct LoopOutcome {
+  StopReason stopped = StopReason::not_run;
+  std::vector<Round> rounds;
+  std::vector<Effect> dropped;  ///< added and taken back by the backward step
+  std::vector<NotFound> not_found;
+  std::vector<Unseen> unseen;
+  std::vector<Decoy> decoys;
+  std::vector<std::size_t> outliers;            ///< poses (in the data set) that were down-weighted as far out
+  std::optional<double> noise_m;                ///< per axis, from repeats
+  std::optional<double> lack_of_fit_p;          ///< of the F test against repeats, before the loop
+  std::optional<double> explained_share;        ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
+  double p_structure_left = 1.0;                ///< of the omnibus test at the end
+  int candidates = 0;                           ///< effects tried in every round
+  int permutations = 0;
+};
+
+/// "no_structure", "no_gain", "max_effects", "decoy", "not_run".
+std::string word_of(StopReason reason);
+/// "added", "rejected", "none".
+std::string word_of(Verdict verdict);
+
+}  // namespace demecal

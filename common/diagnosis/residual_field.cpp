@@ -1,0 +1,100 @@
+#include "diagnosis/residual_field.hpp"
+
+#include <cmath>
+
+#include "fitting/least_squares.hpp"
+
+namespace demecal {
+namespace {
+
+using Twists = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// The twist of the tool (measurements' frame) per unit motion at every place.
+Twists place_twists(const std::vector<Eigen::Isometry3d>& places, const Eigen::Isometry3d& sensor_from_base,
+                    const Eigen::Vector3d& tool) {
+  Twists twists(6, 6 * (static_cast<Eigen::Index>(places.size()) + 1));
+  const auto fill = [&](int place, const Eigen::Isometry3d& frame) {
+    const Eigen::Vector3d lever = tool - frame.translation();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d direction = frame.linear().col(axis);
+      twists.col(motion_column(place, axis)) << direction, Eigen::Vector3d::Zero();
+      twists.col(motion_column(place, 3 + axis)) << direction.cross(lever), direction;
+    }
+  };
+  fill(kSensorPlace, Eigen::Isometry3d::Identity());
+  for (std::size_t i = 0; i < places.size(); ++i) fill(static_cast<int>(i), sensor_from_base * places[i]);
+  return twists;
+}
+
+double root_huber_weight(double norm, int rows) {
+  const double threshold = huber_threshold(rows);
+  return norm > threshold ? std::sqrt(threshold / norm) : 1.0;
+}
+
+/// The rows of a pose in use, and the scale of each.
+std::vector<std::pair<Eigen::Index, double>> rows_used(const MeasuredPose& pose, const RowScales& scales) {
+  std::vector<std::pair<Eigen::Index, double>> used;
+  const RowCounts count = count_rows(pose);
+  Eigen::Index row = 0;
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    for (int i = 0; i < count[kind]; ++i, ++row) {
+      if (scales[kind] > 0) used.emplace_back(row, scales[kind]);
+    }
+  }
+  return used;
+}
+
+void reserve(ResidualField& field, const DataSet& data, const std::vector<Observation>& observations,
+             const ParameterSpace& space, const RowScales& scales) {
+  const auto rows = static_cast<Eigen::Index>(rows_in_use(data, observations, scales));
+  field.residual.resize(rows);
+  field.declared.resize(rows, space.size());
+  field.motions.resize(rows, 6 * (space.reference().chain.size() + 2));
+  field.first_row.push_back(0);
+}
+
+/// The real arm's places: the identified chain at the joints where it really stands.
+std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const Stop& stop) {
+  Robot real;
+  real.chain = robot.chain;
+  return arm_state(real, Stop(robot.actual_joints(stop))).places;
+}
+
+}  // namespace
+
+ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
+                             const RowScales& scales, bool robust) {
+  const CorrectedRobot& robot = space.reference();
+  const std::vector<Observation> observations = observe(data, poses, robot);
+  const ModelPoint point = space.at(Eigen::VectorXd::Zero(space.size()));
+  ResidualField field;
+  reserve(field, data, observations, space, scales);
+  ScaledRows rows;
+  for (const Observation& observation : observations) {
+    const MeasuredPose& pose = data.poses[observation.pose];
+    const auto used = rows_used(pose, scales);
+    if (used.empty()) continue;
+    scaled_rows(data, space, point, observation, scales, rows);
+    const auto count = static_cast<Eigen::Index>(used.size());
+    const double weight = robust ? root_huber_weight(rows.residual.norm(), static_cast<int>(count)) : 1.0;
+    const Eigen::Index first = field.first_row.back();
+    field.residual.segment(first, count) = weight * rows.residual;
+    field.declared.middleRows(first, count) = -weight * rows.jacobian;
+    const Stop stop(pose);
+    const Eigen::Vector3d tool = rows.motion.predicted.translation();
+    const Twists twists = place_twists(real_places(robot, stop), robot.sensor_from_base, tool);
+    const auto measured = measurement_jacobian(rows.motion.predicted, data, pose);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto& [row, scale] = used[static_cast<std::size_t>(i)];
+      field.motions.row(first + i).noalias() = (weight / scale) * measured.row(row) * twists;
+    }
+    field.poses.push_back(observation.pose);
+    field.root_weight.push_back(weight);
+    field.first_row.push_back(first + count);
+    field.states.push_back(arm_state(data.robot, stop));
+    field.states.back().tool_in_sensor_m = tool;
+  }
+  return field;
+}
+
+}  // namespace demecal

@@ -1,0 +1,127 @@
+#include "diagnosis/scan.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace demecal {
+namespace {
+
+constexpr double kNewShare = 1e-5;
+constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
+
+/// Poses by their number of rows: only equals may change places.
+std::map<Eigen::Index, std::vector<std::size_t>> alike(const ResidualField& field) {
+  std::map<Eigen::Index, std::vector<std::size_t>> groups;
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) groups[field.rows_of_pose(pose)].push_back(pose);
+  return groups;
+}
+
+/// Fills a column with the residual, whole poses' parts in each other's places.
+void permute(const ResidualField& field, const Eigen::VectorXd& residual, RandomStream& random,
+             Eigen::Ref<Eigen::VectorXd> to) {
+  for (auto& [rows, poses] : alike(field)) {
+    std::vector<std::size_t> from = poses;
+    for (std::size_t i = from.size(); i > 1; --i) std::swap(from[i - 1], from[random.index(i)]);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      to.segment(field.first_row[poses[i]], rows) = residual.segment(field.first_row[from[i]], rows);
+    }
+  }
+}
+
+}  // namespace
+
+Scan::Scan(const EffectColumns& columns, const std::vector<double>& name_nats, const ResidualField& field,
+           const Projection& model)
+    : spans_(columns.spans()),
+      name_nats_(name_nats),
+      rows_(static_cast<double>(field.rows())),
+      poses_(static_cast<double>(field.poses.size())) {
+  whole_.reserve(spans_.size());
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    const RowMatrix dense = columns.dense(field, i);
+    whole_.emplace_back(dense.transpose() * dense);
+  }
+  along_.resize(columns.size(), 0);
+  follow(columns, field, model);
+}
+
+void Scan::follow(const EffectColumns& columns, const ResidualField& field, const Projection& model) {
+  const Eigen::Index known = along_.cols(), fresh = model.rank() - known;
+  RowMatrix news(field.rows(), fresh + 1);
+  news.leftCols(fresh) = model.basis().rightCols(fresh);
+  news.col(fresh) = model.left();
+  const Eigen::MatrixXd products = columns.transposed_times(field, news);
+  along_.conservativeResize(Eigen::NoChange, model.rank());
+  along_.rightCols(fresh) = products.leftCols(fresh);
+  moment_ = products.col(fresh);
+  squares_ = model.left().squaredNorm();
+  invert(columns.spans());
+}
+
+void Scan::invert(const std::vector<ColumnSpan>& spans) {
+  grams_.assign(spans.size(), {});
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const auto along = along_.middleRows(spans[i].first, spans[i].count);
+    const Eigen::MatrixXd left = whole_[i] - along * along.transpose();
+    Eigen::VectorXd scale = whole_[i].diagonal().cwiseSqrt();
+    for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * left * scale.asDiagonal());
+    Eigen::VectorXd inverse = eigen.eigenvalues();
+    for (double& value : inverse) {
+      grams_[i].rank += value > kNewShare;
+      value = value > kNewShare ? 1 / value : 0.0;
+    }
+    const Eigen::MatrixXd turned = scale.asDiagonal() * eigen.eigenvectors();
+    grams_[i].inverse = turned * inverse.asDiagonal() * turned.transpose();
+    const double widest = grams_[i].inverse.diagonal().maxCoeff();
+    grams_[i].smallest = widest > 0 ? 1 / widest : 0.0;
+  }
+}
+
+double Scan::fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
+  if (rank == 0) return 0.0;
+  const double share = std::min(drop / squares, 1.0 - 1e-12);
+  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) -
+         name_nats_[candidate];
+}
+
+std::vector<Score> Scan::scores() const {
+  std::vector<Score> scores(spans_.size());
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    const auto moment = moment_.segment(spans_[i].first, spans_[i].count);
+    scores[i].drop = moment.dot(grams_[i].inverse * moment);
+    scores[i].rank = grams_[i].rank;
+    scores[i].smallest = grams_[i].smallest;
+    scores[i].fall_nats = fall_nats(scores[i].drop, squares_, scores[i].rank, i);
+  }
+  return scores;
+}
+
+std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field,
+                                      const Projection& model, int count, RandomStream random) const {
+  std::vector<double> maxima;
+  for (Eigen::Index done = 0; done < count; done += kAtATime) {
+    const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
+    Eigen::MatrixXd shuffled(field.rows(), now);
+    for (Eigen::Index i = 0; i < now; ++i) permute(field, model.left(), random, shuffled.col(i));
+    const RowMatrix rows = shuffled;
+    const Eigen::MatrixXd explained = model.basis().transpose() * rows;
+    const Eigen::MatrixXd moments = columns.transposed_times(field, rows) - along_ * explained;
+    for (Eigen::Index i = 0; i < now; ++i) {
+      const double squares = rows.col(i).squaredNorm() - explained.col(i).squaredNorm();
+      double best = 0.0;
+      for (std::size_t k = 0; k < spans_.size(); ++k) {
+        const auto moment = moments.col(i).segment(spans_[k].first, spans_[k].count);
+        best = std::max(best, fall_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
+      }
+      maxima.push_back(best);
+    }
+  }
+  std::sort(maxima.begin(), maxima.end());
+  return maxima;
+}
+
+}  // namespace demecal

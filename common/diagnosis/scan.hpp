@@ -1,0 +1,60 @@
+// How much of the residual each candidate effect would explain, and how much the best one would by luck.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "diagnosis/effect_columns.hpp"
+#include "diagnosis/projection.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+
+/// One candidate against the residual.
+struct Score {
+  double drop = 0.0;        ///< fall of the sum of squares
+  Eigen::Index rank = 0;    ///< directions that the model does not have
+  double fall_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
+  double smallest = 0.0;    ///< of the projected columns' Gram matrix (unscaled): its smallest kept eigenvalue
+};
+
+/// All candidates' projections off one model. Building it costs one pass over the candidates' columns.
+class Scan {
+ public:
+  /// `name_nats`: per candidate, the price of naming it (log of the number of its like).
+  Scan(const EffectColumns& columns, const std::vector<double>& name_nats, const ResidualField& field,
+       const Projection& model);
+
+  /// Brings the scan up to date with a model to which columns were added (as `added` says, from column `from` on).
+  void follow(const EffectColumns& columns, const ResidualField& field, const Projection& model);
+
+  /// One score per candidate.
+  std::vector<Score> scores() const;
+
+  /// The largest fall_nats of any candidate, for each of `count` permutations of whole poses' residuals (Freedman and
+  /// Lane, 1983), ascending. Poses with equally many rows change places. At most `most_poses` poses take part, evenly
+  /// spaced: what is sought depends on the candidates' geometry and hardly on how many poses there are.
+  std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
+                                  int count, RandomStream random) const;
+
+ private:
+  struct Gram {
+    Eigen::MatrixXd inverse;  ///< pseudo-inverse over new directions
+    Eigen::Index rank = 0;
+    double smallest = 0.0;
+  };
+  double fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
+  void invert(const std::vector<ColumnSpan>& spans);
+
+  std::vector<ColumnSpan> spans_;
+  std::vector<double> name_nats_;
+  std::vector<Eigen::MatrixXd> whole_;  ///< X^T X per candidate
+  Eigen::MatrixXd along_;               ///< X^T basis: columns x rank
+  std::vector<Gram> grams_;
+  Eigen::VectorXd moment_;  ///< X^T residual
+  double squares_ = 0.0;
+  double rows_ = 0.0;
+  double poses_ = 0.0;
+};
+
+}  // namespace demecal

@@ -1,0 +1,154 @@
+#include "diagnosis/smooth_corrections.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "expression/evaluate.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kLeastMotion_rad = 1e-3;
+constexpr int kHighestDegree = 8;
+constexpr int kHighestHarmonic = 3;
+
+Tree times(double factor, const Tree& tree) {
+  return apply(Primitive::multiply, constant_tree(factor), tree);
+}
+
+/// (theta - middle) * (1 / half): from -1 to 1 over the range.
+Tree unit_variable(const Interval& range) {
+  const double middle = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
+  return times(1.0 / half, apply(Primitive::subtract, variable_tree(0), constant_tree(middle)));
+}
+
+/// Legendre polynomial of `degree` in `t` by Bonnet's recurrence on its coefficients, as a Horner scheme.
+Tree legendre(int degree, const Tree& t) {
+  std::vector<double> before{1.0}, now{0.0, 1.0};
+  for (int n = 1; n < degree; ++n) {
+    std::vector<double> next(static_cast<std::size_t>(n) + 2, 0.0);
+    for (std::size_t i = 0; i < now.size(); ++i) next[i + 1] += (2.0 * n + 1.0) / (n + 1.0) * now[i];
+    for (std::size_t i = 0; i < before.size(); ++i) next[i] -= n / (n + 1.0) * before[i];
+    before = std::exchange(now, std::move(next));
+  }
+  Tree tree = constant_tree(now.back());
+  for (std::size_t i = now.size() - 1; i-- > 0;) {
+    tree = apply(Primitive::multiply, tree, t);
+    if (now[i] != 0.0) tree = apply(Primitive::add, tree, constant_tree(now[i]));
+  }
+  return tree;
+}
+
+void add_terms(SmoothCorrections& smooth, int joint, const Interval& range) {
+  const Tree t = unit_variable(range);
+  for (int degree = 1; degree <= kHighestDegree; ++degree) smooth.terms.push_back({joint, legendre(degree, t)});
+  for (int n = 1; n <= kHighestHarmonic; ++n) {
+    const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
+    smooth.terms.push_back({joint, apply(Primitive::cosine, angle)});
+    smooth.terms.push_back({joint, apply(Primitive::sine, angle)});
+  }
+}
+
+double value_at(const SmoothCorrections& smooth, const SmoothTerm& term, double theta) {
+  const auto joint = static_cast<std::size_t>(term.joint);
+  const double inside =
+      std::clamp(smooth.branches[joint](theta), smooth.ranges[joint].lower, smooth.ranges[joint].upper);
+  return evaluate(term.formula, {&inside, 1});
+}
+
+}  // namespace
+
+std::vector<JointCorrection> SmoothCorrections::corrections() const {
+  std::vector<JointCorrection> result = base;
+  for (std::size_t joint = 0; joint < base.size(); ++joint) {
+    Tree sum;
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const double coefficient = coefficients[static_cast<Eigen::Index>(i)];
+      if (terms[i].joint != static_cast<int>(joint) || coefficient == 0.0) continue;
+      const Tree part = times(coefficient, terms[i].formula);
+      sum = sum.empty() ? part : apply(Primitive::add, sum, part);
+    }
+    if (sum.empty()) continue;
+    if (!base[joint].is_neutral()) sum = apply(Primitive::add, base[joint].formula(), sum);
+    result[joint] = JointCorrection(std::move(sum), branches[joint], ranges[joint]);
+  }
+  return result;
+}
+
+RowMatrix SmoothCorrections::columns(const ResidualField& field) const {
+  RowMatrix columns(field.rows(), static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    const JointVector& joints = field.states[pose].joints();
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const double value = value_at(*this, terms[i], joints[terms[i].joint]);
+      columns.block(first, static_cast<Eigen::Index>(i), count, 1) =
+          value * field.motions.block(first, motion_column(terms[i].joint, 5), count, 1);
+    }
+  }
+  return columns;
+}
+
+SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::size_t> poses,
+                                     const CorrectedRobot& robot, bool declared) {
+  SmoothCorrections smooth;
+  smooth.base = robot.corrections;
+  smooth.branches.resize(smooth.base.size());
+  smooth.ranges.resize(smooth.base.size());
+  for (int joint = 0; joint < robot.chain.size(); ++joint) {
+    const auto at = static_cast<std::size_t>(joint);
+    const Joint& link = robot.chain.joints[at];
+    std::vector<double> angles;
+    for (const std::size_t pose : poses) angles.push_back(data.poses[pose].joints[joint]);
+    if (link.type == JointType::revolute) smooth.branches[at] = choose_branch(angles, link.lower, link.upper);
+    if (!smooth.base[at].is_neutral()) smooth.branches[at] = smooth.base[at].branch();
+    for (double& angle : angles) angle = smooth.branches[at](angle);
+    const auto [lower, upper] = std::minmax_element(angles.begin(), angles.end());
+    if (lower == angles.end()) continue;
+    smooth.ranges[at] = {*lower, *upper};
+    const bool moves = link.type == JointType::revolute && *upper - *lower > kLeastMotion_rad;
+    if (declared && moves) add_terms(smooth, joint, smooth.ranges[at]);
+  }
+  smooth.coefficients.setZero(static_cast<Eigen::Index>(smooth.terms.size()));
+  return smooth;
+}
+
+Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, double rows) {
+  constexpr int kRounds = 200;
+  constexpr double kLargest = 1e8;  ///< 1/rad: a coefficient so believed is zero
+  const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
+  const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
+  const Eigen::VectorXd moment = factor.leftCols(n).transpose() * factor.col(n);
+  const double whole = factor.col(n).squaredNorm();
+  Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
+  for (double& value : scale) value = value > 0 ? 1 / value : 1.0;
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  const Eigen::VectorXd scaled_moment = scale.cwiseProduct(moment);
+  Eigen::VectorXd belief = Eigen::VectorXd::Constant(n, 1e-10);  // in scaled units, over the variance of rows
+  belief.tail(terms).setConstant(1e-2);
+  double variance = 1.0;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::MatrixXd posterior = scaled;
+    posterior.diagonal() += variance * belief;
+    const Eigen::LDLT<Eigen::MatrixXd> solver(posterior);
+    const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(n, n));
+    const Eigen::VectorXd mean = inverse * scaled_moment;
+    double determined = static_cast<double>(fixed);
+    for (Eigen::Index i = fixed; i < n; ++i) {
+      const double known = std::clamp(1.0 - variance * belief[i] * inverse(i, i), 1e-12, 1.0);
+      determined += known;
+      belief[i] = std::clamp(known / std::max(mean[i] * mean[i], 1e-30), 1e-10, 1e12);
+    }
+    const double squares = whole - 2.0 * mean.dot(scaled_moment) + mean.dot(scaled * mean);
+    variance = std::max(squares, 1e-12 * whole) / std::max(rows - determined, 1.0);
+  }
+  Eigen::VectorXd precision(terms);
+  for (Eigen::Index i = 0; i < terms; ++i) {
+    // back to rows of unit variance: precision of the unscaled coefficient
+    precision[i] = std::min(kLargest, std::sqrt(belief[fixed + i]) / scale[fixed + i]);
+  }
+  return precision;
+}
+
+}  // namespace demecal

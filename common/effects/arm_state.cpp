@@ -1,0 +1,66 @@
+#include "effects/arm_state.hpp"
+
+#include "errors/check.hpp"
+#include "kinematics/elementary.hpp"
+
+namespace demecal {
+namespace {
+
+/// Sets places and links: the frames met on the way from base to flange.
+void walk(const Chain& chain, ArmState& state) {
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < chain.size(); ++i) {
+    const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
+    for (const Elementary& transform : elementary_transforms(chain.convention)) {
+      // In either convention the axis of the joint is that of its first transform about z.
+      if (transform.parameter == LinkParameter::theta) state.places.push_back(frame);
+      advance(frame, transform, elementary_value(joint, transform.parameter, state.joints()[i]));
+    }
+    state.links.push_back(frame);
+  }
+  state.places.push_back(frame);
+}
+
+/// Sets loads, from the payload inwards: a place bears what the next one bears, and its own link.
+void weigh(const Robot& robot, ArmState& state) {
+  const std::size_t n = state.links.size();
+  double mass_kg = state.stop.payload_kg;
+  Eigen::Vector3d moment_kg_m = mass_kg * state.payload_point_m;  // of mass, about the base's origin
+  state.loads.resize(n);
+  for (std::size_t i = n; i-- > 0;) {
+    if (!robot.masses.empty()) {
+      const LinkMass& link = robot.masses[i];
+      mass_kg += link.mass_kg;
+      moment_kg_m += link.mass_kg * (state.links[i] * link.centre_m);
+    }
+    const Eigen::Isometry3d& place = state.places[i];
+    const Eigen::Vector3d lever_kg_m = moment_kg_m - mass_kg * place.translation();
+    state.loads[i].force_n = place.linear().transpose() * (mass_kg * state.gravity_mps2);
+    state.loads[i].moment_nm = place.linear().transpose() * lever_kg_m.cross(state.gravity_mps2);
+  }
+}
+
+}  // namespace
+
+double ArmState::torque(const Chain& chain, int joint) const {
+  const auto i = static_cast<std::size_t>(joint);
+  return chain.joints[i].type == JointType::revolute ? loads[i].moment_nm.z() : loads[i].force_n.z();
+}
+
+ArmState arm_state(const Robot& robot, const Stop& stop) {
+  DEMECAL_CHECK(stop.joints.size() == robot.chain.size(), stop.joints.size() << " of " << robot.chain.size());
+  DEMECAL_CHECK(robot.masses.empty() || std::ssize(robot.masses) == robot.chain.size(), robot.masses.size());
+  ArmState state{.stop = stop,
+                 .places = {},
+                 .links = {},
+                 .loads = {},
+                 .gravity_mps2 = robot.gravity_mps2,
+                 .payload_point_m = robot.chain.tool_m,
+                 .tool_in_sensor_m = Eigen::Vector3d::Zero()};
+  walk(robot.chain, state);
+  state.payload_point_m = state.places.back() * robot.chain.tool_m;
+  weigh(robot, state);
+  return state;
+}
+
+}  // namespace demecal

@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include "effects/joint_words.hpp"
+#include "effects/laws.hpp"
+#include "effects/sampled_states.hpp"
+
+namespace demecal {
+namespace {
+
+/// The load that seats a gear, of the joint's median load.
+constexpr double kSeatingShare = 0.2;
+
+/// Lost motion: the joint stops half of it short on either side, or rests on the side its load pushes it to.
+class Backlash final : public EffectLaw {
+ public:
+  std::string_view kind() const override { return "backlash"; }
+  std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override {
+    return {motion_label(robot, effect.joint, "width")};
+  }
+  void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                    std::vector<UnitMotion>& motions) const override {
+    append_joint_motion(robot, effect.joint, 0, 0.5 * side(effect, robot, state), motions);
+  }
+  std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override;
+  Needs needs(const Effect& effect, const Robot& /*robot*/) const override {
+    return {.approach = !seated(effect), .masses = seated(effect)};
+  }
+  std::string formula(const Effect& effect, const Robot& robot) const override;
+  std::string diagnosis(const Effect& effect, const Robot& robot) const override;
+  std::vector<std::string> settings() const override { return {"torque0_nm"}; }
+  std::vector<std::string> forms() const override { return {"approach", "seated"}; }
+
+ private:
+  static bool seated(const Effect& effect) { return effect.form == "seated"; }
+  /// To which side of the play the joint stands: from -1 to 1.
+  static double side(const Effect& effect, const Robot& robot, const ArmState& state) {
+    if (!seated(effect)) return -state.approach(effect.joint);
+    return std::tanh(state.torque(robot.chain, effect.joint) / effect.setting("torque0_nm"));
+  }
+};
+
+std::vector<Effect> Backlash::proposals(const Robot& robot, const Evidence& evidence) const {
+  std::vector<Effect> effects;
+  const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
+  for (int joint = 0; joint < robot.chain.size(); ++joint) {
+    if (evidence.approach) effects.push_back({.kind = "backlash", .joint = joint, .settings = {}, .form = "approach"});
+    if (!evidence.masses) continue;
+    const double torque0 = kSeatingShare * torques_by_size(robot, states, joint)[states.size() / 2];
+    if (torque0 < kNoLoad) continue;
+    effects.push_back({.kind = "backlash", .joint = joint, .settings = {{"torque0_nm", torque0}}, .form = "seated"});
+  }
+  return effects;
+}
+
+std::string Backlash::formula(const Effect& effect, const Robot& robot) const {
+  const std::string joint = std::to_string(effect.joint + 1);
+  if (!seated(effect)) return write_joint_equation(effect, robot, {{0, 's' + joint, -0.5}});
+  const std::string load = "tau" + joint + " / " + number_words(effect.setting("torque0_nm"));
+  return write_joint_equation(effect, robot, {{0, "tanh(" + load + ' ' + load_unit(robot, effect.joint) + ')', 0.5}});
+}
+
+std::string Backlash::diagnosis(const Effect& effect, const Robot& robot) const {
+  const double width = effect.value(0);
+  const std::string half = motion_words(robot, effect.joint, 0.5 * std::abs(width));
+  if (seated(effect)) {
+    return joint_name(effect.joint) + " stands " + half + " off on the side its load pushes it " +
+           (width < 0.0 ? "away from" : "to") +
+           (width < 0.0 ? ", which lost motion does not explain." : ": lost motion in its gear.");
+  }
+  if (width < 0.0) {
+    return joint_name(effect.joint) + " stops " + half +
+           " beyond where it is sent, on either side: too much for its lost motion is made up for.";
+  }
+  return joint_name(effect.joint) + " stops " + half +
+         " short on either side of where it is sent: lost motion in its gear.";
+}
+
+}  // namespace
+
+const EffectLaw& backlash_law() {
+  static const Backlash law;
+  return law;
+}
+
+}  // namespace demecal

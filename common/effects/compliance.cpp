@@ -1,0 +1,204 @@
+#include <array>
+#include <cmath>
+
+#include "effects/joint_words.hpp"
+#include "effects/laws.hpp"
+#include "effects/sampled_states.hpp"
+#include "effects/weight_parts.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::string_view kKeep = "keep_";
+constexpr double kSamplePayload_kg = 1.0;
+const std::string kWithPayload = "with_payload";
+
+/// A joint that gives way where gravity pushes it. Forms: `masses`, by the torque of known masses and the payload;
+/// `payload`, of the payload alone; `moments`, of unknown masses, whose first moments times the compliance are the
+/// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known); `tilted`, of known
+/// masses where gravity leans a little from where it is said to point.
+class Compliance final : public EffectLaw {
+ public:
+  std::string_view kind() const override { return "compliance"; }
+  std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override;
+  void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                    std::vector<UnitMotion>& motions) const override;
+  std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override;
+  Needs needs(const Effect& effect, const Robot& /*robot*/) const override;
+  std::string formula(const Effect& effect, const Robot& robot) const override;
+  std::string diagnosis(const Effect& effect, const Robot& robot) const override;
+  std::vector<std::string> settings() const override;
+  std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted"}; }
+};
+
+/// The unknowns of the form `moments`, in the order of their coefficients.
+std::vector<WeightPart> kept_parts(const Effect& effect) {
+  std::vector<WeightPart> parts;
+  for (const auto& [name, value] : effect.settings) {
+    if (!name.starts_with(kKeep) || value == 0.0) continue;
+    if (const auto part = weight_part(std::string_view(name).substr(kKeep.size()))) parts.push_back(*part);
+  }
+  return parts;
+}
+
+bool with_payload(const Effect& effect) {
+  const auto found = effect.settings.find(kWithPayload);
+  return found != effect.settings.end() && found->second != 0.0;
+}
+
+/// Motion of unknown weight: the unit of the joint's motion, per metre of lever for masses hung on a revolute joint.
+CoefficientLabel part_label(const Robot& robot, int joint, const WeightPart& part) {
+  CoefficientLabel label = motion_label(robot, joint, "moment_" + name_of(part));
+  if (part.axis == 3 && is_revolute(robot, joint)) label = {label.name + "_per_m", "rad/m"};
+  return label;
+}
+
+/// What `gravity_mps2` does to the joint through a mass (kg) whose moment about the base's origin is given.
+double effort(const Robot& robot, const ArmState& state, int joint, double mass_kg, const Eigen::Vector3d& moment_kg_m,
+              const Eigen::Vector3d& gravity_mps2) {
+  const Eigen::Isometry3d& place = state.places[static_cast<std::size_t>(joint)];
+  const Eigen::Vector3d axis = place.linear().col(2);
+  if (!is_revolute(robot, joint)) return mass_kg * axis.dot(gravity_mps2);
+  return axis.dot((moment_kg_m - mass_kg * place.translation()).cross(gravity_mps2));
+}
+
+double payload_effort(const Robot& robot, const ArmState& state, int joint) {
+  const double mass = state.stop.payload_kg;
+  return effort(robot, state, joint, mass, mass * state.payload_point_m, state.gravity_mps2);
+}
+
+/// The effort of everything the joint carries under another gravity.
+double effort_under(const Robot& robot, const ArmState& state, int joint, const Eigen::Vector3d& gravity_mps2) {
+  double mass = state.stop.payload_kg;
+  Eigen::Vector3d moment = mass * state.payload_point_m;
+  for (std::size_t i = static_cast<std::size_t>(joint); i < robot.masses.size(); ++i) {
+    mass += robot.masses[i].mass_kg;
+    moment += robot.masses[i].mass_kg * (state.links[i] * robot.masses[i].centre_m);
+  }
+  return effort(robot, state, joint, mass, moment, gravity_mps2);
+}
+
+/// Gravity turned a quarter about each of the two directions across it: of a base that stands upright, about x and y.
+std::array<Eigen::Vector3d, 2> turned_gravity(const Eigen::Vector3d& gravity_mps2) {
+  if (gravity_mps2.isZero()) return {gravity_mps2, gravity_mps2};
+  const Eigen::Vector3d down = gravity_mps2.normalized();
+  const Eigen::Vector3d hint = std::abs(down.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d first = (hint - down.dot(hint) * down).normalized();
+  const Eigen::Vector3d second = first.cross(down).normalized();
+  return {first.cross(gravity_mps2), second.cross(gravity_mps2)};
+}
+
+std::vector<CoefficientLabel> Compliance::coefficients(const Effect& effect, const Robot& robot) const {
+  const CoefficientLabel plain = compliance_label(robot, effect.joint);
+  if (effect.form == "tilted") {
+    return {plain, compliance_label(robot, effect.joint, "tilt_x"), compliance_label(robot, effect.joint, "tilt_y")};
+  }
+  if (effect.form != "moments") return {plain};
+  std::vector<CoefficientLabel> labels;
+  for (const WeightPart& part : kept_parts(effect)) labels.push_back(part_label(robot, effect.joint, part));
+  if (with_payload(effect)) labels.push_back(plain);
+  return labels;
+}
+
+void Compliance::unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                              std::vector<UnitMotion>& motions) const {
+  const int joint = effect.joint;
+  int coefficient = 0;
+  const auto append = [&](double size) { append_joint_motion(robot, joint, coefficient++, size, motions); };
+  if (effect.form == "payload") return append(payload_effort(robot, state, joint));
+  if (effect.form == "moments") {
+    for (const WeightPart& part : kept_parts(effect)) append(lever(robot, state, joint, part));
+    if (with_payload(effect)) append(payload_effort(robot, state, joint));
+    return;
+  }
+  append(state.torque(robot.chain, joint));
+  if (effect.form != "tilted") return;
+  for (const Eigen::Vector3d& gravity : turned_gravity(state.gravity_mps2)) {
+    append(effort_under(robot, state, joint, gravity));
+  }
+}
+
+std::vector<Effect> Compliance::proposals(const Robot& robot, const Evidence& evidence) const {
+  std::vector<Effect> effects;
+  const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
+  const std::vector<ArmState> laden = sampled_states(robot, evidence, kSamplePayload_kg);
+  for (int joint = 0; joint < robot.chain.size(); ++joint) {
+    const auto propose = [&](const char* form) {
+      effects.push_back({.kind = "compliance", .joint = joint, .settings = {}, .form = form});
+    };
+    double payload = 0.0;
+    for (const ArmState& state : laden) payload = std::max(payload, std::abs(payload_effort(robot, state, joint)));
+    const bool payload_pulls = evidence.payload && payload > kNoLoad;
+    const bool masses_pull = torques_by_size(robot, states, joint).back() > kNoLoad;
+    if (evidence.masses && (masses_pull || payload_pulls)) propose("masses");
+    if (payload_pulls) propose("payload");
+    if (!evidence.masses) {
+      const std::vector<WeightPart> parts = independent_parts(robot, states, joint);
+      if (parts.empty()) continue;
+      propose("moments");
+      for (const WeightPart& part : parts) effects.back().settings[std::string(kKeep) + name_of(part)] = 1.0;
+      if (payload_pulls) effects.back().settings[kWithPayload] = 1.0;
+    } else if (masses_pull) {
+      propose("tilted");
+    }
+  }
+  return effects;
+}
+
+Needs Compliance::needs(const Effect& effect, const Robot& /*robot*/) const {
+  if (effect.form == "payload") return {.payload = true};
+  if (effect.form == "moments") return {.payload = with_payload(effect)};
+  return {.masses = true};
+}
+
+std::string Compliance::formula(const Effect& effect, const Robot& robot) const {
+  const std::string joint = std::to_string(effect.joint + 1);
+  if (effect.form == "payload") return write_joint_equation(effect, robot, {{0, "tau_payload" + joint}});
+  if (effect.form == "tilted") {
+    return write_joint_equation(effect, robot, {{0, "tau" + joint}, {1, "tau_x" + joint}, {2, "tau_y" + joint}});
+  }
+  if (effect.form != "moments") return write_joint_equation(effect, robot, {{0, "tau" + joint}});
+  std::vector<Term> terms;
+  for (const WeightPart& part : kept_parts(effect)) terms.push_back({terms.size(), "lever_" + name_of(part)});
+  if (with_payload(effect)) terms.push_back({terms.size(), "tau_payload" + joint});
+  return write_joint_equation(effect, robot, terms);
+}
+
+std::string Compliance::diagnosis(const Effect& effect, const Robot& robot) const {
+  const std::string load = load_unit(robot, effect.joint);
+  const std::string gives_way = joint_name(effect.joint) + " gives way ";
+  const auto amount = [&](double value) { return motion_words(robot, effect.joint, value) + " per " + load; };
+  if (effect.form == "payload") return gives_way + "by " + amount(effect.value(0)) + " of the payload's pull on it.";
+  if (effect.form == "tilted") {
+    const double lean = std::atan2(std::hypot(effect.value(1), effect.value(2)), std::abs(effect.value(0)));
+    return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it, and gravity leans by " +
+           number_words(degrees(lean)) + " deg from where the robot's file says it points.";
+  }
+  if (effect.form != "moments") return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it.";
+  double largest = 0.0;
+  const std::vector<WeightPart> parts = kept_parts(effect);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].axis < 3 || !is_revolute(robot, effect.joint)) largest += std::abs(effect.value(i));
+  }
+  return gives_way + "under the weight of the links beyond it, whose masses are not known: by up to " +
+         motion_words(robot, effect.joint, largest) + '.';
+}
+
+std::vector<std::string> Compliance::settings() const {
+  std::vector<std::string> names;
+  for (int link = 0; link < kMaxJoints; ++link) {
+    for (int axis = 0; axis < 4; ++axis) names.push_back(std::string(kKeep) + name_of({link, axis}));
+  }
+  names.push_back(kWithPayload);
+  return names;
+}
+
+}  // namespace
+
+const EffectLaw& compliance_law() {
+  static const Compliance law;
+  return law;
+}
+
+}  // namespace demecal

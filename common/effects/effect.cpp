@@ -1,0 +1,62 @@
+#include "effects/effect.hpp"
+
+#include <algorithm>
+
+#include "errors/check.hpp"
+#include "kinematics/angles.hpp"
+
+namespace demecal {
+namespace {
+
+/// Over which an effect fades out beyond what was measured, rad or m.
+constexpr double kFade = 0.1;
+
+/// The form that an effect is of: an empty one stands for its law's first.
+std::string form_of(const Effect& effect) {
+  if (!effect.form.empty()) return effect.form;
+  const EffectLaw* law = find_law(effect.kind);
+  const std::vector<std::string> forms = law == nullptr ? std::vector<std::string>{} : law->forms();
+  return forms.empty() ? std::string() : forms.front();
+}
+
+/// 1 within the range, 0 from kFade beyond it, with a continuous slope between.
+double share_within(const Interval& range, double value) {
+  const double beyond = std::max({range.lower - value, value - range.upper, 0.0});
+  const double x = std::max(0.0, 1.0 - beyond / kFade);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+}  // namespace
+
+double Effect::setting(const std::string& name) const {
+  const auto found = settings.find(name);
+  DEMECAL_CHECK(found != settings.end(), kind << " has no setting '" << name << "'");
+  return found->second;
+}
+
+bool Effect::same_law_as(const Effect& other) const {
+  return kind == other.kind && joint == other.joint && settings == other.settings && formula == other.formula &&
+         form_of(*this) == form_of(other);
+}
+
+double known_share(const Effect& effect, const Chain& chain, const JointVector& joints) {
+  double share = 1.0;
+  for (const auto& [joint, range] : effect.ranges) {
+    const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const double middle = 0.5 * (range.lower + range.upper);
+    share *= share_within(range, revolute ? wrap_near(joints[joint], middle) : joints[joint]);
+  }
+  return share;
+}
+
+void append_unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                         std::vector<UnitMotion>& motions) {
+  const double share = known_share(effect, robot.chain, state.joints());
+  if (share == 0.0) return;
+  const std::size_t before = motions.size();
+  law_of(effect).unit_motions(effect, robot, state, motions);
+  if (share == 1.0) return;
+  for (std::size_t i = before; i < motions.size(); ++i) motions[i].size *= share;
+}
+
+}  // namespace demecal

@@ -1,0 +1,77 @@
+#include <algorithm>
+
+#include "effects/joint_words.hpp"
+#include "effects/laws.hpp"
+#include "effects/warming.hpp"
+#include "errors/check.hpp"
+#include "expression/evaluate.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kCircumstances = 3;  // tau, s, T: behind the joints
+
+bool mentions(const Tree& formula, int variable) {
+  return std::ranges::any_of(
+      formula, [&](const Node& node) { return node.primitive == Primitive::variable && node.variable == variable; });
+}
+
+/// An error of a joint outside the catalogue, as evolution found it: a formula and its size.
+class Symbolic final : public EffectLaw {
+ public:
+  std::string_view kind() const override { return "symbolic"; }
+  std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override {
+    return {motion_label(robot, effect.joint, "scale")};
+  }
+  void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                    std::vector<UnitMotion>& motions) const override {
+    DEMECAL_CHECK(is_valid(effect.formula, robot.chain.size() + kCircumstances), effect.formula.size() << " nodes");
+    std::vector<double> values(state.joints().begin(), state.joints().end());
+    values.insert(values.end(), {state.torque(robot.chain, effect.joint), state.approach(effect.joint),
+                                 warming_kelvin(effect, state.stop)});
+    append_joint_motion(robot, effect.joint, 0, evaluate(effect.formula, values), motions);
+  }
+  std::vector<Effect> proposals(const Robot& /*robot*/, const Evidence& /*evidence*/) const override { return {}; }
+  Needs needs(const Effect& effect, const Robot& robot) const override {
+    const int n = robot.chain.size();
+    return {.approach = mentions(effect.formula, n + 1),
+            .temperature = mentions(effect.formula, n + 2),
+            .masses = mentions(effect.formula, n)};
+  }
+  std::string formula(const Effect& effect, const Robot& robot) const override {
+    return write_joint_equation(effect, robot, {{0, '(' + text_of(effect, robot) + ')'}});
+  }
+  std::string diagnosis(const Effect& effect, const Robot& robot) const override {
+    return joint_name(effect.joint) + " errs as no effect of the catalogue does: by " +
+           motion_words(robot, effect.joint, effect.value(0)) + " times " + text_of(effect, robot) + '.';
+  }
+  std::vector<std::string> settings() const override { return {"reference_celsius"}; }
+  std::vector<int> ranged_joints(const Effect& effect, const Robot& robot) const override {
+    std::vector<int> joints;
+    for (int joint = 0; joint < robot.chain.size(); ++joint) {
+      if (mentions(effect.formula, joint)) joints.push_back(joint);
+    }
+    return joints;
+  }
+
+ private:
+  static std::string text_of(const Effect& effect, const Robot& robot) {
+    return to_text(effect.formula, symbolic_variables(robot.chain));
+  }
+};
+
+}  // namespace
+
+VariableNames symbolic_variables(const Chain& chain) {
+  VariableNames names;
+  for (int joint = 0; joint < chain.size(); ++joint) names.push_back(joint_symbol(joint));
+  names.insert(names.end(), {"tau", "s", "T"});
+  return names;
+}
+
+const EffectLaw& symbolic_law() {
+  static const Symbolic law;
+  return law;
+}
+
+}  // namespace demecal

@@ -1,0 +1,78 @@
+#include "effects/weight_parts.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "effects/joint_words.hpp"
+#include "effects/sampled_states.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kMass = 3;
+constexpr double kIndependent = 0.01;
+constexpr std::array<std::string_view, 4> kNames{"mx", "my", "mz", "mass"};
+
+/// Takes out of `column` what the orthonormal `basis` spans; twice, for rounding.
+void project_off(const std::vector<Eigen::VectorXd>& basis, Eigen::VectorXd& column) {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const Eigen::VectorXd& direction : basis) column -= direction.dot(column) * direction;
+  }
+}
+
+/// The parts of the links from `joint` on, in the order in which they are preferred.
+std::vector<WeightPart> parts_beyond(const Robot& robot, int joint) {
+  std::vector<WeightPart> parts;
+  for (int link = joint; link < robot.chain.size(); ++link) {
+    for (int axis = 0; axis < kMass; ++axis) parts.push_back({link, axis});
+  }
+  for (int link = joint; link < robot.chain.size(); ++link) parts.push_back({link, kMass});
+  return parts;
+}
+
+}  // namespace
+
+double lever(const Robot& robot, const ArmState& state, int joint, const WeightPart& part) {
+  const double strength = state.gravity_mps2.norm();
+  if (strength == 0.0) return 0.0;
+  const Eigen::Vector3d down = state.gravity_mps2 / strength;
+  const Eigen::Isometry3d& place = state.places[static_cast<std::size_t>(joint)];
+  const Eigen::Isometry3d& link = state.links[static_cast<std::size_t>(part.link)];
+  const bool mass = part.axis == kMass;
+  const Eigen::Vector3d axis = place.linear().col(2);
+  if (!is_revolute(robot, joint)) return mass ? axis.dot(down) : 0.0;
+  const Eigen::Vector3d arm =
+      mass ? Eigen::Vector3d(link.translation() - place.translation()) : Eigen::Vector3d(link.linear().col(part.axis));
+  return axis.dot(arm.cross(down));
+}
+
+std::vector<WeightPart> independent_parts(const Robot& robot, const std::vector<ArmState>& states, int joint) {
+  std::vector<WeightPart> kept;
+  std::vector<Eigen::VectorXd> basis;
+  Eigen::VectorXd column(static_cast<Eigen::Index>(states.size()));
+  for (const WeightPart& part : parts_beyond(robot, joint)) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      column[static_cast<Eigen::Index>(i)] = lever(robot, states[i], joint, part);
+    }
+    const double before = column.norm();
+    if (before < kNoLoad) continue;
+    project_off(basis, column);
+    if (column.norm() < kIndependent * before) continue;
+    basis.emplace_back(column.normalized());
+    kept.push_back(part);
+  }
+  return kept;
+}
+
+std::string name_of(const WeightPart& part) {
+  return std::to_string(part.link + 1) + '_' + std::string(kNames[static_cast<std::size_t>(part.axis)]);
+}
+
+std::optional<WeightPart> weight_part(std::string_view name) {
+  if (name.size() < 3 || name[0] < '1' || name[0] > '9' || name[1] != '_') return std::nullopt;
+  const auto* const found = std::ranges::find(kNames, name.substr(2));
+  if (found == kNames.end()) return std::nullopt;
+  return WeightPart{name[0] - '1', static_cast<int>(found - kNames.begin())};
+}
+
+}  // namespace demecal

@@ -1,0 +1,32 @@
+// The unknown weights of an arm, part by part: what the mass and the first moments of each link do to a joint.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/effect.hpp"
+
+namespace demecal {
+
+/// One of a link's four unknowns that gravity's torque on a joint is linear in: its first moments along x, y, z of its
+/// own frame (kg m), or its mass as if hung at its frame's origin (kg).
+struct WeightPart {
+  int link = 0;  ///< from 0
+  int axis = 0;  ///< 0-2: first moment; 3: mass
+};
+
+/// What gravity of unit strength does, per unit of the part, to the joint along its axis: dimensionless (moments) or m
+/// (mass) for a revolute joint, 0 or dimensionless for a prismatic one.
+double lever(const Robot& robot, const ArmState& state, int joint, const WeightPart& part);
+
+/// The parts of the links beyond the joint that can be told apart at these states: moments before masses, inner links
+/// before outer ones, each kept where more than 1 % of it is independent of those before.
+std::vector<WeightPart> independent_parts(const Robot& robot, const std::vector<ArmState>& states, int joint);
+
+/// "3_mx" or "3_mass"; links count from 1.
+std::string name_of(const WeightPart& part);
+/// The part of that name; nothing where there is none.
+std::optional<WeightPart> weight_part(std::string_view name);
+
+}  // namespace demecal

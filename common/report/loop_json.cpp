@@ -1,0 +1,101 @@
+#include "report/loop_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/effect_entry.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+/// One entry per element of `things`.
+template <class Things, class Write>
+Json list(const Things& things, Write write) {
+  Json entries = Json::array();
+  for (const auto& thing : things) entries.push_back(write(thing));
+  return entries;
+}
+
+Json rival(const Rival& rival, const Robot& robot) {
+  Json entry = to_json(effect_entry(rival.effect, robot));
+  entry["cosine"] = number(rival.cosine);
+  entry["nats_behind"] = number(rival.nats_behind);
+  return entry;
+}
+
+Json intervals(const Round& round, const Robot& robot) {
+  const std::vector<CoefficientLabel> labels = labels_of(round.effect, robot);
+  Json named = Json::object();
+  for (std::size_t i = 0; i < std::min(labels.size(), round.interval.size()); ++i) {
+    named[labels[i].name] = {number(round.interval[i][0]), number(round.interval[i][1])};
+  }
+  return named;
+}
+
+Json further(const std::optional<FurtherMeasurement>& measurement) {
+  if (!measurement) return nullptr;
+  return {{"sentence", measurement->sentence}, {"poses", measurement->poses}};
+}
+
+Json round_entry(const Round& round, const Robot& robot) {
+  Json entry{{"round", round.number},
+             {"group", round.group},
+             {"verdict", word_of(round.verdict)},
+             {"effect", to_json(effect_entry(round.effect, robot))},
+             {"diagnosis", round.diagnosis},
+             {"formula", round.formula},
+             {"reason", round.reason}};
+  entry["rivals"] = list(round.rivals, [&robot](const Rival& one) { return rival(one, robot); });
+  entry["p_structure"] = number(round.p_structure);
+  entry["p_family"] = number(round.p_family);
+  entry["fall_nats"] = number(round.fall_nats);
+  entry["gain_lower_mm2"] = number(round.gain_lower_mm2);
+  entry["sign_stability"] = number(round.sign_stability);
+  entry["interval"] = intervals(round, robot);
+  entry["validation_before_mm"] = number(round.validation_before_mm);
+  entry["validation_after_mm"] = number(round.validation_after_mm);
+  entry["further"] = further(round.further);
+  return entry;
+}
+
+Json not_found(const NotFound& missing, const Robot& robot) {
+  Json entry = to_json(effect_entry(missing.effect, robot));
+  entry.erase("amplitude");  // whatever was fitted, it was not found
+  entry["smallest_detectable"] = number(missing.smallest_detectable);
+  entry["unit"] = missing.unit;
+  return entry;
+}
+
+}  // namespace
+
+void add_loop(const LoopOutcome& loop, const Robot& described, Json& report) {
+  report["rounds"] = list(loop.rounds, [&](const Round& round) { return round_entry(round, described); });
+  report["dropped"] = list(loop.dropped, [&](const Effect& one) { return to_json(effect_entry(one, described)); });
+  report["not_found"] = list(loop.not_found, [&](const NotFound& one) { return not_found(one, described); });
+  report["unseen"] = list(loop.unseen, [](const Unseen& one) {
+    return Json{{"kind", one.kind}, {"reason", one.reason}};
+  });
+  report["decoys"] = list(loop.decoys, [](const Decoy& one) {
+    return Json{{"name", one.name}, {"best_fall_nats", number(one.best_fall_nats)}, {"won", one.won}};
+  });
+  const bool ran = loop.stopped != StopReason::not_run;
+  report["stopped"] = word_of(loop.stopped);
+  report["lack_of_fit_p"] = number(loop.lack_of_fit_p);
+  report["explained_share"] = number(loop.explained_share);
+  report["structure_left_p"] = ran ? number(loop.p_structure_left) : Json(nullptr);
+  report["candidates"] = loop.candidates;
+  report["permutations"] = loop.permutations;
+}
+
+}  // namespace demecal

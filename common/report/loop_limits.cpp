@@ -1,0 +1,112 @@
+#include "report/loop_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/amount.hpp"
+#include "report/effect_entry.hpp"
+#include "report/terminal_text.hpp"
+
+namespace demecal {
+namespace {
+
+/// What an engineer asks for first.
+constexpr std::array<const char*, 10> kAskedFirst{"backlash",       "compliance",    "eccentricity", "hysteresis",
+                                                  "coupling",       "gear_harmonic", "axis_wobble",  "link_bending",
+                                                  "thermal_offset", "drift"};
+constexpr std::size_t kMostKinds = 5;
+
+/// Places searched for one kind of effect in one unit.
+struct Searched {
+  std::string kind, unit;
+  std::vector<const NotFound*> places;
+};
+
+std::size_t rank(const Searched& searched) {
+  return static_cast<std::size_t>(std::ranges::find(kAskedFirst, searched.kind) - kAskedFirst.begin());
+}
+
+std::vector<Searched> by_kind(const std::vector<NotFound>& not_found) {
+  std::vector<Searched> kinds;
+  for (const NotFound& missing : not_found) {
+    if (!std::isfinite(missing.smallest_detectable)) continue;
+    const auto same = [&missing](const Searched& other) {
+      return other.kind == missing.effect.kind && other.unit == missing.unit;
+    };
+    auto found = std::ranges::find_if(kinds, same);
+    if (found == kinds.end()) found = kinds.insert(kinds.end(), {missing.effect.kind, missing.unit, {}});
+    found->places.push_back(&missing);
+  }
+  std::ranges::stable_sort(kinds, {}, rank);
+  return kinds;
+}
+
+std::string place(const NotFound& missing, const Robot& robot) {
+  const EffectEntry effect = effect_entry(missing.effect, robot);
+  const std::string where = effect.joint ? fmt::format("joint {}", *effect.joint) : "whole arm";
+  const std::string which = effect.telling();
+  return which.empty() ? where : where + ", " + which;
+}
+
+std::string limit(const NotFound& missing) {
+  return limit_amount(missing.smallest_detectable, missing.unit);
+}
+
+std::string words_of(const Searched& searched, const Robot& robot) {
+  const auto [least, most] = std::ranges::minmax_element(
+      searched.places, {}, [](const NotFound* missing) { return missing->smallest_detectable; });
+  if (searched.places.size() == 1) return place(**least, robot) + " below " + limit(**least);
+  return fmt::format("below {} ({}) to {} ({})", limit(**least), place(**least, robot), limit(**most),
+                     place(**most, robot));
+}
+
+}  // namespace
+
+std::string not_found_lines(const LoopOutcome& loop, const Robot& described) {
+  const std::vector<Searched> kinds = by_kind(loop.not_found);
+  std::string text;
+  std::size_t told = 0;
+  for (std::size_t i = 0; i < std::min(kMostKinds, kinds.size()); ++i) {
+    text += wrapped("  no " + kinds[i].kind + ":", words_of(kinds[i], described), 4);
+    told += kinds[i].places.size();
+  }
+  if (told < loop.not_found.size()) {
+    text +=
+        fmt::format("  {} more effects not found, with their limits: see report.html\n", loop.not_found.size() - told);
+  }
+  return text;
+}
+
+std::string unseen_line(const LoopOutcome& loop) {
+  std::vector<std::pair<std::string, std::string>> reasons;  // and kinds
+  for (const Unseen& unseen : loop.unseen) {
+    const auto found = std::ranges::find(reasons, unseen.reason, &std::pair<std::string, std::string>::first);
+    if (found == reasons.end()) {
+      reasons.emplace_back(unseen.reason, unseen.kind);
+    } else {
+      found->second += ", " + unseen.kind;
+    }
+  }
+  std::string text;
+  for (const auto& [reason, kinds] : reasons) text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", kinds, reason);
+  return text.empty() ? text : wrapped("  these data cannot show:", text, 4);
+}
+
+std::string decoys_line(const LoopOutcome& loop) {
+  if (loop.decoys.empty()) return {};
+  std::string winners;
+  for (const Decoy& decoy : loop.decoys) {
+    if (decoy.won) winners += (winners.empty() ? "" : "; ") + decoy.name;
+  }
+  if (!winners.empty()) return wrapped("  controls: WON by what cannot be true:", winners, 4);
+  const Decoy& best = *std::ranges::max_element(loop.decoys, {}, &Decoy::best_fall_nats);
+  return wrapped("  controls:",
+                 fmt::format("none of {} decoys won; the best, {}, fell by {:.1f} nats", loop.decoys.size(), best.name,
+                             best.best_fall_nats),
+                 4);
+}
+
+}  // namespace demecal

@@ -1,0 +1,20 @@
+// What the closed loop could not find or not see, and how its controls fared, in a terminal's lines.
+#pragma once
+
+#include <string>
+
+#include "diagnosis/outcome.hpp"
+
+namespace demecal {
+
+/// One line for each of a few kinds that people ask for first: "no backlash: joint 2 below 8 arcsec", or between which
+/// limits where several places were searched.
+std::string not_found_lines(const LoopOutcome& loop, const Robot& described);
+
+/// One paragraph of the kinds that these data cannot show, by reason.
+std::string unseen_line(const LoopOutcome& loop);
+
+/// Whether a decoy won, in one line.
+std::string decoys_line(const LoopOutcome& loop);
+
+}  // namespace demecal

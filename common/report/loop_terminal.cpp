@@ -1,0 +1,143 @@
+#include "report/loop_terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/effect_entry.hpp"
+#include "report/harmonics.hpp"
+#include "report/loop_limits.hpp"
+#include "report/loop_words.hpp"
+#include "report/terminal_text.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kIndent = 7;          // of what is said of one effect
+constexpr std::size_t kMostHarmonics = 12;  // that take a line each
+constexpr std::size_t kMostRivals = 3;
+constexpr std::size_t kMostDiagnoses = 8;  // effects, for each to get its sentence
+
+using Rounds = std::vector<const Round*>;
+
+Rounds added_rounds(const LoopOutcome& loop) {
+  Rounds rounds;
+  for (const Round& round : loop.rounds) {
+    if (round.verdict == Verdict::added) rounds.push_back(&round);
+  }
+  return rounds;
+}
+
+bool is_harmonic(const Round* round) {
+  return round->effect.kind == "gear_harmonic";
+}
+
+std::string mm(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3f}", value) : "–";
+}
+
+std::string columns(const std::string& number, const std::string& name, const std::string& size, const std::string& p,
+                    const std::string& before, const std::string& after) {
+  std::string line = right(number, 5) + "  " + left(name, 46) + right(size, 15) + right(p, 9) + right(before, 11);
+  return line + (after.empty() ? "" : " -> " + after) + "\n";
+}
+
+std::string heading() {
+  return columns("", "effect added", "size", "p", "validation", "after, mm");
+}
+
+std::string rivals_line(const Round& round, const Robot& robot) {
+  if (round.rivals.empty()) return {};
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMostRivals, round.rivals.size()); ++i) {
+    const Rival& rival = round.rivals[i];
+    names +=
+        fmt::format("{}{} (cosine {:.2f})", i == 0 ? "" : "; ", effect_entry(rival.effect, robot).name(), rival.cosine);
+  }
+  if (round.rivals.size() > kMostRivals) names += fmt::format("; {} more", round.rivals.size() - kMostRivals);
+  return wrapped(std::string(kIndent, ' ') + "hardly told from:", names, kIndent + 2);
+}
+
+std::string further_line(const Round& round) {
+  if (!round.further) return {};
+  const int poses = round.further->poses;
+  const std::string count = poses > 0 ? fmt::format(" ({} pose{})", poses, poses == 1 ? "" : "s") : "";
+  return wrapped(std::string(kIndent, ' ') + "measure next:", round.further->sentence + count, kIndent + 2);
+}
+
+std::string effect_lines(const Round& round, const Robot& robot, bool diagnosed) {
+  const EffectEntry effect = effect_entry(round.effect, robot);
+  std::string text = columns(std::to_string(round.number), effect.name(), effect.size(), probability(round.p_family),
+                             mm(round.validation_before_mm), mm(round.validation_after_mm));
+  if (diagnosed && !round.diagnosis.empty()) text += wrapped(std::string(kIndent - 1, ' '), round.diagnosis, kIndent);
+  return text + rivals_line(round, robot) + further_line(round);
+}
+
+std::string harmonics_lines(const Rounds& rounds, const Robot& robot) {
+  std::vector<EffectEntry> effects;
+  std::size_t doubtful = 0;
+  double p = 0.0;
+  for (const Round* const round : rounds) {
+    effects.push_back(effect_entry(round->effect, robot));
+    p = std::max(p, round->p_family);
+    doubtful += round->rivals.empty() ? 0 : 1;
+  }
+  std::string text = columns("", fmt::format("{} gear harmonics", rounds.size()), "", probability(p),
+                             mm(rounds.front()->validation_before_mm), mm(rounds.back()->validation_after_mm));
+  for (const auto& [joint, harmonics] : harmonics_of(effects)) {
+    text +=
+        wrapped(fmt::format("{}joint {}:", std::string(kIndent, ' '), joint), harmonics_words(harmonics), kIndent + 2);
+  }
+  if (doubtful > 0) {
+    text +=
+        wrapped(std::string(kIndent - 1, ' '),
+                fmt::format("{} of them can hardly be told from other effects: see report.html", doubtful), kIndent);
+  }
+  return text;
+}
+
+std::string added_lines(Rounds rounds, const Robot& robot) {
+  if (rounds.empty()) return "  the closed loop added no effect\n";
+  Rounds harmonics;
+  if (static_cast<std::size_t>(std::ranges::count_if(rounds, is_harmonic)) > kMostHarmonics) {
+    std::ranges::copy_if(rounds, std::back_inserter(harmonics), is_harmonic);
+    std::erase_if(rounds, is_harmonic);
+  }
+  std::string text = heading();
+  for (const Round* const round : rounds) text += effect_lines(*round, robot, rounds.size() <= kMostDiagnoses);
+  return harmonics.empty() ? text : text + harmonics_lines(harmonics, robot);
+}
+
+/// The best candidate of the last round, where it was not added.
+std::string last_candidate(const LoopOutcome& loop, const Robot& robot) {
+  if (loop.rounds.empty() || loop.rounds.back().verdict == Verdict::added) return {};
+  const Round& last = loop.rounds.back();
+  if (last.effect.kind.empty()) return {};
+  return wrapped("  tried last, not added:",
+                 fmt::format("{}, p {}{}{}", effect_entry(last.effect, robot).name(), probability(last.p_family),
+                             last.reason.empty() ? "" : ": ", last.reason),
+                 4);
+}
+
+std::string dropped_line(const LoopOutcome& loop, const Robot& robot) {
+  std::string names;
+  for (const Effect& effect : loop.dropped) names += (names.empty() ? "" : "; ") + effect_entry(effect, robot).name();
+  return names.empty() ? names : wrapped("  added, and taken back:", names, 4);
+}
+
+}  // namespace
+
+bool loop_added(const LoopOutcome& loop) {
+  return !added_rounds(loop).empty();
+}
+
+std::string loop_to_terminal(const LoopOutcome& loop, const Robot& described) {
+  if (loop.stopped == StopReason::not_run) return {};
+  const std::string closing = stop_sentence(word_of(loop.stopped)) + " " +
+                              statistics_sentences({loop.lack_of_fit_p, loop.explained_share, loop.p_structure_left});
+  return added_lines(added_rounds(loop), described) + dropped_line(loop, described) + last_candidate(loop, described) +
+         wrapped(" ", closing, 4) + not_found_lines(loop, described) + unseen_line(loop) + decoys_line(loop);
+}
+
+}  // namespace demecal

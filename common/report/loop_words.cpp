@@ -1,0 +1,58 @@
+#include "report/loop_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace demecal {
+
+std::string stop_sentence(const std::string& stopped) {
+  if (stopped.empty() || stopped == "not_run") return {};
+  if (stopped == "no_structure") return "The loop stopped because the error that is left shows no more structure.";
+  if (stopped == "no_gain") return "The loop stopped because no further effect improved the validation poses.";
+  if (stopped == "max_effects") return "The loop stopped at the largest number of effects it was allowed to add.";
+  if (stopped == "decoy") {
+    return "The loop stopped because a control, which cannot be true, explained the error better than every effect.";
+  }
+  return "The loop stopped: " + stopped + ".";
+}
+
+std::string probability(std::optional<double> p) {
+  return p && std::isfinite(*p) ? fmt::format("{:.2g}", *p) : "–";
+}
+
+std::string statistics_sentences(const LoopStatistics& statistics) {
+  std::string text;
+  const auto add = [&text](const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; };
+  if (statistics.lack_of_fit_p) {
+    add(fmt::format("Before the loop the error's excess over the repeats' own scatter had p = {}.",
+                    probability(statistics.lack_of_fit_p)));
+  }
+  if (statistics.explained_share && std::isfinite(*statistics.explained_share)) {
+    add(fmt::format("Of the mean square error beyond that scatter the effects explain {:.1f} %.",
+                    100.0 * *statistics.explained_share));
+  }
+  if (statistics.structure_left_p) {
+    add(fmt::format("What is left depends on joints, load, approach, warmth or time with p = {}.",
+                    probability(statistics.structure_left_p)));
+  }
+  return text;
+}
+
+std::string ranges_words(const std::vector<std::uint64_t>& numbers) {
+  std::vector<std::string> stretches;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    if (last == i + 1) last = i;  // two neighbours read better one by one
+    stretches.push_back(last == i ? std::to_string(numbers[i]) : fmt::format("{}-{}", numbers[i], numbers[last]));
+    i = last + 1;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == stretches.size() ? " and " : ", ") + stretches[i];
+  }
+  return text;
+}
+
+}  // namespace demecal

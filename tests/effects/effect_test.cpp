@@ -1,0 +1,104 @@
+// Effects as values: what makes two the same, and how they fade beyond the ranges they were measured in.
+#include "effects/effect.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "laden_arm.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+Effect ranged(double lower, double upper, int joint = 1) {
+  return {.kind = "gain", .joint = 1, .ranges = {{joint, {lower, upper}}}};
+}
+
+double share_at(const Effect& effect, double value, int joint = 1) {
+  RandomStream stream{32, 0};
+  static const Chain chain = laden_arm(stream, Arm::sliding_standard).chain;
+  JointVector q = JointVector::Zero(6);
+  q[joint] = value;
+  return known_share(effect, chain, q);
+}
+
+TEST(Effect, IsTheSameLawWhateverItsCoefficients) {
+  const Effect effect{.kind = "coupling", .joint = 2, .settings = {{"from", 2}}, .form = "linear"};
+  Effect other = effect;
+  other.values = {0.1};
+  other.standard_errors = {0.2};
+  other.ranges = {{1, {0, 1}}};
+  EXPECT_TRUE(effect.same_law_as(other));
+  EXPECT_EQ(other.value(0), 0.1);
+  EXPECT_EQ(effect.value(0), 0.0);
+  Effect kind = effect, joint = effect, setting = effect, form = effect, formula = effect;
+  kind.kind = "gain";
+  joint.joint = 3;
+  setting.settings["from"] = 1;
+  form.form = "harmonic";
+  formula.formula = constant_tree(1.0);
+  for (const Effect& different : {kind, joint, setting, form, formula}) EXPECT_FALSE(effect.same_law_as(different));
+}
+
+TEST(Effect, WithoutFormIsOfItsLawsFirst) {
+  const Effect plain{.kind = "backlash", .joint = 2};
+  const Effect named{.kind = "backlash", .joint = 2, .settings = {}, .form = "approach"};
+  const Effect seated{.kind = "backlash", .joint = 2, .settings = {}, .form = "seated"};
+  EXPECT_TRUE(plain.same_law_as(named));
+  EXPECT_FALSE(plain.same_law_as(seated));
+}
+
+TEST(KnownShare, IsOneWithoutRangesAndWithinThem) {
+  EXPECT_EQ(share_at({.kind = "gain", .joint = 1}, 100.0), 1.0);
+  const Effect effect = ranged(-0.5, 1.0);
+  for (const double inside : {-0.5, 0.0, 1.0}) EXPECT_EQ(share_at(effect, inside), 1.0);
+}
+
+TEST(KnownShare, FadesSmoothlyWithinATenthBeyond) {
+  const Effect effect = ranged(-0.5, 1.0);
+  EXPECT_NEAR(share_at(effect, 1.05), 0.5, 1e-12);
+  EXPECT_NEAR(share_at(effect, -0.55), 0.5, 1e-12);
+  EXPECT_EQ(share_at(effect, 1.1001), 0.0);
+  EXPECT_EQ(share_at(effect, -2.0), 0.0);
+  double last = 1.0;
+  for (double beyond = 0.001; beyond < 0.1; beyond += 0.001) {
+    const double share = share_at(effect, 1.0 + beyond);
+    EXPECT_LT(share, last);
+    EXPECT_GT(share, last - 0.0151);  // the steepest slope of the step is 1.5 over its width
+    last = share;
+  }
+  EXPECT_GT(share_at(effect, 1.001), 0.9996);
+}
+
+TEST(KnownShare, IgnoresWholeTurnsOfRevoluteJointsOnly) {
+  EXPECT_EQ(share_at(ranged(3.0, 3.5), 3.2 - kTurn), 1.0);
+  EXPECT_EQ(share_at(ranged(-0.5, 1.0), 0.2 + 2 * kTurn), 1.0);
+  EXPECT_EQ(share_at(ranged(-0.5, 0.5, 2), 0.2 + kTurn, 2), 0.0) << "joint 3 slides";
+}
+
+TEST(KnownShare, ScalesEveryUnitMotion) {
+  RandomStream stream{32, 1};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  Stop stop = random_stop(stream, robot);
+  stop.joints[1] = 1.04;
+  const ArmState state = arm_state(robot, stop);
+  Effect effect{.kind = "axis_wobble", .joint = 1, .settings = {{"order", 1}}};
+  std::vector<UnitMotion> whole{{7, 0, 0, 1.0}}, faded = whole, none = whole;
+  append_unit_motions(effect, robot, state, whole);
+  effect.ranges = {{1, {0.0, 1.0}}};
+  append_unit_motions(effect, robot, state, faded);
+  ASSERT_EQ(faded.size(), whole.size());
+  const double share = known_share(effect, robot.chain, stop.joints);
+  EXPECT_GT(share, 0.5);
+  EXPECT_LT(share, 0.8);
+  EXPECT_EQ(faded[0].size, 1.0) << "what stood there before";
+  for (std::size_t i = 1; i < whole.size(); ++i) EXPECT_EQ(faded[i].size, share * whole[i].size);
+  effect.ranges = {{1, {0.0, 0.5}}};
+  append_unit_motions(effect, robot, state, none);
+  EXPECT_EQ(none.size(), 1u);
+}
+
+}  // namespace
+}  // namespace demecal
