@@ -2,6 +2,7 @@
 
 #include "config/load_robot.hpp"
 #include "config/model_text.hpp"
+#include "config/read_effects.hpp"
 #include "config/read_yaml.hpp"
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"
@@ -102,6 +103,8 @@ CalibratedModel load_model(const std::filesystem::path& path) {
     model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
   }
   read_corrections(file.at("corrections"), model);
+  model.robot.effects = read_effects(file.at("effects"), model.nominal);
+  model.robot.described = model.nominal;
   return model;
 }
 

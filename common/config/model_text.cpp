@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "config/effect_text.hpp"
 #include "config/robot_text.hpp"
 #include "config/yaml_text.hpp"
 #include "expression/text.hpp"
@@ -45,7 +46,8 @@ std::string correction_text(const JointSummary& summary, const JointCorrection& 
   std::ostringstream text;
   text << "  - joint: " << summary.joint + 1 << '\n';
   if (!summary.kept) {
-    text << "    expression: theta-theta\n    note: " << yaml_text(summary.note) << '\n';
+    text << "    expression: theta-theta\n";
+    if (!summary.note.empty()) text << "    note: " << yaml_text(summary.note) << '\n';
     return text.str();
   }
   const double range[] = {correction.range_rad().lower, correction.range_rad().upper};
@@ -62,7 +64,9 @@ std::string correction_text(const JointSummary& summary, const JointCorrection& 
 
 std::string model_text(const CalibratedModel& model) {
   std::ostringstream text;
-  text << "# Where the real robot goes: sensor_from_base * chain(q + g(q)) * tool; g is in rad of theta in rad\n"
+  text << "# Where the real robot goes: sensor_from_base * chain(q + g(q)) * tool, and what the effects move besides; "
+          "g is in\n"
+       << "# rad of theta in rad, coefficients of effects are in SI units\n"
        << "demecal_model: 1\njob: " << yaml_text(model.job) << "\nversion: " << yaml_text(model.version)
        << "\nmethod: " << (model.method == Method::direct ? "direct" : "distal") << "\nseed: " << model.seed
        << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256) << "}\n";
@@ -76,8 +80,11 @@ std::string model_text(const CalibratedModel& model) {
   text << "links:\n";
   for (const Joint& joint : model.robot.chain.joints) text << "  - " << link_text(joint) << '\n';
   if (!model.estimates.empty()) text << "estimates:\n";
-  for (const ParameterEstimate& estimate : model.estimates) text << "  - " << estimate_text(estimate) << '\n';
-  text << "effects: []\ncorrections:\n";
+  for (const ParameterEstimate& estimate : model.estimates) {
+    if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects say their own below
+    text << "  - " << estimate_text(estimate) << '\n';
+  }
+  text << effects_text(model.robot.effects, model.nominal) << "corrections:\n";
   for (const JointSummary& summary : model.joints) {
     text << correction_text(summary, model.robot.corrections[static_cast<std::size_t>(summary.joint)]);
   }

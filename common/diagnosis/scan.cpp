@@ -100,6 +100,15 @@ std::vector<Score> Scan::scores() const {
   return scores;
 }
 
+std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square) const {
+  std::vector<double> cosines(spans_.size(), 0.0);
+  for (std::size_t i = 0; i < spans_.size() && square > 0; ++i) {
+    const auto moment = products.col(0).segment(spans_[i].first, spans_[i].count);
+    cosines[i] = std::sqrt(std::clamp(moment.dot(grams_[i].inverse * moment) / square, 0.0, 1.0));
+  }
+  return cosines;
+}
+
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field,
                                       const Projection& model, int count, RandomStream random) const {
   std::vector<double> maxima;

@@ -31,9 +31,12 @@ class Scan {
   /// One score per candidate.
   std::vector<Score> scores() const;
 
+  /// Per candidate, the cosine between a direction and the candidate's columns beyond the model. The direction lies
+  /// beyond the model too; `products`: columns^T direction; `square`: its squared length.
+  std::vector<double> cosines(const Eigen::MatrixXd& products, double square) const;
+
   /// The largest fall_nats of any candidate, for each of `count` permutations of whole poses' residuals (Freedman and
-  /// Lane, 1983), ascending. Poses with equally many rows change places. At most `most_poses` poses take part, evenly
-  /// spaced: what is sought depends on the candidates' geometry and hardly on how many poses there are.
+  /// Lane, 1983), ascending: nothing is refitted. Poses with equally many rows change places.
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                   int count, RandomStream random) const;
 

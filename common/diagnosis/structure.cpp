@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kMostPoses = 2000;
+constexpr std::size_t kMostPoses = 1000;
 constexpr std::size_t kFewLevels = 6;
 
 /// Pairs of poses that are neighbours in some circumstance.
@@ -45,7 +45,7 @@ Pairs of_equal_level(const Circumstance& values) {
   std::map<double, std::vector<std::size_t>> levels;
   for (std::size_t i = 0; i < values.size(); ++i) levels[values[i]].push_back(i);
   Pairs pairs;
-  constexpr std::size_t kSteps = 16;
+  constexpr std::size_t kSteps = 4;
   for (const auto& [level, poses] : levels) {
     for (std::size_t step = 1; step <= kSteps && 2 * step < poses.size(); ++step) {
       for (std::size_t i = 0; i < poses.size(); ++i) pairs.push_back({poses[i], poses[(i + step) % poses.size()]});

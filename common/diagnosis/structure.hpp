@@ -12,7 +12,7 @@ namespace demecal {
 /// for each joint and each circumstance (every joint's value, approach, torque, payload, temperature, time, and every
 /// pair of joint values) poses that are neighbours in that circumstance are asked whether their errors agree more than
 /// chance would have it. The largest agreement, each in units of its own scatter under `permutations` permutations of
-/// whole poses' residuals, is compared with the largest of each permutation: family-wise. At most 2000 poses take part,
+/// whole poses' residuals, is compared with the largest of each permutation: family-wise. At most 1000 poses take part,
 /// evenly spaced.
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int permutations,
                          RandomStream random);

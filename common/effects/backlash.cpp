@@ -28,6 +28,7 @@ class Backlash final : public EffectLaw {
   std::string formula(const Effect& effect, const Robot& robot) const override;
   std::string diagnosis(const Effect& effect, const Robot& robot) const override;
   std::vector<std::string> settings() const override { return {"torque0_nm"}; }
+  bool requires_setting(const Effect& effect, const std::string& /*name*/) const override { return seated(effect); }
   std::vector<std::string> forms() const override { return {"approach", "seated"}; }
 
  private:

@@ -29,6 +29,7 @@ class Compliance final : public EffectLaw {
   std::string formula(const Effect& effect, const Robot& robot) const override;
   std::string diagnosis(const Effect& effect, const Robot& robot) const override;
   std::vector<std::string> settings() const override;
+  bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
   std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted"}; }
 };
 

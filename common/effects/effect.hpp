@@ -87,6 +87,8 @@ class EffectLaw {
   virtual std::string diagnosis(const Effect& effect, const Robot& robot) const = 0;
   /// Names of the settings this law has.
   virtual std::vector<std::string> settings() const { return {}; }
+  /// Whether the effect cannot be without one of these.
+  virtual bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const { return true; }
   /// Names of the forms this law has; empty: one form only.
   virtual std::vector<std::string> forms() const { return {}; }
   /// Whether the effect is of one joint.

@@ -46,6 +46,7 @@ class Symbolic final : public EffectLaw {
            motion_words(robot, effect.joint, effect.value(0)) + " times " + text_of(effect, robot) + '.';
   }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
+  bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& robot) const override {
     std::vector<int> joints;
     for (int joint = 0; joint < robot.chain.size(); ++joint) {

@@ -1,127 +1,101 @@
 #include "fitting/least_squares.hpp"
 
-#include <ceres/ceres.h>
-
-#include <algorithm>
+#include <Eigen/Cholesky>
 #include <cmath>
-#include <map>
-#include <memory>
-#include <utility>
+
+#include "fitting/information.hpp"
 
 namespace demecal {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// The cost at a point and its first two derivatives by z.
+struct Bend {
+  double cost = 0.0;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd curvature;
+};
 
-/// Keeps the model where Ceres is evaluating it, so that all poses share one robot.
-class SharedPoint : public ceres::EvaluationCallback {
+/// Adds the poses' rows. Beyond the threshold Huber's loss is threshold * norm: it pulls with a weight of threshold
+/// over norm, and does not curve along the residual. Residuals are taken to be linear in z.
+class PoseSum {
  public:
-  SharedPoint(const LeastSquares& problem, Eigen::VectorXd start)
-      : z(Eigen::VectorXd::Zero(problem.basis.cols())),
-        problem_(problem),
-        start_(std::move(start)),
-        point_(problem.space.at(start_)) {}
+  explicit PoseSum(const LeastSquares& problem) : problem_(problem), pulled_(problem.basis), straight_(problem.basis) {}
 
-  Eigen::VectorXd z;  ///< what Ceres changes
-
-  void PrepareForEvaluation(bool, bool new_point) override {
-    if (new_point) point_ = problem_.space.at(change());
-  }
-
-  const LeastSquares& problem() const { return problem_; }
-  Eigen::VectorXd change() const { return start_ + problem_.basis * z; }
-
-  void evaluate(const Observation& observation, double* residuals, double* jacobian) {
-    const LeastSquares& p = problem_;
-    if (jacobian == nullptr) {
-      scaled_residual(p.data, point_.robot, observation, p.scales, rows_);
-    } else {
-      scaled_rows(p.data, p.space, point_, observation, p.scales, rows_);
-      Eigen::Map<RowMajor>(jacobian, rows_.residual.size(), p.basis.cols()).noalias() = rows_.jacobian * p.basis;
+  void add(const ModelPoint& point, const Observation& observation) {
+    scaled_rows(problem_.data, problem_.space, point, observation, problem_.scales, rows_);
+    const auto used = static_cast<int>(rows_.residual.size());
+    if (used == 0) return;
+    const double norm = rows_.residual.norm();
+    const double threshold = problem_.robust ? huber_threshold(used) : norm;
+    if (norm <= threshold) {
+      cost_ += 0.5 * norm * norm;
+      pulled_.add(rows_.jacobian, rows_.residual, 1.0);
+      return;
     }
-    std::copy_n(rows_.residual.data(), rows_.residual.size(), residuals);
+    cost_ += threshold * (norm - 0.5 * threshold);
+    pulled_.add(rows_.jacobian, rows_.residual, threshold / norm);
+    const Eigen::RowVectorXd along = (rows_.residual / norm).transpose() * rows_.jacobian;
+    straight_.add(along, Eigen::VectorXd::Zero(1), threshold / norm);
   }
+
+  Bend bend() { return {cost_, pulled_.gradient(), pulled_.squares() - straight_.squares()}; }
 
  private:
   const LeastSquares& problem_;
-  Eigen::VectorXd start_;
-  ModelPoint point_;
+  Information pulled_, straight_;
   ScaledRows rows_;
+  double cost_ = 0.0;
 };
 
-class PoseCost : public ceres::CostFunction {
- public:
-  PoseCost(SharedPoint& shared, const Observation& observation, int rows) : shared_(shared), observation_(observation) {
-    set_num_residuals(rows);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(shared.z.size()));
-  }
-
-  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    shared_.evaluate(observation_, residuals, jacobians == nullptr ? nullptr : jacobians[0]);
-    return true;
-  }
-
- private:
-  SharedPoint& shared_;
-  const Observation& observation_;
-};
-
-class PriorCost : public ceres::CostFunction {
- public:
-  explicit PriorCost(const SharedPoint& shared) : shared_(shared) {
-    set_num_residuals(shared.problem().space.size());
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(shared.z.size()));
-  }
-
-  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    const LeastSquares& problem = shared_.problem();
-    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = problem.prior.residual(shared_.change());
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<RowMajor>(jacobians[0], num_residuals(), problem.basis.cols()) =
-          problem.prior.precision.asDiagonal() * problem.basis;
-    }
-    return true;
-  }
-
- private:
-  const SharedPoint& shared_;
-};
-
-/// One loss for each number of rows, shared by all poses that have it.
-class Losses {
- public:
-  ceres::LossFunction* of(int rows) {
-    auto& loss = losses_[rows];
-    if (!loss) loss = std::make_unique<ceres::HuberLoss>(huber_threshold(rows));
-    return loss.get();
-  }
-
- private:
-  std::map<int, std::unique_ptr<ceres::LossFunction>> losses_;
-};
-
-void add_poses(ceres::Problem& to, SharedPoint& shared, Losses& losses) {
-  const LeastSquares& problem = shared.problem();
-  for (const Observation& observation : problem.observations) {
-    const int rows = rows_in_use(problem.data.poses[observation.pose], problem.scales);
-    if (rows == 0) continue;
-    to.AddResidualBlock(new PoseCost(shared, observation, rows), problem.robust ? losses.of(rows) : nullptr,
-                        shared.z.data());
-  }
+Bend bend_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
+  PoseSum poses(problem);
+  const ModelPoint point = problem.space.at(change);
+  for (const Observation& observation : problem.observations) poses.add(point, observation);
+  Bend bend = poses.bend();
+  const Eigen::VectorXd prior = problem.prior.residual(change);
+  const Eigen::MatrixXd rows = problem.prior.precision.asDiagonal() * problem.basis;
+  bend.cost += 0.5 * prior.squaredNorm();
+  bend.gradient.noalias() += rows.transpose() * prior;
+  bend.curvature.noalias() += rows.transpose() * rows;
+  return bend;
 }
 
-ceres::Solver::Options solver_options(int max_iterations) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;  // safe: the basis makes the columns near orthonormal
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  options.minimizer_progress_to_stdout = false;
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = 1e-12;
-  options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
-  return options;
+/// A step of z, and by how much it should lower the cost.
+struct Step {
+  Eigen::VectorXd z;
+  double promise = 0.0;
+};
+
+/// Newton's step with the curvature of every direction raised by `damping` times its mean.
+Step damped_step(const Bend& at, double damping) {
+  const double raise = damping * std::max(at.curvature.diagonal().mean(), 1e-300);
+  const Eigen::Index n = at.gradient.size();
+  const Eigen::MatrixXd damped = at.curvature + raise * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(damped);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return {Eigen::VectorXd::Zero(n), -1.0};
+  Step step{factor.solve(-at.gradient), 0.0};
+  step.promise = -at.gradient.dot(step.z) - 0.5 * step.z.dot(at.curvature * step.z);
+  return step;
 }
+
+/// Marquardt's damping: less after every success, more after every failure.
+class Damping {
+ public:
+  double value() const { return value_; }
+  void relax() {
+    value_ = std::max(kLeast, value_ / 10);
+    growth_ = 4.0;
+  }
+  void tighten() {
+    value_ *= growth_;
+    growth_ *= 2.0;
+  }
+  bool hopeless() const { return value_ > kMost; }
+
+ private:
+  static constexpr double kLeast = 1e-12, kMost = 1e16;
+  double value_ = 1e-4, growth_ = 4.0;
+};
 
 }  // namespace
 
@@ -136,20 +110,26 @@ double huber_threshold(int rows) {
 }
 
 Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start) {
-  if (problem.basis.cols() == 0) return {start, 0.0, true};
-  SharedPoint shared(problem, start);
-  Losses losses;
-  ceres::Problem::Options ownership;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.evaluation_callback = &shared;
-  ceres::Problem poses(ownership);
-  add_poses(poses, shared, losses);
-  if ((problem.prior.precision.array() > 0).any())
-    poses.AddResidualBlock(new PriorCost(shared), nullptr, shared.z.data());
-  if (poses.NumResidualBlocks() == 0) return {start, 0.0, true};
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(problem.max_iterations), &poses, &summary);
-  return {shared.change(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE};
+  constexpr double kSettled = 1e-12;
+  Minimum best{start, 0.0, true};
+  if (problem.basis.cols() == 0) return best;
+  Bend at = bend_at(problem, start);
+  Damping damping;
+  best = {start, at.cost, false};
+  for (int i = 0; i < problem.max_iterations && std::isfinite(at.cost) && !damping.hopeless(); ++i) {
+    const Step step = damped_step(at, damping.value());
+    if (step.promise >= 0.0 && step.promise <= kSettled * (1.0 + at.cost)) return {best.change, at.cost, true};
+    const Eigen::VectorXd there = best.change + problem.basis * step.z;
+    Bend ahead = step.promise > 0.0 ? bend_at(problem, there) : at;
+    if (ahead.cost < at.cost) {
+      at = std::move(ahead);
+      best = {there, at.cost, false};
+      damping.relax();
+    } else {
+      damping.tighten();
+    }
+  }
+  return best;
 }
 
 }  // namespace demecal

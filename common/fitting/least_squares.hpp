@@ -1,4 +1,4 @@
-// Minimises the scaled residuals of many poses over a subspace of the parameters (Levenberg-Marquardt by Ceres).
+// Minimises the scaled residuals of many poses over a subspace of the parameters (Levenberg-Marquardt).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,9 @@ struct Minimum {
   bool converged = false;
 };
 
-/// From the change `start` to the nearest minimum. One thread, no messages; the same bits on every run.
+/// From the change `start` to the nearest minimum: Newton's steps, damped where they fail (Marquardt, 1963), with the
+/// exact curvature of Huber's loss, so that they converge fast however many poses lie far out. Converged: another step
+/// would lower the cost by less than 1e-12 of one plus itself. The same bits on every run.
 Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start);
 
 /// The norm above which Huber's loss grows linearly, of a pose with `rows` rows of unit variance: clean data exceed it

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "fitting/information.hpp"
+
 namespace demecal {
 namespace {
 
@@ -43,27 +45,26 @@ struct Sums {
 
 std::array<Sums, kRowKinds> sum_up(const LeastSquares& problem, const Eigen::VectorXd& change) {
   std::array<Sums, kRowKinds> sums;
-  for (Sums& sum : sums) sum.information.setZero(problem.basis.cols(), problem.basis.cols());
+  std::vector<Information> information(kRowKinds, Information(problem.basis));
   const ModelPoint point = problem.space.at(change);
   ScaledRows rows;
-  Eigen::MatrixXd jacobian;
   for (const Observation& observation : problem.observations) {
     scaled_rows(problem.data, problem.space, point, observation, problem.scales, rows);
     const auto used = static_cast<int>(rows.residual.size());
     if (used == 0) continue;
     const double weight = problem.robust ? huber_weight(rows.residual.norm(), used) : 1.0;
-    jacobian.noalias() = rows.jacobian * problem.basis;
     const RowCounts count = count_rows(problem.data.poses[observation.pose]);
-    for (std::size_t kind = 0, row = 0; kind < kRowKinds; ++kind) {
+    Eigen::Index from = 0;
+    for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
       if (problem.scales[kind] <= 0) continue;
-      const auto from = static_cast<Eigen::Index>(row);
-      sums[kind].information.noalias() +=
-          weight * jacobian.middleRows(from, count[kind]).transpose() * jacobian.middleRows(from, count[kind]);
-      sums[kind].squares += weight * rows.residual.segment(from, count[kind]).squaredNorm();
+      const auto residuals = rows.residual.segment(from, count[kind]);
+      information[kind].add(rows.jacobian.middleRows(from, count[kind]), residuals, weight);
+      sums[kind].squares += weight * residuals.squaredNorm();
       sums[kind].rows += weight * count[kind];
-      row += static_cast<std::size_t>(count[kind]);
+      from += count[kind];
     }
   }
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) sums[kind].information = information[kind].squares();
   return sums;
 }
 

@@ -55,6 +55,12 @@ std::string limit(const NotFound& missing) {
   return limit_amount(missing.smallest_detectable, missing.unit);
 }
 
+bool was_added(const LoopOutcome& loop, const std::string& kind) {
+  return std::ranges::any_of(loop.rounds, [&kind](const Round& round) {
+    return round.verdict == Verdict::added && round.effect.kind == kind;
+  });
+}
+
 std::string words_of(const Searched& searched, const Robot& robot) {
   const auto [least, most] = std::ranges::minmax_element(
       searched.places, {}, [](const NotFound* missing) { return missing->smallest_detectable; });
@@ -70,7 +76,8 @@ std::string not_found_lines(const LoopOutcome& loop, const Robot& described) {
   std::string text;
   std::size_t told = 0;
   for (std::size_t i = 0; i < std::min(kMostKinds, kinds.size()); ++i) {
-    text += wrapped("  no " + kinds[i].kind + ":", words_of(kinds[i], described), 4);
+    text += wrapped((was_added(loop, kinds[i].kind) ? "  no other " : "  no ") + kinds[i].kind + ":",
+                    words_of(kinds[i], described), 4);
     told += kinds[i].places.size();
   }
   if (told < loop.not_found.size()) {

@@ -39,7 +39,7 @@ std::string mm(double value) {
 
 std::string columns(const std::string& number, const std::string& name, const std::string& size, const std::string& p,
                     const std::string& before, const std::string& after) {
-  std::string line = right(number, 5) + "  " + left(name, 46) + right(size, 15) + right(p, 9) + right(before, 11);
+  std::string line = right(number, 5) + "  " + left(name, 42) + right(size, 13) + right(p, 9) + right(before, 12);
   return line + (after.empty() ? "" : " -> " + after) + "\n";
 }
 
@@ -83,8 +83,11 @@ std::string harmonics_lines(const Rounds& rounds, const Robot& robot) {
     p = std::max(p, round->p_family);
     doubtful += round->rivals.empty() ? 0 : 1;
   }
+  // What they did to the error is known where nothing else was added between them.
+  const bool together = rounds.back()->number - rounds.front()->number + 1 == static_cast<int>(rounds.size());
   std::string text = columns("", fmt::format("{} gear harmonics", rounds.size()), "", probability(p),
-                             mm(rounds.front()->validation_before_mm), mm(rounds.back()->validation_after_mm));
+                             together ? mm(rounds.front()->validation_before_mm) : "",
+                             together ? mm(rounds.back()->validation_after_mm) : "");
   for (const auto& [joint, harmonics] : harmonics_of(effects)) {
     text +=
         wrapped(fmt::format("{}joint {}:", std::string(kIndent, ' '), joint), harmonics_words(harmonics), kIndent + 2);

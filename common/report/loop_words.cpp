@@ -39,20 +39,4 @@ std::string statistics_sentences(const LoopStatistics& statistics) {
   return text;
 }
 
-std::string ranges_words(const std::vector<std::uint64_t>& numbers) {
-  std::vector<std::string> stretches;
-  for (std::size_t i = 0; i < numbers.size();) {
-    std::size_t last = i;
-    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    if (last == i + 1) last = i;  // two neighbours read better one by one
-    stretches.push_back(last == i ? std::to_string(numbers[i]) : fmt::format("{}-{}", numbers[i], numbers[last]));
-    i = last + 1;
-  }
-  std::string text;
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == stretches.size() ? " and " : ", ") + stretches[i];
-  }
-  return text;
-}
-
 }  // namespace demecal

@@ -1,10 +1,8 @@
 // What is said of the closed loop wherever people read of it.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace demecal {
 
@@ -20,8 +18,5 @@ struct LoopStatistics {
 };
 /// What these say, in up to three sentences; empty where nothing is known.
 std::string statistics_sentences(const LoopStatistics& statistics);
-
-/// "1, 3-6 and 9" of ascending numbers without repeats.
-std::string ranges_words(const std::vector<std::uint64_t>& numbers);
 
 }  // namespace demecal

@@ -112,7 +112,6 @@ inline CalibrationReport made_up_report() {
   report.before = errors_about(0.771, random);
   report.after = report.before;
   report.noise_floor_mm = 0.0513;
-  report.stopped = "not_run";
   report.index_before_mm2 = 81.27;
   report.index_after_mm2 = 39.91;
   report.joints = made_up_joints();

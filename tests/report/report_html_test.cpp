@@ -8,14 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "errors/input_error.hpp"
-#include "made_up_report.hpp"
+#include "made_up_loop.hpp"
 #include "page_reading.hpp"
 #include "report/report_json.hpp"
 
 namespace demecal {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -186,11 +185,8 @@ TEST(ReportPage, EscapesEveryText) {
       for (Json& child : json) poison(child);
     }
   };
-  Json json = made_up_json();
-  json["rounds"] = Json::parse(R"([{"round": 1, "verdict": "x", "effect": {"kind": "x", "joint": "x",
-      "parameters": {"a": "x"}}, "rivals": [{"kind": "x", "joint": 1, "cosine": 0.95}]}])");
+  Json json = Json::parse(to_json(made_up_looped_report()));
   json["rounds"][0]["effect"]["parameters"][evil] = 1;
-  json["not_found"] = Json::parse(R"([{"kind": "x", "joint": 5, "smallest_detectable": 0.1, "unit": "x"}])");
   poison(json);
   const std::string page = page_of(json);
   EXPECT_THAT(page, Not(HasSubstr("<script")));
@@ -199,30 +195,8 @@ TEST(ReportPage, EscapesEveryText) {
   EXPECT_THAT(words_of(page), HasSubstr(evil));
 }
 
-TEST(ReportPage, ShowsTheRoundsOfTheClosedLoop) {
-  Json json = made_up_json();
-  EXPECT_THAT(page_of(json), Not(HasSubstr("id=\"loop\""))) << "nothing is shown where the loop did not run";
-  json["stopped"] = "no_structure";
-  json["rounds"] = Json::parse(R"([
-      {"round": 1, "verdict": "added", "effect": {"kind": "backlash", "joint": 2, "parameters": {"width_rad": 0.000412}},
-       "rivals": [{"kind": "hysteresis", "joint": 2, "cosine": 0.931}], "p_family": 0.001,
-       "validation_before_mm": 0.771, "validation_after_mm": 0.402},
-      {"round": 2, "verdict": "none", "effect": null, "rivals": [], "p_family": 0.4}])");
-  json["not_found"] =
-      Json::parse(R"([{"kind": "coupling", "joint": 5, "smallest_detectable": 0.000038, "unit": "rad"}])");
-  const std::string page = page_of(json);
-  const auto rounds = table_of(page, "rounds");
-  ASSERT_THAT(rounds, SizeIs(2));
-  EXPECT_THAT(rounds[0], ElementsAre("1", "added", "backlash, joint 2", "width_rad 0.000412", "0.001", "0.771", "0.402",
-                                     "-48\u00A0%", "hysteresis, joint 2 (cosine 0.93)"));
-  EXPECT_THAT(rounds[1], ElementsAre("2", "none", "", "", "0.4", "–", "–", "–", ""));
-  EXPECT_THAT(table_of(page, "not-found"), ElementsAre(ElementsAre("coupling, joint 5", "3.8e-05", "rad")));
-  EXPECT_THAT(table_of(page, "errors"), SizeIs(6)) << "the stage with the effects found stands beside the others";
-  EXPECT_THAT(words_of(page), HasSubstr("shows no more structure"));
-}
-
 TEST(ReportPage, LeavesOutWhatAReportLacks) {
-  const Json whole = made_up_json();
+  const Json whole = Json::parse(to_json(made_up_looped_report()));
   for (const auto& [key, value] : whole.items()) {
     if (key == "demecal_report") continue;
     Json json = whole;
@@ -238,7 +212,7 @@ TEST(ReportPage, LeavesOutWhatAReportLacks) {
 }
 
 TEST(ReportPage, LeavesOutWhatPartsOfAReportLack) {
-  const Json whole = made_up_json();
+  const Json whole = Json::parse(to_json(made_up_looped_report()));
   const Json places = whole.flatten();
   for (const auto& [pointer, value] : places.items()) {
     if (pointer == "/demecal_report") continue;

@@ -4,29 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "made_up_report.hpp"
 #include "page_reading.hpp"
+#include "screen_reading.hpp"
 
 namespace demecal {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::vector<std::string> screen_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-std::size_t letters_of(const std::string& line) {
-  std::size_t letters = 0;
-  for (const char byte : line) letters += (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U ? 1u : 0u;
-  return letters;
-}
 
 TEST(Terminal, ShowsEveryStageOfEverySetThatHasPoses) {
   const CalibrationReport report = made_up_report();

@@ -1,0 +1,25 @@
+// How small an effect these poses could still have shown.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/outcome.hpp"
+#include "diagnosis/scan.hpp"
+
+namespace demecal {
+
+/// What detecting depends on.
+struct Detection {
+  const std::vector<double>& null_maxima;  ///< of the scan, ascending
+  double family_error = 0.05;
+  double variance = 1.0;  ///< of the residual rows, in rows of unit variance
+  std::size_t poses = 0;
+};
+
+/// Per kind and joint of the candidates that the model does not hold: the amplitude of its least visible form that is
+/// found with power 0.9 at the family-wise level. Kinds of which nothing is visible beyond the model are left out.
+std::vector<NotFound> smallest_detectable(const std::vector<Candidate>& candidates, const std::vector<Score>& scores,
+                                          const CorrectedRobot& model, const Robot& robot, const Detection& detection);
+
+}  // namespace demecal

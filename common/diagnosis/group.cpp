@@ -1,0 +1,182 @@
+#include "diagnosis/group.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "diagnosis/rivals.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kMostRejections = 6;
+constexpr double kStable = 0.95;    ///< share of resamples that must agree with a sign
+constexpr double kEvident = 2.0;    ///< times the largest fall by luck: no need to permute again
+constexpr double kLargest_m = 0.05;  ///< no arm moves farther by itself
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double family_p_value(const std::vector<double>& null_maxima, double fall_nats) {
+  const auto beyond = null_maxima.end() - std::lower_bound(null_maxima.begin(), null_maxima.end(), fall_nats);
+  return (1.0 + static_cast<double>(beyond)) / (1.0 + static_cast<double>(null_maxima.size()));
+}
+
+std::vector<double> prices(const std::vector<Candidate>& candidates) {
+  std::vector<double> nats;
+  for (const Candidate& candidate : candidates) nats.push_back(candidate.name_nats);
+  return nats;
+}
+
+double mean_square(const std::vector<double>& errors) {
+  return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
+}
+
+}  // namespace
+
+Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Linearised& at,
+             const std::vector<Candidate>& candidates, const EffectColumns& columns, std::vector<bool> out,
+             std::vector<double>& null_maxima, const GroupRules& rules)
+    : of_(of),
+      model_(model),
+      at_(at),
+      candidates_(candidates),
+      columns_(columns),
+      out_(std::move(out)),
+      null_maxima_(null_maxima),
+      rules_(rules),
+      projection_(at.projection),
+      scan_(columns, prices(candidates), at.fitted, projection_),
+      scores_(scan_.scores()),
+      sure_errors_mm_(tool_errors_mm(at.judging, projection_.judging_left(), model.scales, of.data)) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].disguise != Disguise::none) decoy_falls_.push_back(scores_[i].fall_nats);
+  }
+}
+
+RandomStream Group::random(std::uint64_t purpose) const {
+  return RandomStream{rules_.seed, purpose, static_cast<std::uint64_t>(rules_.group), outcome_.rounds.size()};
+}
+
+std::optional<std::size_t> Group::best() const {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < scores_.size(); ++i) {
+    if (out_[i] || scores_[i].rank == 0) continue;
+    if (!best || scores_[i].fall_nats > scores_[*best].fall_nats) best = i;
+  }
+  return best;
+}
+
+void Group::renew_null(std::size_t index) {
+  const bool evident = !null_maxima_.empty() && scores_[index].fall_nats > kEvident * null_maxima_.back();
+  const bool first = outcome_.rounds.empty();
+  if (!null_maxima_.empty() && (evident || !first)) return;
+  null_maxima_ = scan_.null_maxima(columns_, at_.fitted, projection_, rules_.permutations, random(5));
+}
+
+Round Group::judge(std::size_t index, Projection::Trial& trial) {
+  const Effect& effect = candidates_[index].effect;
+  EffectColumns judging;
+  judging.append(effect, of_.data.robot, at_.judging.states);
+  judging.pack();
+  trial = projection_.trial(columns_.dense(at_.fitted, index), judging.dense(at_.judging, 0));
+  const auto before = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
+  const auto after = tool_errors_mm(at_.judging, trial.judging_left, model_.scales, of_.data);
+  const Resampled draws = resampled(at_.fitted, trial, projection_.left(), rules_.resamples, random(4));
+  Round round;
+  round.number = rules_.first_round + static_cast<int>(outcome_.rounds.size());
+  round.group = rules_.group;
+  round.effect = effect;
+  round.effect.values.assign(trial.coefficients.begin(), trial.coefficients.end());
+  round.p_structure = rules_.p_structure;
+  round.p_family = family_p_value(null_maxima_, scores_[index].fall_nats);
+  round.fall_nats = scores_[index].fall_nats;
+  round.validation_before_mm = mean(before);
+  round.validation_after_mm = mean(after);
+  round.gain_lower_mm2 = gain_lower_bound_mm2(before, after, random(3));
+  round.sign_stability = draws.sign_stability;
+  round.interval = draws.interval;
+  round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted);
+  round.diagnosis = law_of(effect).diagnosis(round.effect, of_.data.robot);
+  round.formula = law_of(effect).formula(round.effect, of_.data.robot);
+  return round;
+}
+
+std::string Group::objection(const Round& round, const Projection::Trial& trial) const {
+  if (round.p_family > rules_.family_error) return "chance would explain as much too often";
+  if (round.fall_nats <= 0.0) return "the description grows longer by it";
+  if (!at_.judging.poses.empty()) {
+    const auto before = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
+    const auto after = tool_errors_mm(at_.judging, trial.judging_left, model_.scales, of_.data);
+    if (mean_square(after) >= mean_square(before) && round.gain_lower_mm2 <= 0.0) {
+      return "no gain on the validation poses";
+    }
+  }
+  if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
+  const double largest_m = (trial.fitted * trial.coefficients).cwiseAbs().maxCoeff() * model_.scales[kPosition];
+  if (largest_m > kLargest_m) return "no arm moves so far by itself";
+  return {};
+}
+
+void Group::take(Round round, const Projection::Trial& trial) {
+  round.verdict = Verdict::added;
+  outcome_.rounds.push_back(std::move(round));
+  projection_.add(trial);
+  scan_.follow(columns_, at_.fitted, projection_);
+  scores_ = scan_.scores();
+  const auto errors = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
+  if (!errors.empty() && gain_lower_bound_mm2(sure_errors_mm_, errors, random(7)) <= 0.0) return;
+  sure_errors_mm_ = errors;
+  sure_rounds_ = outcome_.rounds.size();
+}
+
+/// Rounds after the last sure gain are not believed.
+void Group::drop_unsure() {
+  for (std::size_t i = 0; i < outcome_.rounds.size(); ++i) {
+    Round& round = outcome_.rounds[i];
+    if (round.verdict != Verdict::added) continue;
+    if (i < sure_rounds_) {
+      outcome_.added.push_back(round.effect);
+    } else {
+      round.verdict = Verdict::rejected;
+      round.reason = "no sure gain on the validation poses";
+    }
+  }
+}
+
+GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
+  int added = 0, rejected = 0;
+  while (added < rules_.most && rejected < kMostRejections && !outcome_.stopped) {
+    const auto index = best();
+    if (!index) break;
+    renew_null(*index);
+    Projection::Trial trial;
+    Round round = judge(*index, trial);
+    out_[*index] = true;
+    if (candidates_[*index].disguise != Disguise::none && round.p_family <= rules_.family_error) {
+      round.verdict = Verdict::rejected;
+      round.reason = "a decoy, " + decoy_name(candidates_[*index]) + ", explains more than any real effect";
+      outcome_.rounds.push_back(std::move(round));
+      outcome_.decoy_won = true;
+      break;
+    }
+    round.reason = objection(round, trial);
+    outcome_.luck = round.p_family > rules_.family_error;
+    if (round.reason.empty()) {
+      take(std::move(round), trial);
+      ++added;
+    } else {
+      round.verdict = outcome_.luck ? Verdict::none : Verdict::rejected;
+      outcome_.rounds.push_back(std::move(round));
+      ++rejected;
+    }
+    if (watch && !watch(outcome_.rounds.back())) outcome_.stopped = true;
+    if (outcome_.luck) break;
+  }
+  drop_unsure();
+  return std::move(outcome_);
+}
+
+}  // namespace demecal

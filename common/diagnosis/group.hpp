@@ -1,0 +1,76 @@
+// One group of rounds: effects added one after another to one linearised model, until luck could do as much.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/diagnosed_model.hpp"
+#include "diagnosis/judgement.hpp"
+#include "diagnosis/outcome.hpp"
+#include "diagnosis/scan.hpp"
+
+namespace demecal {
+
+/// What judging a candidate takes.
+struct GroupRules {
+  double family_error = 0.05;
+  int permutations = 999;
+  int resamples = 400;
+  int most = 12;           ///< effects in one group
+  std::uint64_t seed = 1;
+  int group = 1;
+  int first_round = 1;     ///< number of the group's first round
+  double p_structure = 1.0;
+};
+
+struct GroupOutcome {
+  std::vector<Round> rounds;
+  std::vector<Effect> added;  ///< as the rounds' verdicts say
+  bool decoy_won = false;
+  bool stopped = false;  ///< by the watcher
+  bool luck = false;     ///< the best candidate left explains no more than luck could
+};
+
+class Group {
+ public:
+  /// `columns` are the candidates'; `out` marks those not to be tried; `null_maxima` is the latest null distribution,
+  /// renewed where the best candidate is not far beyond it.
+  Group(const DiagnosisData& of, const DiagnosedModel& model, const Linearised& at,
+        const std::vector<Candidate>& candidates, const EffectColumns& columns, std::vector<bool> out,
+        std::vector<double>& null_maxima, const GroupRules& rules);
+
+  /// Tries candidates, the best first. One is added that luck explains too rarely, that shortens the description, whose
+  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay if from the last
+  /// sure gain on the validation poses on they gain surely together.
+  GroupOutcome run(const std::function<bool(const Round&)>& watch);
+  /// The best fall in description length of every decoy, in candidates' order.
+  const std::vector<double>& decoy_falls() const { return decoy_falls_; }
+
+ private:
+  std::optional<std::size_t> best() const;
+  void renew_null(std::size_t index);
+  Round judge(std::size_t index, Projection::Trial& trial);
+  std::string objection(const Round& round, const Projection::Trial& trial) const;
+  void take(Round round, const Projection::Trial& trial);
+  void drop_unsure();
+  RandomStream random(std::uint64_t purpose) const;
+
+  const DiagnosisData& of_;
+  const DiagnosedModel& model_;
+  const Linearised& at_;
+  const std::vector<Candidate>& candidates_;
+  const EffectColumns& columns_;
+  std::vector<bool> out_;
+  std::vector<double>& null_maxima_;
+  GroupRules rules_;
+  Projection projection_;
+  Scan scan_;
+  std::vector<Score> scores_;
+  std::vector<double> sure_errors_mm_;  ///< of the validation poses at the last sure gain
+  std::size_t sure_rounds_ = 0;         ///< rounds up to then
+  std::vector<double> decoy_falls_;
+  GroupOutcome outcome_;
+};
+
+}  // namespace demecal

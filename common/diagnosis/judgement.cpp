@@ -1,0 +1,115 @@
+#include "diagnosis/judgement.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace demecal {
+namespace {
+
+constexpr int kGainDraws = 1000;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double huber_square(double error, double threshold) {
+  return error <= threshold ? error * error : threshold * (2.0 * error - threshold);
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// X^T X and X^T (what X explains and what is left) of one pose.
+struct PoseSums {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd moment;
+};
+
+std::vector<PoseSums> pose_sums(const ResidualField& field, const Projection::Trial& trial,
+                                const Eigen::VectorXd& left) {
+  std::vector<PoseSums> sums;
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const auto columns = trial.fitted.middleRows(field.first_row[pose], field.rows_of_pose(pose));
+    const auto rows = left.segment(field.first_row[pose], field.rows_of_pose(pose));
+    sums.push_back({columns.transpose() * columns, columns.transpose() * rows});
+  }
+  return sums;
+}
+
+Eigen::VectorXd solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) {
+  constexpr double kNothing = 1e-9;
+  Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
+  for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * gram * scale.asDiagonal());
+  Eigen::VectorXd turned = eigen.eigenvectors().transpose() * scale.cwiseProduct(moment);
+  for (Eigen::Index i = 0; i < turned.size(); ++i) {
+    turned[i] = eigen.eigenvalues()[i] > kNothing ? turned[i] / eigen.eigenvalues()[i] : 0.0;
+  }
+  return scale.cwiseProduct(eigen.eigenvectors() * turned);
+}
+
+}  // namespace
+
+std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
+                                   const DataSet& data) {
+  std::vector<double> errors;
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    const bool position = data.poses[field.poses[pose]].position_m && scales[kPosition] > 0;
+    const double norm = left.segment(first, position ? 3 : count).norm();
+    errors.push_back(position ? 1e3 * scales[kPosition] * norm
+                              : 1e3 * std::max(scales[kDistance], 1e-9) * norm / std::sqrt(static_cast<double>(count)));
+  }
+  return errors;
+}
+
+double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
+                            RandomStream random) {
+  if (before_mm.empty()) return 0.0;
+  const double threshold = 4.0 * median(before_mm);
+  std::vector<double> falls;
+  for (std::size_t i = 0; i < before_mm.size(); ++i) {
+    falls.push_back(huber_square(before_mm[i], threshold) - huber_square(after_mm[i], threshold));
+  }
+  std::vector<double> means;
+  for (int draw = 0; draw < kGainDraws; ++draw) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < falls.size(); ++i) sum += falls[random.index(falls.size())];
+    means.push_back(sum / static_cast<double>(falls.size()));
+  }
+  return quantile(means, 0.05);
+}
+
+Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
+                    RandomStream random) {
+  const std::vector<PoseSums> sums = pose_sums(field, trial, left);
+  const Eigen::Index m = trial.coefficients.size();
+  const Eigen::MatrixXd whole = trial.fitted.transpose() * trial.fitted;
+  std::vector<std::vector<double>> drawn(static_cast<std::size_t>(m));
+  int agree = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m, m);
+    Eigen::VectorXd moment = Eigen::VectorXd::Zero(m);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const PoseSums& pose = sums[random.index(sums.size())];
+      gram += pose.gram;
+      moment += pose.moment;
+    }
+    const Eigen::VectorXd coefficients = solve(gram, moment);
+    agree += coefficients.dot(whole * trial.coefficients) > 0;
+    for (Eigen::Index i = 0; i < m; ++i) drawn[static_cast<std::size_t>(i)].push_back(coefficients[i]);
+  }
+  Resampled result;
+  result.sign_stability = static_cast<double>(agree) / draws;
+  for (std::vector<double>& values : drawn) result.interval.push_back({quantile(values, 0.025), quantile(values, 0.975)});
+  return result;
+}
+
+}  // namespace demecal

@@ -1,0 +1,29 @@
+// Whether a candidate's gain is real: on poses it was not fitted to, and under resampling of those it was.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "diagnosis/projection.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+
+/// The tool error of every judging pose, mm: of its position rows or, where there are none, the root mean square of all.
+std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
+                                   const DataSet& data);
+
+/// The one-sided 95 % bootstrap bound of the mean fall of the squared error, mm^2, over resampled poses. Errors beyond
+/// four times the median (before) count linearly, so that one outlier does not decide. Zero where there are no poses.
+double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
+                            RandomStream random);
+
+/// How coefficients scatter when the fitted poses are drawn anew with replacement.
+struct Resampled {
+  double sign_stability = 1.0;                   ///< share of draws that agree with the sign of the whole effect
+  std::vector<std::array<double, 2>> interval;   ///< 2.5 % and 97.5 % of every coefficient
+};
+Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
+                    RandomStream random);
+
+}  // namespace demecal

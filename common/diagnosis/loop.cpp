@@ -1,0 +1,219 @@
+#include "diagnosis/loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/backward.hpp"
+#include "diagnosis/detectable.hpp"
+#include "diagnosis/evidence.hpp"
+#include "diagnosis/group.hpp"
+#include "diagnosis/structure.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kSteps = 12;       ///< of Gauss and Newton, from the declared fit
+constexpr int kStepsAgain = 4;   ///< after effects were added to a model that was already refined
+constexpr int kMostGroups = 60;
+
+class ClosedLoop {
+ public:
+  ClosedLoop(const DiagnosisData& of, const LoopOptions& options, const RoundWatcher& watch)
+      : of_(of), options_(options), watch_(watch) {}
+
+  LoopResult run(DiagnosedModel start);
+
+ private:
+  void make_candidates(const Linearised& at);
+  void measure_pure_error(const Linearised& at);
+  GroupRules rules() const;
+  std::vector<bool> not_to_try() const;
+  void note_decoys(const Group& group, const GroupOutcome& outcome);
+  bool run_group(const Linearised& at);
+  StopReason reason_to_stop(const GroupOutcome& last) const;
+  void describe_added();
+  void finish(const Linearised& at);
+  RandomStream random(std::uint64_t purpose) const {
+    return RandomStream{options_.seed, purpose, static_cast<std::uint64_t>(group_)};
+  }
+  double structure(const Linearised& at) const {
+    return structure_p_value(at.fitted, at.projection, of_.data.robot.chain, options_.permutations, random(6));
+  }
+
+  const DiagnosisData& of_;
+  const LoopOptions& options_;
+  const RoundWatcher& watch_;
+  DiagnosedModel model_;
+  LoopOutcome outcome_;
+  std::vector<Candidate> candidates_;
+  EffectColumns columns_;
+  std::vector<double> null_maxima_;
+  std::optional<double> start_excess_;  ///< mean square of the residual above that of repeats, m^2
+  double p_structure_ = 1.0;
+  int group_ = 0;
+};
+
+void ClosedLoop::make_candidates(const Linearised& at) {
+  Evidence evidence = evidence_of(of_.data, of_.fitted);
+  evidence.highest_ratio = options_.highest_ratio;
+  evidence.stated_ratios = options_.stated_ratios;
+  outcome_.unseen = unseen_kinds(evidence, options_.kinds);
+  candidates_ = candidates_for(of_.data.robot, evidence, of_.declared, {options_.kinds, options_.decoys});
+  const std::vector<ArmState>& states = at.fitted.states;
+  const auto shuffled_approach = disguised(states, Disguise::shuffled_approach, random(1));
+  const auto shuffled_heat = disguised(states, Disguise::shuffled_temperature, random(2));
+  for (const Candidate& candidate : candidates_) {
+    const bool sides = candidate.disguise == Disguise::shuffled_approach;
+    const bool heat = candidate.disguise == Disguise::shuffled_temperature;
+    columns_.append(candidate.effect, of_.data.robot, sides ? shuffled_approach : heat ? shuffled_heat : states);
+    if (candidate.disguise == Disguise::none) {
+      ++outcome_.candidates;
+    } else {
+      outcome_.decoys.push_back({.name = decoy_name(candidate)});
+    }
+  }
+  columns_.pack();
+}
+
+void ClosedLoop::measure_pure_error(const Linearised& at) {
+  const auto pure = pure_error(of_.data, of_.fitted);
+  if (!pure) return;
+  outcome_.noise_m = pure->deviation_m;
+  double squares = 0.0, freedom = 0.0;
+  for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
+    if (!of_.data.poses[at.fitted.poses[i]].position_m) continue;
+    const Eigen::Index first = at.fitted.first_row[i];
+    squares += at.projection.left().segment(first, 3).squaredNorm();
+    freedom += 3.0 - at.projection.basis().middleRows(first, 3).squaredNorm();
+  }
+  squares *= std::pow(model_.scales[kPosition], 2);
+  if (!outcome_.lack_of_fit_p) outcome_.lack_of_fit_p = lack_of_fit_p_value(*pure, squares, freedom);
+  const double left = squares / freedom - std::pow(pure->deviation_m, 2);
+  if (!start_excess_) start_excess_ = left;
+  if (*start_excess_ > 0.0) outcome_.explained_share = 1.0 - left / *start_excess_;
+}
+
+GroupRules ClosedLoop::rules() const {
+  return {.family_error = options_.family_error,
+          .permutations = options_.permutations,
+          .resamples = options_.resamples,
+          .most = std::min(options_.group_size,
+                           options_.max_effects - static_cast<int>(model_.robot.effects.size())),
+          .seed = options_.seed,
+          .group = group_,
+          .first_round = static_cast<int>(outcome_.rounds.size()) + 1,
+          .p_structure = p_structure_};
+}
+
+/// Candidates that the model holds already, or that the backward step took back.
+std::vector<bool> ClosedLoop::not_to_try() const {
+  std::vector<bool> out(candidates_.size(), false);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (candidates_[i].disguise != Disguise::none) continue;
+    const auto is_it = [&](const Effect& effect) { return effect.same_law_as(candidates_[i].effect); };
+    out[i] = std::ranges::any_of(model_.robot.effects, is_it) || std::ranges::any_of(outcome_.dropped, is_it);
+  }
+  return out;
+}
+
+void ClosedLoop::note_decoys(const Group& group, const GroupOutcome& outcome) {
+  for (std::size_t i = 0; i < outcome_.decoys.size(); ++i) {
+    Decoy& decoy = outcome_.decoys[i];
+    decoy.best_fall_nats = std::max(decoy.best_fall_nats, group.decoy_falls()[i]);
+    decoy.won = decoy.won || (outcome.decoy_won && outcome.rounds.back().reason.find(decoy.name) != std::string::npos);
+  }
+}
+
+StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
+  if (last.decoy_won) return StopReason::decoy;
+  return last.luck && p_structure_ > options_.family_error ? StopReason::no_structure : StopReason::no_gain;
+}
+
+/// Whether anything was added and more may follow.
+bool ClosedLoop::run_group(const Linearised& at) {
+  Group group(of_, model_, at, candidates_, columns_, not_to_try(), null_maxima_, rules());
+  GroupOutcome outcome = group.run(watch_);
+  note_decoys(group, outcome);
+  const bool added = !outcome.added.empty();
+  model_.robot.effects.insert(model_.robot.effects.end(), outcome.added.begin(), outcome.added.end());
+  const bool more = added && !outcome.decoy_won && !outcome.stopped;
+  if (!more) {
+    p_structure_ = structure(at);
+    outcome_.stopped = reason_to_stop(outcome);
+  }
+  std::ranges::move(outcome.rounds, std::back_inserter(outcome_.rounds));
+  return more;
+}
+
+LoopResult ClosedLoop::run(DiagnosedModel start) {
+  LoopResult result;
+  model_ = refined(of_, std::move(start), kSteps);
+  result.before = model_;
+  Linearised at = linearise(of_, model_);
+  make_candidates(at);
+  measure_pure_error(at);
+  outcome_.permutations = options_.permutations;
+  p_structure_ = structure(at);
+  for (group_ = 1; group_ <= kMostGroups; ++group_) {
+    if (static_cast<int>(model_.robot.effects.size()) >= options_.max_effects) {
+      outcome_.stopped = StopReason::max_effects;
+      break;
+    }
+    const bool more = run_group(at);
+    const std::size_t held = result.model.robot.effects.size();
+    if (model_.robot.effects.size() != held) {
+      model_ = refined(of_, std::move(model_), kStepsAgain);
+      take_back_needless(of_, model_, candidates_, outcome_);
+      at = linearise(of_, model_);
+      result.model = model_;
+    }
+    if (!more) break;
+  }
+  measure_pure_error(at);
+  finish(at);
+  result.model = model_;
+  result.outcome = std::move(outcome_);
+  return result;
+}
+
+/// Added effects stand in their rounds as they ended, not as they were first guessed.
+void ClosedLoop::describe_added() {
+  for (Round& round : outcome_.rounds) {
+    if (round.verdict != Verdict::added) continue;
+    for (const Effect& effect : model_.robot.effects) {
+      if (effect.same_law_as(round.effect)) round.effect = effect;
+    }
+    round.diagnosis = law_of(round.effect).diagnosis(round.effect, of_.data.robot);
+    round.formula = law_of(round.effect).formula(round.effect, of_.data.robot);
+  }
+}
+
+void ClosedLoop::finish(const Linearised& at) {
+  outcome_.p_structure_left = p_structure_;
+  describe_added();
+  std::vector<double> name_nats;
+  for (const Candidate& candidate : candidates_) name_nats.push_back(candidate.name_nats);
+  const Scan scan(columns_, name_nats, at.fitted, at.projection);
+  outcome_.not_found = smallest_detectable(candidates_, scan.scores(), model_.robot, of_.data.robot,
+                                           {.null_maxima = null_maxima_,
+                                            .family_error = options_.family_error,
+                                            .variance = at.projection.squares() / at.projection.freedom(),
+                                            .poses = at.fitted.poses.size()});
+  for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
+    if (at.fitted.root_weight[i] < 0.5) outcome_.outliers.push_back(at.fitted.poses[i]);
+  }
+}
+
+}  // namespace
+
+LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
+                      const RoundWatcher& watch) {
+  const DiagnosisData of{data, declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
+  DiagnosedModel model;
+  model.robot = start.robot;
+  model.smooth = smooth_corrections(data, of.fitted, start.robot, declared.joint_corrections);
+  model.scales = {start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
+  return ClosedLoop(of, options, watch).run(std::move(model));
+}
+
+}  // namespace demecal

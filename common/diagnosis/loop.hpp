@@ -1,0 +1,42 @@
+// The closed loop: residual, structure, effect, gain, again, until nothing is left or nothing is gained.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosed_model.hpp"
+#include "diagnosis/outcome.hpp"
+
+namespace demecal {
+
+struct LoopOptions {
+  std::vector<std::string> kinds;    ///< words of the catalogue to consider; empty: all
+  int max_effects = 100;
+  double family_error = 0.05;        ///< chance of adding anything to a model that lacks nothing
+  int permutations = 999;
+  int resamples = 400;
+  int group_size = 12;               ///< effects that may be added between two joint refits
+  int highest_ratio = 200;           ///< of the scan over gear harmonics
+  std::vector<double> stated_ratios; ///< beyond the scan
+  bool decoys = true;
+  std::uint64_t seed = 1;
+};
+
+/// Told of every round as it ends; returns false to stop the loop with what it has.
+using RoundWatcher = std::function<bool(const Round&)>;
+
+struct LoopResult {
+  DiagnosedModel before;  ///< everything declared, at its least-squares values: the loop's start
+  DiagnosedModel model;   ///< with the effects added
+  LoopOutcome outcome;
+};
+
+/// Runs the ten steps from `start`, a declared model already fitted (its corrections are kept and, where joint
+/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses judge (where there are
+/// none, resampling of the calibration poses alone does); accept poses are never looked at. A function of its arguments.
+LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
+                      const RoundWatcher& watch = {});
+
+}  // namespace demecal

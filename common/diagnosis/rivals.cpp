@@ -1,0 +1,34 @@
+#include "diagnosis/rivals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace demecal {
+namespace {
+
+constexpr double kAlike = 0.9;
+constexpr double kRelated = 0.5;
+constexpr double kNatsToTell = 5.0;
+constexpr std::size_t kMost = 8;
+
+}  // namespace
+
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
+                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
+                             const ResidualField& field) {
+  const RowMatrix share = explained.fitted * explained.coefficients;
+  const std::vector<double> cosines = scan.cosines(columns.transposed_times(field, share), share.squaredNorm());
+  std::vector<Rival> rivals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == named || all[i].disguise != Disguise::none) continue;
+    const double behind = scores[named].fall_nats - scores[i].fall_nats;
+    if (cosines[i] > kAlike || (cosines[i] > kRelated && std::abs(behind) < kNatsToTell)) {
+      rivals.push_back({all[i].effect, cosines[i], behind});
+    }
+  }
+  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cosine > b.cosine; });
+  if (rivals.size() > kMost) rivals.resize(kMost);
+  return rivals;
+}
+
+}  // namespace demecal
