@@ -34,7 +34,7 @@ void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, Disgu
   int last = -2;
   for (const Candidate& candidate : candidates) {
     if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.disguise != Disguise::none) continue;
-    if (candidate.effect.form == "seated") continue;
+    if (candidate.effect.form == "seated" || candidate.effect.form == "coupled") continue;
     last = candidate.effect.joint;
     decoys.push_back(candidate);
     decoys.back().disguise = disguise;

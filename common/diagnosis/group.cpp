@@ -9,7 +9,8 @@
 namespace demecal {
 namespace {
 
-constexpr int kMostRejections = 6;
+constexpr int kMostRejections = 12;
+constexpr double kAlike = 0.9;      ///< cosine
 constexpr double kStable = 0.95;    ///< share of resamples that must agree with a sign
 constexpr double kEvident = 2.0;    ///< times the largest fall by luck: no need to permute again
 constexpr double kLargest_m = 0.05;  ///< no arm moves farther by itself
@@ -50,7 +51,7 @@ Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Lineari
       projection_(at.projection),
       scan_(columns, prices(candidates), at.fitted, projection_),
       scores_(scan_.scores()),
-      sure_errors_mm_(tool_errors_mm(at.judging, projection_.judging_left(), model.scales, of.data)) {
+      start_errors_mm_(whole_errors_mm(at.judging, projection_.judging_left(), model.scales)) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].disguise != Disguise::none) decoy_falls_.push_back(scores_[i].fall_nats);
   }
@@ -95,7 +96,9 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   round.fall_nats = scores_[index].fall_nats;
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
-  round.gain_lower_mm2 = gain_lower_bound_mm2(before, after, random(3));
+  round.gain_lower_mm2 =
+      gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
+                           whole_errors_mm(at_.judging, trial.judging_left, model_.scales), random(3));
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
   round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted);
@@ -108,8 +111,8 @@ std::string Group::objection(const Round& round, const Projection::Trial& trial)
   if (round.p_family > rules_.family_error) return "chance would explain as much too often";
   if (round.fall_nats <= 0.0) return "the description grows longer by it";
   if (!at_.judging.poses.empty()) {
-    const auto before = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
-    const auto after = tool_errors_mm(at_.judging, trial.judging_left, model_.scales, of_.data);
+    const auto before = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
+    const auto after = whole_errors_mm(at_.judging, trial.judging_left, model_.scales);
     if (mean_square(after) >= mean_square(before) && round.gain_lower_mm2 <= 0.0) {
       return "no gain on the validation poses";
     }
@@ -126,13 +129,24 @@ void Group::take(Round round, const Projection::Trial& trial) {
   projection_.add(trial);
   scan_.follow(columns_, at_.fitted, projection_);
   scores_ = scan_.scores();
-  const auto errors = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
-  if (!errors.empty() && gain_lower_bound_mm2(sure_errors_mm_, errors, random(7)) <= 0.0) return;
-  sure_errors_mm_ = errors;
+  const auto errors = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
+  const double gain_mm2 = errors.empty() ? sure_gain_mm2_ + 1.0 : gain_lower_bound_mm2(start_errors_mm_, errors, random(7));
+  if (gain_mm2 <= sure_gain_mm2_) return;
+  sure_gain_mm2_ = gain_mm2;
   sure_rounds_ = outcome_.rounds.size();
 }
 
-/// Rounds after the last sure gain are not believed.
+/// What explains the same as a rejected effect would be rejected too.
+void Group::leave_out_alike(const Round& round) {
+  for (const Rival& rival : round.rivals) {
+    if (rival.cosine < kAlike) continue;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      out_[i] = out_[i] || candidates_[i].effect.same_law_as(rival.effect);
+    }
+  }
+}
+
+/// Rounds after which the group's gain grew no surer are not believed.
 void Group::drop_unsure() {
   for (std::size_t i = 0; i < outcome_.rounds.size(); ++i) {
     Round& round = outcome_.rounds[i];
@@ -169,6 +183,7 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       ++added;
     } else {
       round.verdict = outcome_.luck ? Verdict::none : Verdict::rejected;
+      leave_out_alike(round);
       outcome_.rounds.push_back(std::move(round));
       ++rejected;
     }

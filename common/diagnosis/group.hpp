@@ -41,8 +41,8 @@ class Group {
         std::vector<double>& null_maxima, const GroupRules& rules);
 
   /// Tries candidates, the best first. One is added that luck explains too rarely, that shortens the description, whose
-  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay if from the last
-  /// sure gain on the validation poses on they gain surely together.
+  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay up to the one after
+  /// which the lower bound of their joint gain on the validation poses is largest, and above zero.
   GroupOutcome run(const std::function<bool(const Round&)>& watch);
   /// The best fall in description length of every decoy, in candidates' order.
   const std::vector<double>& decoy_falls() const { return decoy_falls_; }
@@ -53,6 +53,7 @@ class Group {
   Round judge(std::size_t index, Projection::Trial& trial);
   std::string objection(const Round& round, const Projection::Trial& trial) const;
   void take(Round round, const Projection::Trial& trial);
+  void leave_out_alike(const Round& round);
   void drop_unsure();
   RandomStream random(std::uint64_t purpose) const;
 
@@ -67,8 +68,9 @@ class Group {
   Projection projection_;
   Scan scan_;
   std::vector<Score> scores_;
-  std::vector<double> sure_errors_mm_;  ///< of the validation poses at the last sure gain
-  std::size_t sure_rounds_ = 0;         ///< rounds up to then
+  std::vector<double> start_errors_mm_;  ///< of the validation poses before the group
+  double sure_gain_mm2_ = 0.0;           ///< the largest lower bound of the group's gain on them
+  std::size_t sure_rounds_ = 0;          ///< rounds up to which it grew
   std::vector<double> decoy_falls_;
   GroupOutcome outcome_;
 };

@@ -70,6 +70,16 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
   return errors;
 }
 
+std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales) {
+  const double unit_mm = 1e3 * (scales[kPosition] > 0 ? scales[kPosition] : std::max(scales[kDistance], 1e-9));
+  std::vector<double> errors;
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    errors.push_back(unit_mm * left.segment(first, count).norm() * std::sqrt(3.0 / static_cast<double>(count)));
+  }
+  return errors;
+}
+
 double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
                             RandomStream random) {
   if (before_mm.empty()) return 0.0;

@@ -13,6 +13,9 @@ namespace demecal {
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
                                    const DataSet& data);
 
+/// The same of everything a pose measured, whitened: as far off as position alone would be were all its rows positions.
+std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
+
 /// The one-sided 95 % bootstrap bound of the mean fall of the squared error, mm^2, over resampled poses. Errors beyond
 /// four times the median (before) count linearly, so that one outlier does not decide. Zero where there are no poses.
 double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,

@@ -10,7 +10,8 @@ namespace {
 /// The load that seats a gear, of the joint's median load.
 constexpr double kSeatingShare = 0.2;
 
-/// Lost motion: the joint stops half of it short on either side, or rests on the side its load pushes it to.
+/// Lost motion: the joint stops half of it short on either side, or rests on the side its load pushes it to; or another
+/// joint's lost motion drags it along, as in differentials and wrists whose drives run through one another.
 class Backlash final : public EffectLaw {
  public:
   std::string_view kind() const override { return "backlash"; }
@@ -27,15 +28,22 @@ class Backlash final : public EffectLaw {
   }
   std::string formula(const Effect& effect, const Robot& robot) const override;
   std::string diagnosis(const Effect& effect, const Robot& robot) const override;
-  std::vector<std::string> settings() const override { return {"torque0_nm"}; }
-  bool requires_setting(const Effect& effect, const std::string& /*name*/) const override { return seated(effect); }
-  std::vector<std::string> forms() const override { return {"approach", "seated"}; }
+  std::vector<std::string> settings() const override { return {"from", "torque0_nm"}; }
+  bool requires_setting(const Effect& effect, const std::string& name) const override {
+    return name == "from" ? coupled(effect) : seated(effect);
+  }
+  std::vector<std::string> forms() const override { return {"approach", "seated", "coupled"}; }
 
  private:
   static bool seated(const Effect& effect) { return effect.form == "seated"; }
+  static bool coupled(const Effect& effect) { return effect.form == "coupled"; }
+  /// The joint whose approach counts, from 0.
+  static int approaching(const Effect& effect) {
+    return coupled(effect) ? static_cast<int>(effect.setting("from")) - 1 : effect.joint;
+  }
   /// To which side of the play the joint stands: from -1 to 1.
   static double side(const Effect& effect, const Robot& robot, const ArmState& state) {
-    if (!seated(effect)) return -state.approach(effect.joint);
+    if (!seated(effect)) return -state.approach(approaching(effect));
     return std::tanh(state.torque(robot.chain, effect.joint) / effect.setting("torque0_nm"));
   }
 };
@@ -45,6 +53,10 @@ std::vector<Effect> Backlash::proposals(const Robot& robot, const Evidence& evid
   const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
     if (evidence.approach) effects.push_back({.kind = "backlash", .joint = joint, .settings = {}, .form = "approach"});
+    for (int from = 0; from < robot.chain.size() && evidence.approach; ++from) {
+      if (from == joint) continue;
+      effects.push_back({.kind = "backlash", .joint = joint, .settings = {{"from", from + 1.0}}, .form = "coupled"});
+    }
     if (!evidence.masses) continue;
     const double torque0 = kSeatingShare * torques_by_size(robot, states, joint)[states.size() / 2];
     if (torque0 < kNoLoad) continue;
@@ -54,7 +66,7 @@ std::vector<Effect> Backlash::proposals(const Robot& robot, const Evidence& evid
 }
 
 std::string Backlash::formula(const Effect& effect, const Robot& robot) const {
-  const std::string joint = std::to_string(effect.joint + 1);
+  const std::string joint = std::to_string(approaching(effect) + 1);
   if (!seated(effect)) return write_joint_equation(effect, robot, {{0, 's' + joint, -0.5}});
   const std::string load = "tau" + joint + " / " + number_words(effect.setting("torque0_nm"));
   return write_joint_equation(effect, robot, {{0, "tanh(" + load + ' ' + load_unit(robot, effect.joint) + ')', 0.5}});
@@ -67,6 +79,10 @@ std::string Backlash::diagnosis(const Effect& effect, const Robot& robot) const 
     return joint_name(effect.joint) + " stands " + half + " off on the side its load pushes it " +
            (width < 0.0 ? "away from" : "to") +
            (width < 0.0 ? ", which lost motion does not explain." : ": lost motion in its gear.");
+  }
+  if (coupled(effect)) {
+    return joint_name(effect.joint) + " is carried " + half + " along to either side by the lost motion of joint " +
+           std::to_string(approaching(effect) + 1) + ", whose drive it shares.";
   }
   if (width < 0.0) {
     return joint_name(effect.joint) + " stops " + half +

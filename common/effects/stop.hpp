@@ -16,6 +16,9 @@ struct Stop {
 
   /// A command alone: no approach, nothing carried, nothing known of warmth and time.
   Stop(JointVector commanded) : joints(std::move(commanded)) {}  // NOLINT(google-explicit-constructor)
+  /// The same of an expression such as a sum of joint vectors.
+  template <typename Joints>
+  Stop(const Eigen::MatrixBase<Joints>& commanded) : joints(commanded) {}  // NOLINT(google-explicit-constructor)
   explicit Stop(const MeasuredPose& pose);
 
   /// The same circumstances at other joints.

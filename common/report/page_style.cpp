@@ -48,6 +48,7 @@ thead th.set i { display: inline-block; width: 9px; height: 9px; border-radius: 
 .long thead th { position: sticky; top: 0; background: var(--card); padding-top: 12px; }
 td.words .why { display: block; color: var(--soft); font-size: 13px; } td.words.wide { min-width: 19em; }
 td.numbers { text-align: left; font-size: 13px; line-height: 1.45; } td.numbers span { display: block; }
+#evidence thead th { white-space: normal; } #evidence td.wide { min-width: 13em; }
 td code.law { font-size: 12.5px; overflow-wrap: anywhere; }
 table.compact { width: auto; min-width: 50%; }
 th[scope="row"] { text-align: left; }

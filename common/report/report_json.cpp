@@ -88,7 +88,10 @@ std::string to_json(const CalibrationReport& report) {
   json["joints"] = Json::array();
   for (const JointLine& line : report.joints) json["joints"].push_back(joint(line));
   json["parameters"] = Json::array();
-  for (const ParameterEstimate& estimate : report.estimates) json["parameters"].push_back(parameter(estimate));
+  for (const ParameterEstimate& estimate : report.estimates) {
+    if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects stand with the rounds that added them
+    json["parameters"].push_back(parameter(estimate));
+  }
   json["unidentified"] = report.unidentified;
   json["runtime"] = runtime(report.runtime);
   return text_of(json, 2);

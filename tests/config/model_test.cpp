@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadEffect{"ErrorOfNothing", "{kind: gain, joint: 1, share: 0, standard_errors: {shire: 1}}", "shire",
                   "the nearest is 'share'"},
         BadEffect{"RangeOfTheWrongUnit", "{kind: gain, joint: 1, share: 0, ranges: {q3_rad: [0, 1]}}", "q3_rad",
-                  "the nearest is 'q3_m'"},
+                  "is no key of effects[1].ranges"},
         BadEffect{"RangeUpsideDown", "{kind: gain, joint: 1, share: 0, ranges: {q1_rad: [1, 0]}}", "[1, 0]",
                   "must rise from lower to upper"}),
     name_of);
