@@ -63,19 +63,20 @@ std::optional<std::size_t> needless(const Linearised& at, const CorrectedRobot& 
 
 }  // namespace
 
-void take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
-                        LoopOutcome& outcome) {
-  while (!model.robot.effects.empty()) {
-    const auto index = needless(linearise(of, model), model.robot, candidates);
-    if (!index) return;
-    const auto at = model.robot.effects.begin() + static_cast<std::ptrdiff_t>(*index);
+Linearised take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
+                              LoopOutcome& outcome) {
+  for (;;) {
+    Linearised at = linearise(of, model);
+    const auto index = needless(at, model.robot, candidates);
+    if (!index) return at;
+    const auto dropped = model.robot.effects.begin() + static_cast<std::ptrdiff_t>(*index);
     for (Round& round : outcome.rounds) {
-      if (round.verdict != Verdict::added || !round.effect.same_law_as(*at)) continue;
+      if (round.verdict != Verdict::added || !round.effect.same_law_as(*dropped)) continue;
       round.verdict = Verdict::rejected;
       round.reason = "taken back by the backward step: no longer needed beside the others";
     }
-    outcome.dropped.push_back(*at);
-    model.robot.effects.erase(at);
+    outcome.dropped.push_back(*dropped);
+    model.robot.effects.erase(dropped);
     model = refined(of, std::move(model), kStepsAgain);
   }
 }

@@ -8,8 +8,8 @@
 namespace demecal {
 
 /// Drops effects one after another, the least needed first, as long as the description length falls by it, and refines
-/// the model after each. Dropped effects are noted in the outcome.
-void take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
-                        LoopOutcome& outcome);
+/// the model after each. Dropped effects are noted in the outcome. Returns the surroundings of the model that is left.
+Linearised take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
+                              LoopOutcome& outcome);
 
 }  // namespace demecal

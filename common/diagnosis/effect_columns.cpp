@@ -38,17 +38,44 @@ void EffectColumns::pack() {
   loose_.clear();
 }
 
+namespace {
+
+/// Every pose's rows along one motion: poses x columns of `rows`.
+template <typename Rows>
+Rows along_motion(const ResidualField& field, Eigen::Index motion, const Rows& rows) {
+  using Scalar = typename Rows::Scalar;
+  Rows along(static_cast<Eigen::Index>(field.poses.size()), rows.cols());
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    auto target = along.row(static_cast<Eigen::Index>(pose));
+    target.setZero();
+    for (Eigen::Index row = first; row < first + count; ++row) {
+      target += static_cast<Scalar>(field.motions(row, motion)) * rows.row(row);
+    }
+  }
+  return along;
+}
+
+}  // namespace
+
 Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns_, rows.cols());
-  RowMatrix along(static_cast<Eigen::Index>(field.poses.size()), rows.cols());
   for (const Block& block : blocks_) {
-    for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
-      const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-      along.row(static_cast<Eigen::Index>(pose)).noalias() =
-          field.motions.block(first, block.motion, count, 1).transpose() * rows.middleRows(first, count);
+    const Eigen::MatrixXd part = block.features.transpose() * along_motion(field, block.motion, rows);
+    for (std::size_t i = 0; i < block.columns.size(); ++i) {
+      product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
     }
-    const Eigen::MatrixXd part = block.features.transpose() * along;
+  }
+  return product;
+}
+
+Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, const RowMatrixF& rows) const {
+  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  Eigen::MatrixXf product = Eigen::MatrixXf::Zero(columns_, rows.cols());
+  for (const Block& block : blocks_) {
+    const Eigen::MatrixXf part =
+        block.features.cast<float>().transpose() * along_motion(field, block.motion, rows);
     for (std::size_t i = 0; i < block.columns.size(); ++i) {
       product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/backward.hpp"
 #include "diagnosis/detectable.hpp"
@@ -13,7 +14,7 @@ namespace demecal {
 namespace {
 
 constexpr int kSteps = 12;       ///< of Gauss and Newton, from the declared fit
-constexpr int kStepsAgain = 4;   ///< after effects were added to a model that was already refined
+constexpr int kStepsAgain = 2;   ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
 
 class ClosedLoop {
@@ -30,6 +31,7 @@ class ClosedLoop {
   std::vector<bool> not_to_try() const;
   void note_decoys(const Group& group, const GroupOutcome& outcome);
   bool run_group(const Linearised& at);
+  bool gained_enough(const GroupOutcome& outcome) const;
   StopReason reason_to_stop(const GroupOutcome& last) const;
   void describe_added();
   void finish(const Linearised& at);
@@ -129,6 +131,16 @@ StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
   return last.luck && p_structure_ > options_.family_error ? StopReason::no_structure : StopReason::no_gain;
 }
 
+/// Whether the group lowered the validation error by so much that another one may be worth its while.
+bool ClosedLoop::gained_enough(const GroupOutcome& outcome) const {
+  double before = std::numeric_limits<double>::quiet_NaN(), after = before;
+  for (const Round& round : outcome.rounds) {
+    if (std::isnan(before)) before = round.validation_before_mm;
+    if (round.verdict == Verdict::added) after = round.validation_after_mm;
+  }
+  return !(before - after < options_.least_gain * before);
+}
+
 /// Whether anything was added and more may follow.
 bool ClosedLoop::run_group(const Linearised& at) {
   Group group(of_, model_, at, candidates_, columns_, not_to_try(), null_maxima_, rules());
@@ -136,7 +148,7 @@ bool ClosedLoop::run_group(const Linearised& at) {
   note_decoys(group, outcome);
   const bool added = !outcome.added.empty();
   model_.robot.effects.insert(model_.robot.effects.end(), outcome.added.begin(), outcome.added.end());
-  const bool more = added && !outcome.decoy_won && !outcome.stopped;
+  const bool more = added && !outcome.decoy_won && !outcome.stopped && gained_enough(outcome);
   if (!more) {
     p_structure_ = structure(at);
     outcome_.stopped = reason_to_stop(outcome);
@@ -163,8 +175,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
     const std::size_t held = result.model.robot.effects.size();
     if (model_.robot.effects.size() != held) {
       model_ = refined(of_, std::move(model_), kStepsAgain);
-      take_back_needless(of_, model_, candidates_, outcome_);
-      at = linearise(of_, model_);
+      at = take_back_needless(of_, model_, candidates_, outcome_);
       result.model = model_;
     }
     if (!more) break;

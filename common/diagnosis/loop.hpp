@@ -17,7 +17,8 @@ struct LoopOptions {
   double family_error = 0.05;        ///< chance of adding anything to a model that lacks nothing
   int permutations = 999;
   int resamples = 400;
-  int group_size = 12;               ///< effects that may be added between two joint refits
+  int group_size = 24;               ///< effects that may be added between two joint refits
+  double least_gain = 0.005;         ///< share of the validation error that a group must win for another to follow
   int highest_ratio = 200;           ///< of the scan over gear harmonics
   std::vector<double> stated_ratios; ///< beyond the scan
   bool decoys = true;

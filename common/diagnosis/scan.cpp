@@ -13,20 +13,22 @@ constexpr double kNewShare = 1e-5;
 constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
 
 /// Poses by their number of rows: only equals may change places.
-std::map<Eigen::Index, std::vector<std::size_t>> alike(const ResidualField& field) {
-  std::map<Eigen::Index, std::vector<std::size_t>> groups;
+using Alike = std::map<Eigen::Index, std::vector<std::size_t>>;
+
+Alike alike(const ResidualField& field) {
+  Alike groups;
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) groups[field.rows_of_pose(pose)].push_back(pose);
   return groups;
 }
 
 /// Fills a column with the residual, whole poses' parts in each other's places.
-void permute(const ResidualField& field, const Eigen::VectorXd& residual, RandomStream& random,
-             Eigen::Ref<Eigen::VectorXd> to) {
-  for (auto& [rows, poses] : alike(field)) {
+void permute(const ResidualField& field, const Alike& groups, const Eigen::VectorXd& residual, RandomStream& random,
+             Eigen::Ref<Eigen::VectorXf> to) {
+  for (const auto& [rows, poses] : groups) {
     std::vector<std::size_t> from = poses;
     for (std::size_t i = from.size(); i > 1; --i) std::swap(from[i - 1], from[random.index(i)]);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      to.segment(field.first_row[poses[i]], rows) = residual.segment(field.first_row[from[i]], rows);
+      to.segment(field.first_row[poses[i]], rows) = residual.segment(field.first_row[from[i]], rows).cast<float>();
     }
   }
 }
@@ -111,26 +113,32 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
 
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field,
                                       const Projection& model, int count, RandomStream random) const {
+  const RowMatrixF basis = model.basis().cast<float>();
+  const Eigen::MatrixXf along = along_.cast<float>();
+  const auto groups = alike(field);
   std::vector<double> maxima;
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
-    Eigen::MatrixXd shuffled(field.rows(), now);
-    for (Eigen::Index i = 0; i < now; ++i) permute(field, model.left(), random, shuffled.col(i));
-    const RowMatrix rows = shuffled;
-    const Eigen::MatrixXd explained = model.basis().transpose() * rows;
-    const Eigen::MatrixXd moments = columns.transposed_times(field, rows) - along_ * explained;
-    for (Eigen::Index i = 0; i < now; ++i) {
-      const double squares = rows.col(i).squaredNorm() - explained.col(i).squaredNorm();
-      double best = 0.0;
-      for (std::size_t k = 0; k < spans_.size(); ++k) {
-        const auto moment = moments.col(i).segment(spans_[k].first, spans_[k].count);
-        best = std::max(best, fall_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
-      }
-      maxima.push_back(best);
-    }
+    Eigen::MatrixXf shuffled(field.rows(), now);
+    for (Eigen::Index i = 0; i < now; ++i) permute(field, groups, model.left(), random, shuffled.col(i));
+    const RowMatrixF rows = shuffled;
+    const Eigen::MatrixXf explained = basis.transpose() * rows;
+    const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();
+    const Eigen::VectorXd squares =
+        (rows.colwise().squaredNorm() - explained.colwise().squaredNorm()).transpose().cast<double>();
+    for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_fall(moments.col(i), squares[i]));
   }
   std::sort(maxima.begin(), maxima.end());
   return maxima;
+}
+
+double Scan::best_fall(const Eigen::VectorXd& moments, double squares) const {
+  double best = 0.0;
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    const auto moment = moments.segment(spans_[k].first, spans_[k].count);
+    best = std::max(best, fall_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
+  }
+  return best;
 }
 
 }  // namespace demecal

@@ -47,6 +47,7 @@ class Scan {
     double smallest = 0.0;
   };
   double fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
+  double best_fall(const Eigen::VectorXd& moments, double squares) const;
   void invert(const std::vector<ColumnSpan>& spans);
 
   std::vector<ColumnSpan> spans_;

@@ -13,11 +13,13 @@ namespace {
 constexpr std::string_view kKeep = "keep_";
 constexpr double kSamplePayload_kg = 1.0;
 const std::string kWithPayload = "with_payload";
+const std::string kGravityTurn = "gravity_turn";
 
 /// A joint that gives way where gravity pushes it. Forms: `masses`, by the torque of known masses and the payload;
 /// `payload`, of the payload alone; `moments`, of unknown masses, whose first moments times the compliance are the
-/// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known); `tilted`, of known
-/// masses where gravity leans a little from where it is said to point.
+/// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known; gravity_turn: 1 or 2
+/// takes the part of gravity that a leaning mount turns about either direction across it); `tilted`, of known masses
+/// where gravity leans a little from where it is said to point.
 class Compliance final : public EffectLaw {
  public:
   std::string_view kind() const override { return "compliance"; }
@@ -46,6 +48,12 @@ std::vector<WeightPart> kept_parts(const Effect& effect) {
 bool with_payload(const Effect& effect) {
   const auto found = effect.settings.find(kWithPayload);
   return found != effect.settings.end() && found->second != 0.0;
+}
+
+/// 0: gravity as it is said to point; 1, 2: turned a quarter about a direction across it.
+std::size_t gravity_turn(const Effect& effect) {
+  const auto found = effect.settings.find(kGravityTurn);
+  return found == effect.settings.end() ? 0 : static_cast<std::size_t>(found->second);
 }
 
 /// Motion of unknown weight: the unit of the joint's motion, per metre of lever for masses hung on a revolute joint.
@@ -90,6 +98,12 @@ std::array<Eigen::Vector3d, 2> turned_gravity(const Eigen::Vector3d& gravity_mps
   return {first.cross(gravity_mps2), second.cross(gravity_mps2)};
 }
 
+/// The state under turned gravity.
+ArmState under_turned_gravity(ArmState state, std::size_t turn) {
+  if (turn > 0) state.gravity_mps2 = turned_gravity(state.gravity_mps2).at(turn - 1);
+  return state;
+}
+
 std::vector<CoefficientLabel> Compliance::coefficients(const Effect& effect, const Robot& robot) const {
   const CoefficientLabel plain = compliance_label(robot, effect.joint);
   if (effect.form == "tilted") {
@@ -109,7 +123,8 @@ void Compliance::unit_motions(const Effect& effect, const Robot& robot, const Ar
   const auto append = [&](double size) { append_joint_motion(robot, joint, coefficient++, size, motions); };
   if (effect.form == "payload") return append(payload_effort(robot, state, joint));
   if (effect.form == "moments") {
-    for (const WeightPart& part : kept_parts(effect)) append(lever(robot, state, joint, part));
+    const ArmState pulled = under_turned_gravity(state, gravity_turn(effect));
+    for (const WeightPart& part : kept_parts(effect)) append(lever(robot, pulled, joint, part));
     if (with_payload(effect)) append(payload_effort(robot, state, joint));
     return;
   }
@@ -117,6 +132,20 @@ void Compliance::unit_motions(const Effect& effect, const Robot& robot, const Ar
   if (effect.form != "tilted") return;
   for (const Eigen::Vector3d& gravity : turned_gravity(state.gravity_mps2)) {
     append(effort_under(robot, state, joint, gravity));
+  }
+}
+
+/// One part at a time, of gravity as it points and as a leaning mount would turn it.
+void propose_single_parts(const Robot& robot, const std::vector<ArmState>& states, int joint,
+                          std::vector<Effect>& effects) {
+  for (std::size_t turn = 0; turn <= 2; ++turn) {
+    std::vector<ArmState> turned;
+    for (const ArmState& state : states) turned.push_back(under_turned_gravity(state, turn));
+    for (const WeightPart& part : independent_parts(robot, turned, joint)) {
+      effects.push_back({.kind = "compliance", .joint = joint, .settings = {}, .form = "moments"});
+      effects.back().settings[std::string(kKeep) + name_of(part)] = 1.0;
+      if (turn > 0) effects.back().settings[kGravityTurn] = static_cast<double>(turn);
+    }
   }
 }
 
@@ -135,8 +164,9 @@ std::vector<Effect> Compliance::proposals(const Robot& robot, const Evidence& ev
     if (evidence.masses && (masses_pull || payload_pulls)) propose("masses");
     if (payload_pulls) propose("payload");
     if (!evidence.masses) {
+      propose_single_parts(robot, states, joint, effects);
       const std::vector<WeightPart> parts = independent_parts(robot, states, joint);
-      if (parts.empty()) continue;
+      if (parts.size() < 2) continue;
       propose("moments");
       for (const WeightPart& part : parts) effects.back().settings[std::string(kKeep) + name_of(part)] = 1.0;
       if (payload_pulls) effects.back().settings[kWithPayload] = 1.0;
@@ -160,8 +190,10 @@ std::string Compliance::formula(const Effect& effect, const Robot& robot) const 
     return write_joint_equation(effect, robot, {{0, "tau" + joint}, {1, "tau_x" + joint}, {2, "tau_y" + joint}});
   }
   if (effect.form != "moments") return write_joint_equation(effect, robot, {{0, "tau" + joint}});
+  const std::array<std::string, 3> levers{"lever_", "lever_turned_x_", "lever_turned_y_"};
+  const std::string& lever = levers.at(gravity_turn(effect));
   std::vector<Term> terms;
-  for (const WeightPart& part : kept_parts(effect)) terms.push_back({terms.size(), "lever_" + name_of(part)});
+  for (const WeightPart& part : kept_parts(effect)) terms.push_back({terms.size(), lever + name_of(part)});
   if (with_payload(effect)) terms.push_back({terms.size(), "tau_payload" + joint});
   return write_joint_equation(effect, robot, terms);
 }
@@ -187,7 +219,7 @@ std::string Compliance::diagnosis(const Effect& effect, const Robot& robot) cons
 }
 
 std::vector<std::string> Compliance::settings() const {
-  std::vector<std::string> names;
+  std::vector<std::string> names{kGravityTurn};
   for (int link = 0; link < kMaxJoints; ++link) {
     for (int axis = 0; axis < 4; ++axis) names.push_back(std::string(kKeep) + name_of({link, axis}));
   }

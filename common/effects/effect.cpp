@@ -26,6 +26,24 @@ double share_within(const Interval& range, double value) {
   return x * x * (3.0 - 2.0 * x);
 }
 
+double nearest_turn(const Chain& chain, int joint, const Interval& range, double value) {
+  const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  return revolute ? wrap_near(value, 0.5 * (range.lower + range.upper)) : value;
+}
+
+bool is_within(const Effect& effect, const JointVector& joints) {
+  return std::ranges::all_of(effect.ranges, [&](const auto& entry) {
+    return joints[entry.first] >= entry.second.lower && joints[entry.first] <= entry.second.upper;
+  });
+}
+
+JointVector held_within(const Effect& effect, const Chain& chain, JointVector joints) {
+  for (const auto& [joint, range] : effect.ranges) {
+    joints[joint] = std::clamp(nearest_turn(chain, joint, range, joints[joint]), range.lower, range.upper);
+  }
+  return joints;
+}
+
 }  // namespace
 
 double Effect::setting(const std::string& name) const {
@@ -42,20 +60,21 @@ bool Effect::same_law_as(const Effect& other) const {
 double known_share(const Effect& effect, const Chain& chain, const JointVector& joints) {
   double share = 1.0;
   for (const auto& [joint, range] : effect.ranges) {
-    const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
-    const double middle = 0.5 * (range.lower + range.upper);
-    share *= share_within(range, revolute ? wrap_near(joints[joint], middle) : joints[joint]);
+    share *= share_within(range, nearest_turn(chain, joint, range, joints[joint]));
   }
   return share;
 }
 
 void append_unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
                          std::vector<UnitMotion>& motions) {
-  const double share = known_share(effect, robot.chain, state.joints());
+  const EffectLaw& law = law_of(effect);
+  if (is_within(effect, state.joints())) return law.unit_motions(effect, robot, state, motions);
+  const double share = law.fades(effect) ? known_share(effect, robot.chain, state.joints()) : 1.0;
   if (share == 0.0) return;
+  ArmState held = state;
+  held.stop.joints = held_within(effect, robot.chain, state.joints());
   const std::size_t before = motions.size();
-  law_of(effect).unit_motions(effect, robot, state, motions);
-  if (share == 1.0) return;
+  law.unit_motions(effect, robot, held, motions);
   for (std::size_t i = before; i < motions.size(); ++i) motions[i].size *= share;
 }
 

@@ -93,6 +93,8 @@ class EffectLaw {
   virtual std::vector<std::string> forms() const { return {}; }
   /// Whether the effect is of one joint.
   virtual bool of_joint() const { return true; }
+  /// Whether it is nothing beyond the measured range, on average: a ripple. Others keep the value they have at its end.
+  virtual bool fades(const Effect& /*effect*/) const { return false; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
   virtual std::vector<int> ranged_joints(const Effect& /*effect*/, const Robot& /*robot*/) const { return {}; }
 };
@@ -108,8 +110,8 @@ const EffectLaw& law_of(const Effect& effect);
 /// gravity), s (approach sign) and T (K above the setting reference_celsius).
 VariableNames symbolic_variables(const Chain& chain);
 
-/// What a unit of each coefficient does at `state`, less outside the ranges the effect was measured in: there it fades
-/// within 0.1 rad (or m).
+/// What a unit of each coefficient does at `state`. Outside the ranges the effect was measured in it is what it is at
+/// their nearer end; a ripple fades to nothing within 0.1 rad (or m).
 void append_unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
                          std::vector<UnitMotion>& motions);
 

@@ -6,6 +6,7 @@
 namespace demecal {
 namespace {
 
+constexpr double kRipple = 6.0;  // so many periods a turn and more average out where nothing is known of them
 constexpr int kLowestRatio = 3;  // one and two periods a turn are eccentricity
 
 /// The transmission error of a gear stage: N periods a turn of the joint.
@@ -32,6 +33,7 @@ class GearHarmonic final : public EffectLaw {
     }
     return effects;
   }
+  bool fades(const Effect& effect) const override { return effect.setting("ratio") >= kRipple; }
   Needs needs(const Effect& /*effect*/, const Robot& /*robot*/) const override { return {}; }
   std::string formula(const Effect& effect, const Robot& robot) const override {
     return write_joint_equation(effect, robot, harmonic_terms(effect.setting("ratio"), effect.joint));
