@@ -11,7 +11,14 @@
 
 namespace demecal {
 
-enum class Method { direct, distal };
+/// How joint corrections are learnt; `diagnose`: not at all, the model came from the closed loop alone.
+enum class Method { direct, distal, diagnose };
+
+/// "direct", "distal", "diagnose".
+inline const char* word_of(Method method) {
+  constexpr const char* kWords[] = {"direct", "distal", "diagnose"};
+  return kWords[static_cast<std::size_t>(method)];
+}
 
 struct IslandOptions {
   std::uint32_t per_joint = 2;
@@ -22,9 +29,11 @@ struct IslandOptions {
 };
 
 struct ClosedLoopOptions {
-  int max_effects = 10;
-  double family_error = 0.05;
+  int max_effects = 100;                ///< that the loop may add; 0: it does not run
+  double family_error = 0.05;           ///< chance of adding anything to a model that lacks nothing
   std::vector<std::string> candidates;  ///< kinds of effects to consider, by the words of reports; empty: all
+  int highest_ratio = 200;              ///< of the scan over gear harmonics
+  std::vector<double> ratios;           ///< of gears, beyond the scan
 };
 
 struct Job {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
-#include "effects/measurement.hpp"
+#include "calibration/jury.hpp"
 
 namespace demecal {
 namespace {
@@ -13,35 +11,6 @@ namespace {
 constexpr int kSweeps = 5;
 constexpr double kMostOverTarget = 3.0;
 constexpr double kEarned = 2.0;  ///< standard errors of the gain: about one false keep in forty
-
-using SquaredErrors = std::vector<double>;  ///< mm^2, one per deciding pose
-
-SquaredErrors squared_errors(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {
-  SquaredErrors errors;
-  errors.reserve(poses.size());
-  for (const std::size_t pose : poses) errors.push_back(std::pow(1e3 * tool_error_m(robot, data, data.poses[pose]), 2));
-  return errors;
-}
-
-double sum(const SquaredErrors& errors) {
-  return std::accumulate(errors.begin(), errors.end(), 0.0);
-}
-
-struct PairedDifference {
-  double mean = 0.0;
-  double standard_error = 0.0;
-};
-
-/// Of `worse` minus `better`, pose by pose.
-PairedDifference paired(const SquaredErrors& worse, const SquaredErrors& better) {
-  const double n = static_cast<double>(worse.size());
-  PairedDifference difference;
-  for (std::size_t i = 0; i < worse.size(); ++i) difference.mean += (worse[i] - better[i]) / n;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < worse.size(); ++i) squares += std::pow(worse[i] - better[i] - difference.mean, 2);
-  difference.standard_error = n > 1 ? std::sqrt(squares / (n - 1) / n) : std::numeric_limits<double>::infinity();
-  return difference;
-}
 
 struct Trial {
   JointCorrection correction;
@@ -66,18 +35,31 @@ bool is_bounded(const JointCorrection& correction, double large_rad) {
   return magnitude_bound(correction.formula(), correction.range_rad()) <= kMostOverTarget * large_rad;
 }
 
-std::vector<Trial> try_all(const DataSet& data, std::span<const std::size_t> deciding, CorrectedRobot robot,
-                           const JointCandidates& candidates) {
+/// A joint's candidates: those evolved, then those from elsewhere.
+std::vector<Trial> trials_of(const JointCandidates& candidates) {
   std::vector<Trial> trials;
   const double large_rad = large_target_rad(candidates.training);
+  const auto add = [&](const JointCorrection& correction, std::size_t length) {
+    if (is_bounded(correction, large_rad)) trials.push_back({correction, length, {}, 0.0});
+  };
   for (const Individual& individual : candidates.front) {
-    Trial trial{correction_from(candidates.training, individual.tree), individual.tree.size(), {}, 0.0};
-    if (!is_bounded(trial.correction, large_rad)) continue;
-    robot.corrections[candidates.training.joint] = trial.correction;
-    trial.errors = squared_errors(robot, data, deciding);
-    trial.sum = sum(trial.errors);
-    if (std::isfinite(trial.sum)) trials.push_back(std::move(trial));
+    add(correction_from(candidates.training, individual.tree), individual.tree.size());
   }
+  for (const JointCorrection& other : candidates.others) {
+    if (!other.is_neutral()) add(other, other.formula().size());
+  }
+  return trials;
+}
+
+std::vector<Trial> try_all(const Jury& deciding, const CorrectedRobot& robot, const std::vector<JointVector>& neutral,
+                           const JointCandidates& candidates) {
+  std::vector<Trial> trials = trials_of(candidates);
+  for (Trial& trial : trials) {
+    const auto joints = deciding.with(neutral, candidates.training.joint, trial.correction);
+    trial.errors = deciding.squared_errors(robot, joints);
+    trial.sum = sum(trial.errors);
+  }
+  std::erase_if(trials, [](const Trial& trial) { return !std::isfinite(trial.sum); });
   return trials;
 }
 
@@ -96,30 +78,35 @@ const Trial* frugal(const std::vector<Trial>& trials) {
 
 /// Poses by what they are asked.
 struct Juries {
-  std::span<const std::size_t> deciding;
-  std::span<const std::size_t> fitted;
+  Jury deciding;
+  Jury fitted;
 };
 
-/// Whether putting `with` in place of `without` lowers the error beyond doubt.
+/// Whether a gain is beyond doubt.
 bool earns_its_place(const PairedDifference& gain) {
   return gain.mean > kEarned * gain.standard_error;
 }
 
+/// The fall of the error from joints at which one is neutral to those with its correction.
+PairedDifference gain_of(const Jury& jury, const CorrectedRobot& robot, const std::vector<JointVector>& neutral,
+                         std::size_t joint, const JointCorrection& correction) {
+  return paired(jury.squared_errors(robot, neutral),
+                jury.squared_errors(robot, jury.with(neutral, joint, correction)));
+}
+
 /// The correction this joint is best given while the others stand as they do in `robot`.
-JointCorrection choose(const DataSet& data, const Juries& juries, CorrectedRobot robot,
-                       const JointCandidates& candidates, JointChoice& choice) {
-  JointCorrection& correction = robot.corrections[candidates.training.joint];
-  correction = JointCorrection{};
-  const SquaredErrors neutral = squared_errors(robot, data, juries.deciding);
-  const SquaredErrors neutral_fitted = squared_errors(robot, data, juries.fitted);
-  const std::vector<Trial> trials = try_all(data, juries.deciding, robot, candidates);
+JointCorrection choose(const Juries& juries, CorrectedRobot robot, const JointCandidates& candidates,
+                       JointChoice& choice) {
+  const std::size_t joint = candidates.training.joint;
+  robot.corrections[joint] = JointCorrection{};
+  const std::vector<JointVector> neutral = juries.deciding.corrected(robot);
+  const std::vector<Trial> trials = try_all(juries.deciding, robot, neutral, candidates);
   const Trial* chosen = frugal(trials);
   choice.kept = false;
   if (chosen == nullptr) return {};
-  correction = chosen->correction;
-  const PairedDifference gain = paired(neutral, chosen->errors);
-  choice.kept =
-      earns_its_place(gain) && earns_its_place(paired(neutral_fitted, squared_errors(robot, data, juries.fitted)));
+  const PairedDifference gain = paired(juries.deciding.squared_errors(robot, neutral), chosen->errors);
+  choice.kept = earns_its_place(gain) && earns_its_place(gain_of(juries.fitted, robot, juries.fitted.corrected(robot),
+                                                                 joint, chosen->correction));
   choice.gain_mm2 = gain.mean;
   choice.gain_error_mm2 = gain.standard_error;
   return choice.kept ? chosen->correction : JointCorrection{};
@@ -130,14 +117,13 @@ bool same(const JointCorrection& a, const JointCorrection& b) {
 }
 
 /// Sweeps over the joints from the corrections in `selection.robot` until nothing changes.
-Selection settle(const DataSet& data, const Juries& juries, Selection selection,
-                 std::span<const JointCandidates> candidates) {
+Selection settle(const Juries& juries, Selection selection, std::span<const JointCandidates> candidates) {
   bool changed = true;
   for (int sweep = 0; sweep < kSweeps && changed; ++sweep) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       JointCorrection& present = selection.robot.corrections[candidates[i].training.joint];
-      const JointCorrection next = choose(data, juries, selection.robot, candidates[i], selection.choices[i]);
+      const JointCorrection next = choose(juries, selection.robot, candidates[i], selection.choices[i]);
       changed = changed || !same(present, next);
       present = next;
     }
@@ -157,21 +143,40 @@ CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates
   return robot;
 }
 
+/// Every joint with its candidate from elsewhere at place `set`, where it has one.
+CorrectedRobot with_others(CorrectedRobot robot, std::span<const JointCandidates> candidates, std::size_t set) {
+  for (const JointCandidates& joint : candidates) {
+    if (set >= joint.others.size() || !is_bounded(joint.others[set], large_target_rad(joint.training))) continue;
+    robot.corrections[joint.training.joint] = joint.others[set];
+  }
+  return robot;
+}
+
+std::vector<CorrectedRobot> starts_of(const CorrectedRobot& declared, std::span<const JointCandidates> candidates) {
+  std::vector<CorrectedRobot> starts{declared, all_fittest(declared, candidates)};
+  std::size_t sets = 0;
+  for (const JointCandidates& joint : candidates) sets = std::max(sets, joint.others.size());
+  for (std::size_t set = 0; set < sets; ++set) starts.push_back(with_others(declared, candidates, set));
+  return starts;
+}
+
 }  // namespace
 
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
                              std::span<const std::size_t> deciding, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates) {
+  const Juries juries{{data, deciding, declared}, {data, fitted, declared}};
   Selection start{declared, {}};
   for (const JointCandidates& joint : candidates) {
-    start.choices.push_back({static_cast<int>(joint.training.joint), false, joint.front.size(), 0.0, 0.0});
+    start.choices.push_back(
+        {static_cast<int>(joint.training.joint), false, joint.front.size() + joint.others.size(), 0.0, 0.0});
   }
   Selection best = start;
-  double least = sum(squared_errors(declared, data, deciding));
-  for (const CorrectedRobot& from : {declared, all_fittest(declared, candidates)}) {
-    start.robot = from;
-    const Selection settled = settle(data, {deciding, fitted}, start, candidates);
-    const double left = sum(squared_errors(settled.robot, data, deciding));
+  double least = sum(juries.deciding.squared_errors(declared));
+  for (CorrectedRobot& from : starts_of(declared, candidates)) {
+    start.robot = std::move(from);
+    const Selection settled = settle(juries, start, candidates);
+    const double left = sum(juries.deciding.squared_errors(settled.robot));
     if (left < least) {
       best = settled;
       least = left;

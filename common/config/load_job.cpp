@@ -12,7 +12,8 @@ namespace demecal {
 namespace {
 
 constexpr std::int64_t kMostDemes = 1000;
-constexpr std::int64_t kMostEffects = 100;
+constexpr std::int64_t kMostEffects = 1000;
+constexpr std::int64_t kHighestRatio = 10000;
 
 struct DeclaredWord {
   std::string_view word;
@@ -69,7 +70,7 @@ std::vector<std::string> read_candidates(const YamlNode& list) {
 }
 
 ClosedLoopOptions read_closed_loop(const YamlNode& node) {
-  node.with_keys({"max_effects", "family_error", "candidates"});
+  node.with_keys({"max_effects", "family_error", "candidates", "highest_ratio", "ratios"});
   ClosedLoopOptions options;
   if (const YamlNode* most = node.find("max_effects")) {
     options.max_effects = static_cast<int>(most->whole_number(0, kMostEffects));
@@ -79,6 +80,12 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
     if (options.family_error >= 1.0) error->fail("must be below 1");
   }
   if (const YamlNode* candidates = node.find("candidates")) options.candidates = read_candidates(*candidates);
+  if (const YamlNode* highest = node.find("highest_ratio")) {
+    options.highest_ratio = static_cast<int>(highest->whole_number(0, kHighestRatio));
+  }
+  if (const YamlNode* ratios = node.find("ratios")) {
+    for (const YamlNode& ratio : ratios->list()) options.ratios.push_back(ratio.positive());
+  }
   return options;
 }
 

@@ -68,7 +68,7 @@ std::string model_text(const CalibratedModel& model) {
           "g is in\n"
        << "# rad of theta in rad, coefficients of effects are in SI units\n"
        << "demecal_model: 1\njob: " << yaml_text(model.job) << "\nversion: " << yaml_text(model.version)
-       << "\nmethod: " << (model.method == Method::direct ? "direct" : "distal") << "\nseed: " << model.seed
+       << "\nmethod: " << word_of(model.method) << "\nseed: " << model.seed
        << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256) << "}\n";
   text << "robot:\n" << robot_text(model.nominal, 2);
   text << "declared: " << declared_text(model.declared) << '\n';

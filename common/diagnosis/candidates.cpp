@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/formula_library.hpp"
+
 namespace demecal {
 namespace {
 
 /// No ratio of integers near it, and beyond the scan.
 constexpr double kImpossibleRatio = 1.7320508;
+
+/// What a formula without a physical name must explain beyond one that has a name.
+constexpr double kOutsideCatalogue_nats = 5.0;
 
 bool is_wanted(const std::vector<std::string>& kinds, std::string_view kind) {
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
@@ -50,8 +55,12 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
   std::vector<Candidate> candidates;
   for (const EffectLaw* law : catalogue()) {
     if (!is_wanted(options.kinds, law->kind()) || is_declared(law->kind(), declared)) continue;
-    std::vector<Effect> proposals = law->proposals(robot, evidence);
-    const double nats = proposals.empty() ? 0.0 : std::log(static_cast<double>(proposals.size()));
+    const bool symbolic = law->kind() == "symbolic";
+    std::vector<Effect> proposals = symbolic && options.formulas ? formula_library(robot, evidence)
+                                                                 : law->proposals(robot, evidence);
+    const double nats = proposals.empty() ? 0.0
+                                          : std::log(static_cast<double>(proposals.size())) +
+                                                (symbolic ? kOutsideCatalogue_nats : 0.0);
     for (Effect& effect : proposals) {
       set_ranges(effect, robot, evidence);
       candidates.push_back({std::move(effect), Disguise::none, nats});

@@ -21,6 +21,7 @@ struct Candidate {
 
 struct CandidateOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue; empty: all
+  bool formulas = true;            ///< formulas outside the catalogue compete too
   bool decoys = true;
 };
 

@@ -32,6 +32,7 @@ std::vector<NotFound> smallest_detectable(const std::vector<Candidate>& candidat
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
     const Effect& effect = candidate.effect;
+    if (effect.kind == "symbolic") continue;
     if (candidate.disguise != Disguise::none || scores[i].smallest <= 0.0 || holds(model, effect)) continue;
     const double size = amplitude(candidate, scores[i], detection);
     const auto same = std::find_if(all.begin(), all.end(), [&](const NotFound& other) {

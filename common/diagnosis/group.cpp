@@ -11,9 +11,12 @@ namespace {
 
 constexpr int kMostRejections = 12;
 constexpr double kAlike = 0.9;      ///< cosine
+constexpr double kSame = 0.995;     ///< cosine
+constexpr double kNatsToTell = 5.0;
 constexpr double kStable = 0.95;    ///< share of resamples that must agree with a sign
 constexpr double kEvident = 2.0;    ///< times the largest fall by luck: no need to permute again
-constexpr double kLargest_m = 0.05;  ///< no arm moves farther by itself
+constexpr double kLargestTurn_rad = 0.02;  ///< gears, bearings and links that give way more are broken
+constexpr double kLargestShift_m = 0.02;
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +70,22 @@ std::optional<std::size_t> Group::best() const {
     if (out_[i] || scores_[i].rank == 0) continue;
     if (!best || scores_[i].fall_nats > scores_[*best].fall_nats) best = i;
   }
+  if (best && candidates_[*best].effect.kind == "symbolic") return by_name(*best);
   return best;
+}
+
+/// The catalogue's effect that a formula is in disguise: as good a description, or all but the same columns.
+std::size_t Group::by_name(std::size_t formula) const {
+  const Projection::Trial trial = projection_.trial(columns_.dense(at_.fitted, formula), RowMatrix::Zero(at_.judging.rows(), 1));
+  std::size_t named = formula;
+  for (const Rival& rival : rivals_of(formula, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
+    if (rival.effect.kind == "symbolic" || (rival.cosine < kSame && rival.nats_behind > kNatsToTell)) continue;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const bool better = named == formula || scores_[i].fall_nats > scores_[named].fall_nats;
+      if (!out_[i] && better && candidates_[i].effect.same_law_as(rival.effect)) named = i;
+    }
+  }
+  return named;
 }
 
 void Group::renew_null(std::size_t index) {
@@ -118,8 +136,8 @@ std::string Group::objection(const Round& round, const Projection::Trial& trial)
     }
   }
   if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
-  const double largest_m = (trial.fitted * trial.coefficients).cwiseAbs().maxCoeff() * model_.scales[kPosition];
-  if (largest_m > kLargest_m) return "no arm moves so far by itself";
+  const LargestMotion largest = largest_motion(round.effect, of_.data.robot, at_.fitted.states);
+  if (largest.turn_rad > kLargestTurn_rad || largest.shift_m > kLargestShift_m) return "no arm strays so far by itself";
   return {};
 }
 

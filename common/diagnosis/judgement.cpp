@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace demecal {
@@ -95,6 +96,27 @@ double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vec
     means.push_back(sum / static_cast<double>(falls.size()));
   }
   return quantile(means, 0.05);
+}
+
+LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  std::map<std::pair<int, int>, std::vector<double>> motions;  // by place and axis, one a state
+  std::vector<UnitMotion> units;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    units.clear();
+    append_unit_motions(effect, robot, states[i], units);
+    for (const UnitMotion& unit : units) {
+      auto [at, fresh] = motions.try_emplace({unit.place, unit.axis});
+      if (fresh) at->second.assign(states.size(), 0.0);
+      at->second[i] += unit.size * effect.value(static_cast<std::size_t>(unit.coefficient));
+    }
+  }
+  LargestMotion largest;
+  for (const auto& [place, sizes] : motions) {
+    const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
+    double& most = place.second < 3 ? largest.shift_m : largest.turn_rad;
+    for (const double size : sizes) most = std::max(most, std::abs(size - mean));
+  }
+  return largest;
 }
 
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,

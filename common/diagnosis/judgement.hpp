@@ -21,6 +21,13 @@ std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::Vec
 double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
                             RandomStream random);
 
+/// The largest motion that an effect's ripple, load or side makes of any place over the states: how far it strays from
+/// its own mean there, rad for turns, m for shifts.
+struct LargestMotion {
+  double turn_rad = 0.0, shift_m = 0.0;
+};
+LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
+
 /// How coefficients scatter when the fitted poses are drawn anew with replacement.
 struct Resampled {
   double sign_stability = 1.0;                   ///< share of draws that agree with the sign of the whole effect

@@ -16,6 +16,7 @@ namespace {
 constexpr int kSteps = 12;       ///< of Gauss and Newton, from the declared fit
 constexpr int kStepsAgain = 2;   ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
+constexpr std::size_t kMostPosesForFormulas = 5000;  ///< thousands of formulas over more take minutes
 
 class ClosedLoop {
  public:
@@ -60,7 +61,8 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   evidence.highest_ratio = options_.highest_ratio;
   evidence.stated_ratios = options_.stated_ratios;
   outcome_.unseen = unseen_kinds(evidence, options_.kinds);
-  candidates_ = candidates_for(of_.data.robot, evidence, of_.declared, {options_.kinds, options_.decoys});
+  const bool formulas = options_.formulas && of_.fitted.size() <= kMostPosesForFormulas;
+  candidates_ = candidates_for(of_.data.robot, evidence, of_.declared, {options_.kinds, formulas, options_.decoys});
   const std::vector<ArmState>& states = at.fitted.states;
   const auto shuffled_approach = disguised(states, Disguise::shuffled_approach, random(1));
   const auto shuffled_heat = disguised(states, Disguise::shuffled_temperature, random(2));

@@ -21,6 +21,7 @@ struct LoopOptions {
   double least_gain = 0.005;         ///< share of the validation error that a group must win for another to follow
   int highest_ratio = 200;           ///< of the scan over gear harmonics
   std::vector<double> stated_ratios; ///< beyond the scan
+  bool formulas = true;              ///< formulas outside the catalogue compete, where there are at most 5000 poses
   bool decoys = true;
   std::uint64_t seed = 1;
 };

@@ -22,6 +22,8 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == named || all[i].disguise != Disguise::none) continue;
     const double behind = scores[named].fall_nats - scores[i].fall_nats;
+    const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
+    if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
     if (cosines[i] > kAlike || (cosines[i] > kRelated && std::abs(behind) < kNatsToTell)) {
       rivals.push_back({all[i].effect, cosines[i], behind});
     }

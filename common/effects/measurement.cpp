@@ -72,10 +72,14 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const Eigen::Isome
 }
 
 double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  const Eigen::Vector3d predicted = robot.predict(Stop(pose), pose.target).translation();
-  if (pose.position_m) return (*pose.position_m - predicted).norm();
+  return tool_error_m(robot.predict(Stop(pose), pose.target), data, pose);
+}
+
+double tool_error_m(const Eigen::Isometry3d& predicted, const DataSet& data, const MeasuredPose& pose) {
+  const Eigen::Vector3d point = predicted.translation();
+  if (pose.position_m) return (*pose.position_m - point).norm();
   if (pose.distances_m.empty()) return kNone;
-  return distance_errors(predicted, data, pose).norm() / std::sqrt(static_cast<double>(pose.distances_m.size()));
+  return distance_errors(point, data, pose).norm() / std::sqrt(static_cast<double>(pose.distances_m.size()));
 }
 
 ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {

@@ -38,6 +38,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const Eigen::Isome
 /// of their errors; NaN where neither was.
 double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);
 
+/// The same where the tool's pose is already predicted.
+double tool_error_m(const Eigen::Isometry3d& predicted, const DataSet& data, const MeasuredPose& pose);
+
 /// The four figures users judge by, in mm, over the tool errors of the named poses; all NaN where there are none.
 /// The 95th percentile is interpolated linearly between order statistics: that of rank 1 + 0.95 (n - 1). Poses that
 /// measured orientation only have no tool error and do not count.

@@ -66,7 +66,7 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   CalibrationReport report;
   report.job = model.job;
   report.robot = model.nominal.name;
-  report.method = model.method == Method::direct ? "direct" : "distal";
+  report.method = word_of(model.method);
   report.data_sha256 = model.data_sha256;
   report.version = model.version;
   report.seed = model.seed;

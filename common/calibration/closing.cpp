@@ -1,0 +1,108 @@
+#include "calibration/closing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/scatter.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kSmallestScale = 1e-9;        ///< m or rad: exact data must not divide by zero
+constexpr double kSmallestCoefficient = 1e-8;  ///< rad
+
+/// The declared numbers of the model with their standard errors; effects bring their own.
+std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
+                                            const DiagnosedModel& model) {
+  const Linearised at = linearise({data, declared, poses_of(data, PoseSet::calibration), {}}, model);
+  const ParameterSpace space(model.robot, at.ids);
+  const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
+  const Eigen::MatrixXd covariance =
+      to_values * at.covariance.topLeftCorner(space.size(), space.size()) * to_values.transpose();
+  const CorrectedRobot nominal = nominal_robot(data);
+  std::vector<ParameterEstimate> estimates;
+  for (int i = 0; i < space.size(); ++i) {
+    const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
+    if (id.kind == ParameterId::Kind::effect) continue;
+    estimates.push_back({id, parameter_value(nominal, id), parameter_value(model.robot, id),
+                         std::sqrt(std::max(0.0, covariance(i, i)))});
+  }
+  return estimates;
+}
+
+bool has_corrections(const CorrectedRobot& robot) {
+  return !std::ranges::all_of(robot.corrections, &JointCorrection::is_neutral);
+}
+
+std::string why_neutral(const DeclaredModel& declared, const Joint& joint) {
+  if (!declared.joint_corrections) return "joint corrections are not declared";
+  if (joint.type != JointType::revolute) return "a prismatic joint";
+  return "no correction earned its place, or the joint hardly moves";
+}
+
+}  // namespace
+
+LoopOptions loop_options(const Job& job, std::size_t held) {
+  LoopOptions options;
+  options.kinds = job.closed_loop.candidates;
+  options.max_effects = job.closed_loop.max_effects + static_cast<int>(held);
+  options.family_error = job.closed_loop.family_error;
+  options.highest_ratio = job.closed_loop.highest_ratio;
+  options.stated_ratios = job.closed_loop.ratios;
+  options.seed = job.seed;
+  return options;
+}
+
+Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot) {
+  const RowScales scatter =
+      median_deviations(data, robot, observe(data, poses_of(data, PoseSet::calibration), robot));
+  const auto scale = [&](std::size_t kind, double used) {
+    return used > 0.0 ? std::max(scatter[kind], kSmallestScale) : 0.0;
+  };
+  Fit start = declared;
+  start.robot = robot;
+  start.sigma_position_m = scale(kPosition, declared.sigma_position_m);
+  start.sigma_orientation_rad = scale(kOrientation, declared.sigma_orientation_rad);
+  start.sigma_distance_m = scale(kDistance, declared.sigma_distance_m);
+  return start;
+}
+
+void tidy(DiagnosedModel& model) {
+  for (double& coefficient : model.smooth.coefficients) {
+    if (std::abs(coefficient) < kSmallestCoefficient) coefficient = 0.0;
+  }
+  model.robot.corrections = model.smooth.corrections();
+}
+
+Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
+                           const DiagnosedModel& model) {
+  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  Calibration result{.robot = model.robot, .estimates = estimates_of(data, declared, model), .joints = {}};
+  JointTargets now;
+  if (has_corrections(model.robot)) now = joint_targets(data, fitted, without_corrections(model.robot));
+  result.joints = joint_summaries(preparation.targets, now, model.robot);
+  for (JointSummary& summary : result.joints) {
+    if (summary.kept) continue;
+    summary.note = why_neutral(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
+  }
+  result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
+  result.index_after_mm2 = performance_index_mm2(model.robot, data, fitted);
+  return result;
+}
+
+Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
+  Preparation again = first;
+  again.declared.robot = without_corrections(model);
+  again.targets = joint_targets(data, poses_of(data, PoseSet::calibration), again.declared.robot);
+  again.training = training_tables(again.declared.robot.chain, again.targets);
+  return again;
+}
+
+void count_from(const Calibration& first, Calibration& calibration) {
+  calibration.index_before_mm2 = first.index_before_mm2;
+  for (std::size_t i = 0; i < calibration.joints.size(); ++i) {
+    calibration.joints[i].before_rad = first.joints[i].before_rad;
+  }
+}
+
+}  // namespace demecal
