@@ -33,14 +33,19 @@ struct CalibrateResult {
   RunEnd end = RunEnd::finished;
   CalibratedModel model;
   Preparation preparation;
-  Calibration calibration;  ///< what the closed loop started from
+  Calibration calibration;
+  CorrectedRobot before;  ///< what the closed loop started from
   LoopOutcome loop;
   std::vector<Progress> history;
   RunFacts facts;
 };
 
-/// Everything but files: prepares, evolves on the fleet, and concludes. The fleet is asked for only where joint
-/// corrections are declared. Throws InputError for data that the job cannot be fitted to.
+/// The model of a calibration, and where it came from.
+CalibratedModel model_of(const DataSet& data, const Job& job, const Calibration& calibration);
+
+/// Everything but files: prepares, evolves on the fleet, concludes, and closes the loop unless the job allows it no
+/// effects. A fleet is asked for wherever joint corrections are evolved: once, and anew each time the loop has added
+/// effects beside them. Throws InputError for data that the job cannot be fitted to.
 CalibrateResult calibrate(const DataSet& data, const Job& job,
                           const std::function<std::unique_ptr<Fleet>()>& make_fleet, const std::atomic<bool>& interrupt,
                           const CalibrateOptions& options);

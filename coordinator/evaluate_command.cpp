@@ -6,6 +6,7 @@
 #include "config/load_data_set.hpp"
 #include "config/model_text.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/known_arm.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "report/report_json.hpp"
@@ -30,15 +31,7 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
 ExitCode run(const Request& request) {
   const CalibratedModel model = load_model(request.model_file);
   const DataSet data = load_data_set(request.data_file);
-  if (data.robot.chain.size() != model.robot.chain.size()) {
-    throw InputError({request.data_file, 0}, std::to_string(data.robot.chain.size()),
-                     fmt::format("is not the number of joints of the model ({})", model.robot.chain.size()));
-  }
-  for (const MeasuredPose& pose : data.poses) {
-    if (!pose.target.empty() && !model.robot.tools.contains(pose.target)) {
-      throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
-    }
-  }
+  require_same_arm(model, data);
   const ErrorBySet errors = errors_by_set(request.refit_base ? registered(model, data) : model.robot, data);
   fmt::print("{}", request.json ? errors_to_json(errors) : errors_to_terminal(errors));
   return ExitCode::done;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "calibration/loop_passes.hpp"
 #include "config/files.hpp"
 #include "config/model_text.hpp"
 #include "errors/input_error.hpp"
@@ -42,14 +43,15 @@ CalibrationReport write_results(const std::string& folder, const DataSet& data, 
   CalibratedModel written = load_model(model_path);
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
-  const CorrectedRobot& before = written.robot.effects.empty() ? written.robot : result.calibration.robot;
+  const CorrectedRobot& before = added_any(result.loop) ? result.before : written.robot;
   const CalibrationReport report =
       make_report(data, written, before, result.loop, result.preparation, result.calibration, result.facts);
   const std::string json = to_json(report);
-  const std::string history = history_csv(history_rows(result.history));
   write_file(folder + "/report.json", json);
-  write_file(folder + "/history.csv", history);
-  write_file(folder + "/report.html", report_html(json, history));
+  const std::string history = history_csv(history_rows(result.history));
+  const bool evolves = result.model.method != Method::diagnose;
+  if (evolves) write_file(folder + "/history.csv", history);
+  write_file(folder + "/report.html", report_html(json, evolves ? history : ""));
   return report;
 }
 

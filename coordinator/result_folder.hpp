@@ -1,4 +1,4 @@
-// The folder a calibration leaves: model.yaml, report.json, report.html and history.csv.
+// The folder a calibration leaves: model.yaml, report.json, report.html and, where formulas were evolved, history.csv.
 #pragma once
 
 #include <string>

@@ -30,10 +30,6 @@ std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredM
   return estimates;
 }
 
-bool has_corrections(const CorrectedRobot& robot) {
-  return !std::ranges::all_of(robot.corrections, &JointCorrection::is_neutral);
-}
-
 std::string why_neutral(const DeclaredModel& declared, const Joint& joint) {
   if (!declared.joint_corrections) return "joint corrections are not declared";
   if (joint.type != JointType::revolute) return "a prismatic joint";

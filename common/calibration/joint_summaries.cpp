@@ -40,6 +40,10 @@ std::vector<JointSummary> joint_summaries(const JointTargets& declared, const Jo
   return summaries;
 }
 
+bool has_corrections(const CorrectedRobot& robot) {
+  return !std::ranges::all_of(robot.corrections, &JointCorrection::is_neutral);
+}
+
 CorrectedRobot without_corrections(CorrectedRobot robot) {
   std::ranges::fill(robot.corrections, JointCorrection{});
   return robot;

@@ -25,6 +25,9 @@ struct JointSummary {
 std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
                                           const CorrectedRobot& robot);
 
+/// Whether any joint's correction is not neutral.
+bool has_corrections(const CorrectedRobot& robot);
+
 /// The robot with all its corrections neutral.
 CorrectedRobot without_corrections(CorrectedRobot robot);
 

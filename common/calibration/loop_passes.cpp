@@ -59,7 +59,7 @@ void tell_of(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& des
       round.formula = law_of(*effect).formula(*effect, described);
     } else {
       round.verdict = Verdict::rejected;
-      round.reason = "taken back: no longer needed when the corrections had been evolved anew";
+      round.reason = "taken back: the model that was kept does without it";
     }
   }
 }

@@ -19,6 +19,14 @@ void require(const Fit& fit, const DataSet& data) {
     throw InputError({data.file, 0}, "", "no model fits these poses: " + fit.sentence);
 }
 
+/// Poses in the base's frame need no base, whatever the frame the model was found in.
+CorrectedRobot placed_in_frame(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& model) {
+  CorrectedRobot in_base = model;
+  in_base.sensor_from_base = Eigen::Isometry3d::Identity();
+  const bool nearer = performance_index_mm2(in_base, data, poses) < performance_index_mm2(model, data, poses);
+  return data.frame == Frame::base && nearer ? in_base : model;
+}
+
 }  // namespace
 
 Preparation prepare(const DataSet& data, const Job& job, const FitOptions& options) {
@@ -33,6 +41,22 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
   if (job.declared.joint_corrections) {
     preparation.targets = joint_targets(data, poses, preparation.declared.robot);
     preparation.training = training_tables(preparation.declared.robot.chain, preparation.targets);
+  }
+  return preparation;
+}
+
+Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model) {
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  Preparation preparation;
+  preparation.nominal = nominal_robot(data);
+  preparation.registered = fit_registration(data, poses, declared, preparation.nominal);
+  require(preparation.registered, data);
+  const Fit placed = fit_registration(data, poses, declared, placed_in_frame(data, poses, model));
+  require(placed, data);
+  preparation.declared = fit_declared(data, poses, declared, placed.robot, {.starts = 0});
+  require(preparation.declared, data);
+  if (declared.joint_corrections || has_corrections(model)) {
+    preparation.targets = joint_targets(data, poses, without_corrections(preparation.declared.robot));
   }
   return preparation;
 }

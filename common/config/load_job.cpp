@@ -30,11 +30,7 @@ DeclaredModel read_declared(const YamlNode& list) {
   for (const YamlNode& item : list.list()) {
     const auto found = std::find_if(kDeclared.begin(), kDeclared.end(),
                                     [&](const DeclaredWord& known) { return known.word == item.text(); });
-    if (found == kDeclared.end()) {
-      std::vector<std::string> words;
-      for (const DeclaredWord& known : kDeclared) words.emplace_back(known.word);
-      item.fail_choice(words);
-    }
+    if (found == kDeclared.end()) item.fail_choice(declared_words());
     if (declared.*found->flag) item.fail("is declared twice");
     declared.*found->flag = true;
   }
@@ -90,6 +86,20 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
 }
 
 }  // namespace
+
+std::vector<std::string> declared_words() {
+  std::vector<std::string> words;
+  for (const DeclaredWord& known : kDeclared) words.emplace_back(known.word);
+  return words;
+}
+
+DeclaredModel declared_of(std::span<const std::string> words) {
+  DeclaredModel declared;
+  for (const DeclaredWord& known : kDeclared) {
+    declared.*known.flag = std::find(words.begin(), words.end(), known.word) != words.end();
+  }
+  return declared;
+}
 
 Job load_job(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);

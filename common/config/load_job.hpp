@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "calibration/job.hpp"
 
@@ -15,5 +16,10 @@ Job load_job(const std::filesystem::path& path);
 
 /// The kinds of effects, by the words of reports.
 std::span<const std::string> effect_kinds();
+
+/// What may be declared, by the words of jobs.
+std::vector<std::string> declared_words();
+/// The model that declares what `words` say, each of them one of declared_words().
+DeclaredModel declared_of(std::span<const std::string> words);
 
 }  // namespace demecal

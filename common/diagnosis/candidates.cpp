@@ -23,12 +23,6 @@ bool is_declared(std::string_view kind, const DeclaredModel& declared) {
          (kind == "joint_offset" && declared.joint_offset) || (kind == "geometry" && declared.geometry);
 }
 
-void set_ranges(Effect& effect, const Robot& robot, const Evidence& evidence) {
-  for (const int joint : law_of(effect).ranged_joints(effect, robot)) {
-    effect.ranges[joint] = evidence.joint_ranges[static_cast<std::size_t>(joint)];
-  }
-}
-
 bool has_kind(const std::vector<Candidate>& candidates, std::string_view kind) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.effect.kind == kind; });
 }
@@ -50,6 +44,12 @@ void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, Disgu
 
 }  // namespace
 
+void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence) {
+  for (const int joint : law_of(effect).ranged_joints(effect, robot)) {
+    effect.ranges[joint] = evidence.joint_ranges[static_cast<std::size_t>(joint)];
+  }
+}
+
 std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& evidence, const DeclaredModel& declared,
                                       const CandidateOptions& options) {
   std::vector<Candidate> candidates;
@@ -62,7 +62,7 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
                                           : std::log(static_cast<double>(proposals.size())) +
                                                 (symbolic ? kOutsideCatalogue_nats : 0.0);
     for (Effect& effect : proposals) {
-      set_ranges(effect, robot, evidence);
+      set_measured_ranges(effect, robot, evidence);
       candidates.push_back({std::move(effect), Disguise::none, nats});
     }
   }

@@ -31,6 +31,9 @@ struct CandidateOptions {
 std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& evidence, const DeclaredModel& declared,
                                       const CandidateOptions& options);
 
+/// The evidence's ranges of the joints on whose values the effect depends: beyond them it is not known.
+void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence);
+
 /// The states that a disguise sees: `states` with approach signs or temperatures dealt out anew over the poses.
 std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise disguise, RandomStream random);
 

@@ -22,6 +22,32 @@ RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
   return both;
 }
 
+/// Effects are believed to move the arm by a few thousandths: it keeps those apart from running away that these poses
+/// hardly tell from one another, and vanishes beside what the poses do show.
+void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedRobot& robot, const Robot& described,
+                           const std::vector<ArmState>& states, Prior& prior) {
+  constexpr double kUsualMotion = 2e-3;  ///< rad or m
+  std::vector<std::vector<double>> squares(robot.effects.size());
+  std::vector<UnitMotion> motions;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    squares[i].assign(robot.effects[i].values.size(), 0.0);
+    for (const ArmState& state : states) {
+      motions.clear();
+      append_unit_motions(robot.effects[i], described, state, motions);
+      for (const UnitMotion& motion : motions) {
+        squares[i][static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k].kind != ParameterId::Kind::effect) continue;
+    const auto effect = static_cast<std::size_t>(ids[k].index), coefficient = static_cast<std::size_t>(ids[k].coefficient);
+    const auto at = static_cast<Eigen::Index>(k);
+    prior.precision[at] = std::sqrt(squares[effect][coefficient] / static_cast<double>(states.size())) / kUsualMotion;
+    prior.offset[at] = robot.effects[effect].value(coefficient);
+  }
+}
+
 Eigen::VectorXd smooth_precision(const ModelColumns& columns, const Eigen::VectorXd& residual,
                                  const Eigen::VectorXd& present) {
   const Eigen::Index terms = present.size(), n = columns.fitted.cols();
@@ -100,9 +126,10 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   const FitOptions options;
   std::vector<ParameterId> ids = free_ids(of, model.robot, options);
   const ParameterSpace space(model.robot, ids);
-  const Prior prior = link_prior(space, nominal_robot(of.data), options);
+  Prior prior = link_prior(space, nominal_robot(of.data), options);
   ResidualField fitted = residual_field(of.data, of.fitted, space, model.scales, true);
   ResidualField judging = residual_field(of.data, of.judging, space, model.scales, false);
+  believe_effects_small(ids, model.robot, of.data.robot, fitted.states, prior);
   const ModelColumns columns = model_columns(space, prior, model.smooth, fitted, judging);
   Projection projection(columns, fitted.residual, judging.residual);
   Eigen::VectorXd changes = projection.changes();

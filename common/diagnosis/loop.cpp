@@ -63,6 +63,11 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   outcome_.unseen = unseen_kinds(evidence, options_.kinds);
   const bool formulas = options_.formulas && of_.fitted.size() <= kMostPosesForFormulas;
   candidates_ = candidates_for(of_.data.robot, evidence, of_.declared, {options_.kinds, formulas, options_.decoys});
+  const auto decoys = std::ranges::find_if(candidates_, [](const Candidate& c) { return c.disguise != Disguise::none; });
+  for (Candidate& candidate : std::ranges::subrange(candidates_.insert(decoys, options_.evolved.begin(), options_.evolved.end()), candidates_.end())) {
+    if (candidate.disguise != Disguise::none) break;
+    set_measured_ranges(candidate.effect, of_.data.robot, evidence);
+  }
   const std::vector<ArmState>& states = at.fitted.states;
   const auto shuffled_approach = disguised(states, Disguise::shuffled_approach, random(1));
   const auto shuffled_heat = disguised(states, Disguise::shuffled_temperature, random(2));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/candidates.hpp"
 #include "diagnosis/diagnosed_model.hpp"
 #include "diagnosis/outcome.hpp"
 
@@ -22,6 +23,7 @@ struct LoopOptions {
   int highest_ratio = 200;           ///< of the scan over gear harmonics
   std::vector<double> stated_ratios; ///< beyond the scan
   bool formulas = true;              ///< formulas outside the catalogue compete, where there are at most 5000 poses
+  std::vector<Candidate> evolved{};  ///< formulas that evolution found on the residual: they compete too
   bool decoys = true;
   std::uint64_t seed = 1;
 };

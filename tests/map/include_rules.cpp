@@ -10,8 +10,6 @@ namespace {
 std::string library_of(const std::string& header) {
   static const std::map<std::string, std::string> libraries = {{"Eigen/", "Eigen3::Eigen"},
                                                                {"unsupported/Eigen/", "Eigen3::Eigen"},
-                                                               {"ceres/", "Ceres::ceres"},
-                                                               {"glog/", "Ceres::ceres"},
                                                                {"fmt/", "fmt::fmt"},
                                                                {"nlohmann/", "nlohmann_json::nlohmann_json"},
                                                                {"yaml-cpp/", "yaml-cpp"},
@@ -78,8 +76,7 @@ Violations check_libraries(const Source& source, const Map& map) {
 }
 
 Violations check_owners(const Source& source) {
-  static const std::map<std::string, std::string> owners = {
-      {"yaml-cpp", "config"}, {"demecal_idl", "transport"}, {"Ceres::ceres", "fitting"}};
+  static const std::map<std::string, std::string> owners = {{"yaml-cpp", "config"}, {"demecal_idl", "transport"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;

@@ -58,7 +58,7 @@ TEST(SourceTree, IncludesOnlyLibrariesThatItLinksTo) {
   EXPECT_THAT(over_the_tree([](const Source& source) { return check_libraries(source, the_map()); }), IsEmpty());
 }
 
-TEST(SourceTree, KeepsYamlDdsAndCeresInTheirRooms) {
+TEST(SourceTree, KeepsYamlAndDdsInTheirRooms) {
   EXPECT_THAT(over_the_tree(check_owners), IsEmpty());
 }
 

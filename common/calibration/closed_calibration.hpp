@@ -1,0 +1,29 @@
+// A calibration with the closed loop around it: effects found, corrections evolved anew beside them, and again.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "diagnosis/loop.hpp"
+
+namespace demecal {
+
+/// Evolves candidates for every joint of a training; nothing where that could not be done to the end.
+using Evolve = std::function<std::optional<std::vector<JointCandidates>>(const std::vector<JointTraining>&)>;
+
+struct ClosedCalibration {
+  CorrectedRobot before;    ///< what the loop started from: everything declared
+  Calibration calibration;  ///< the model with the effects added; where none was, that of `before`
+  LoopOutcome loop;         ///< of all passes
+};
+
+/// Closes the loop around `first`. Where effects were added and joint corrections are declared, the corrections are
+/// evolved anew from what the effects leave of the joints' errors; the evolved ones, the loop's own smooth sums and the
+/// first ones compete on the deciding poses, and the model with the smaller error there is kept. Where that is the one
+/// evolved anew the loop looks at it again, at most three times in all. Ends early when `watch` returns false.
+ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
+                                    const Calibration& first, const Evolve& evolve, const RoundWatcher& watch);
+
+}  // namespace demecal

@@ -1,0 +1,61 @@
+#include "coordinator/diagnose.hpp"
+
+#include "coordinator/known_arm.hpp"
+
+namespace demecal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool determines(const DataSet& data, const DeclaredModel& declared) {
+  std::size_t measured = 0;
+  for (const std::size_t pose : poses_of(data, PoseSet::calibration)) {
+    measured += static_cast<std::size_t>(rows_of(data.poses[pose]).total());
+  }
+  return measured >= 2 * free_parameters(data, declared, {}).size();
+}
+
+}  // namespace
+
+DeclaredModel declared_by_default(const DataSet& data) {
+  for (const DeclaredModel& declared :
+       {DeclaredModel{.registration = true, .tool = true, .joint_offset = true, .geometry = true},
+        DeclaredModel{.registration = true, .tool = true, .joint_offset = true},
+        DeclaredModel{.registration = true, .tool = true}}) {
+    if (determines(data, declared)) return declared;
+  }
+  return {.registration = true};
+}
+
+Preparation diagnosis_start(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {
+  if (!known) return prepare(data, job);
+  require_same_nominal_arm(*known, data);
+  CorrectedRobot model = known->robot;
+  model.described = data.robot;
+  return prepare_from(data, job.declared, model);
+}
+
+CalibrateResult diagnose(const DataSet& data, const Job& job, Preparation start, const RoundWatcher& watch) {
+  const Clock::time_point begin = Clock::now();
+  CalibrateResult result;
+  const auto watched = [&](const Round& round) {
+    const bool go_on = !watch || watch(round);
+    if (!go_on) result.end = RunEnd::interrupted;
+    return go_on;
+  };
+  const CorrectedRobot& robot = start.declared.robot;
+  LoopResult found = close_loop(data, job.declared, loop_start(data, start.declared, robot),
+                                loop_options(job, robot.effects.size()), watched);
+  tidy(found.before);
+  tidy(found.model);
+  result.calibration = calibration_of(data, job.declared, start, found.model);
+  result.before = found.before.robot;
+  result.loop = std::move(found.outcome);
+  result.preparation = std::move(start);
+  result.model = model_of(data, job, result.calibration);
+  result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  result.facts.interrupted = result.end == RunEnd::interrupted;
+  return result;
+}
+
+}  // namespace demecal

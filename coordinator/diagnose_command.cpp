@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/load_data_set.hpp"
+#include "config/load_job.hpp"
+#include "config/model_text.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/diagnose.hpp"
+#include "coordinator/interrupt.hpp"
+#include "coordinator/loop_display.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data/nearest_name.hpp"
+#include "report/report_json.hpp"
+#include "report/terminal.hpp"
+
+namespace demecal {
+namespace {
+
+struct Request {
+  std::string data_file, model_file, out;
+  std::vector<std::string> declared;
+  std::uint64_t seed = 1;
+  ClosedLoopOptions loop;
+  bool json = false, quiet = false;
+};
+
+/// Each word of a list must be one of `words`.
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto fault = [words = std::move(words)](const std::string& word) -> std::string {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return {};
+    return fmt::format("'{}' is none of: {}; the nearest is '{}'", word, fmt::join(words, " "),
+                       nearest_name(word, words));
+  };
+  return {fault, ""};
+}
+
+DeclaredModel declared_by(const Request& request, const std::optional<CalibratedModel>& known, const DataSet& data) {
+  DeclaredModel declared = known ? known->declared : declared_by_default(data);
+  if (!request.declared.empty()) declared = declared_of(request.declared);
+  declared.registration = true;
+  return declared;
+}
+
+std::string words_of(const DeclaredModel& declared) {
+  std::string words = "registration";
+  if (declared.tool) words += ", tool";
+  if (declared.joint_offset) words += ", joint_offset";
+  if (declared.geometry) words += ", geometry";
+  if (declared.joint_corrections) words += ", joint_corrections";
+  return words;
+}
+
+Job job_of(const Request& request, const DeclaredModel& declared) {
+  Job job;
+  job.name = std::filesystem::path(request.data_file).stem().string();
+  job.data_file = request.data_file;
+  job.method = Method::diagnose;
+  job.seed = request.seed;
+  job.declared = declared;
+  job.closed_loop = request.loop;
+  return job;
+}
+
+ExitCode run(const Request& request) {
+  const DataSet data = load_data_set(request.data_file);
+  std::optional<CalibratedModel> known;
+  if (!request.model_file.empty()) known = load_model(request.model_file);
+  make_writable(request.out);
+  const Job job = job_of(request, declared_by(request, known, data));
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
+  LoopDisplay display(stderr, data.robot, request.quiet);
+  display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
+                          words_of(job.declared)));
+  const CalibrateResult result =
+      diagnose(data, job, diagnosis_start(data, job, known), [&](const Round& round) {
+        display.on_round(round);
+        return !interrupt;
+      });
+  const CalibrationReport report = write_results(request.out, data, result);
+  if (request.json) {
+    fmt::print("{}", to_json(report));
+  } else {
+    fmt::print("{}\n  {:.1f} s; {}: {}/model.yaml, report.json, report.html\n", to_terminal(report),
+               report.runtime.wall_s,
+               result.end == RunEnd::interrupted ? "interrupted; what was reached" : "results", request.out);
+  }
+  return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+void add_loop_options(CLI::App& command, Request& request) {
+  const auto kinds = effect_kinds();
+  command.add_option("--candidates", request.loop.candidates, "kinds of effects to consider, LIST (default: all)")
+      ->delimiter(',')
+      ->check(one_of({kinds.begin(), kinds.end()}));
+  command.add_option("--max-effects", request.loop.max_effects, "effects that may be added")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--family-error", request.loop.family_error, "chance of adding anything to a model that lacks nothing")
+      ->check(CLI::Range(1e-6, 0.999999))
+      ->capture_default_str();
+  command.add_option("--highest-ratio", request.loop.highest_ratio, "of the scan over gear harmonics")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  command.add_option("--ratios", request.loop.ratios, "gear ratios beyond the scan, LIST")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command =
+      app.add_subcommand("diagnose", "what a declared model lacks: the closed loop's statistics alone");
+  command->add_option("data", request->data_file, "DATASET.yaml")->required();
+  command->add_option("--out", request->out, "folder for the results")->required();
+  command->add_option("--model", request->model_file, "MODEL.yaml to start from, with its corrections and effects");
+  command
+      ->add_option("--declare", request->declared,
+                   "LIST of what the model is known to contain, registration always (default: the model's own; without "
+                   "one registration,tool,joint_offset,geometry)")
+      ->delimiter(',')
+      ->check(one_of(declared_words()));
+  add_loop_options(*command, *request);
+  command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
+  command->add_flag("--json", request->json, "print report.json in place of the report for people");
+  command->add_flag("--quiet", request->quiet, "no progress, only the result");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal
