@@ -15,6 +15,14 @@ bool determines(const DataSet& data, const DeclaredModel& declared) {
   return measured >= 2 * free_parameters(data, declared, {}).size();
 }
 
+Preparation start_of(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {
+  if (!known) return prepare(data, job);
+  require_same_nominal_arm(*known, data);
+  CorrectedRobot model = known->robot;
+  model.described = data.robot;
+  return prepare_from(data, job.declared, model);
+}
+
 }  // namespace
 
 DeclaredModel declared_by_default(const DataSet& data) {
@@ -27,35 +35,28 @@ DeclaredModel declared_by_default(const DataSet& data) {
   return {.registration = true};
 }
 
-Preparation diagnosis_start(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {
-  if (!known) return prepare(data, job);
-  require_same_nominal_arm(*known, data);
-  CorrectedRobot model = known->robot;
-  model.described = data.robot;
-  return prepare_from(data, job.declared, model);
-}
-
-CalibrateResult diagnose(const DataSet& data, const Job& job, Preparation start, const RoundWatcher& watch) {
+Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
+                   const RoundWatcher& watch) {
   const Clock::time_point begin = Clock::now();
   CalibrateResult result;
+  result.preparation = start_of(data, job, known);
   const auto watched = [&](const Round& round) {
     const bool go_on = !watch || watch(round);
     if (!go_on) result.end = RunEnd::interrupted;
     return go_on;
   };
-  const CorrectedRobot& robot = start.declared.robot;
-  LoopResult found = close_loop(data, job.declared, loop_start(data, start.declared, robot),
-                                loop_options(job, robot.effects.size()), watched);
+  const Fit& declared = result.preparation.declared;
+  LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot),
+                                loop_options(job, declared.robot.effects.size()), watched);
   tidy(found.before);
   tidy(found.model);
-  result.calibration = calibration_of(data, job.declared, start, found.model);
-  result.before = found.before.robot;
+  result.calibration = calibration_of(data, job.declared, result.preparation, found.model);
+  result.before = std::move(found.before.robot);
   result.loop = std::move(found.outcome);
-  result.preparation = std::move(start);
   result.model = model_of(data, job, result.calibration);
   result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   result.facts.interrupted = result.end == RunEnd::interrupted;
-  return result;
+  return {std::move(result), std::move(found.model)};
 }
 
 }  // namespace demecal

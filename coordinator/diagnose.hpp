@@ -12,11 +12,14 @@ namespace demecal {
 /// leaves twice as many measured numbers as parameters.
 DeclaredModel declared_by_default(const DataSet& data);
 
-/// What a diagnosis starts from: `known`, a model found before, its numbers fitted again; without it the job's declared
-/// model. Throws InputError for data that it cannot be fitted to.
-Preparation diagnosis_start(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known);
+struct Diagnosis {
+  CalibrateResult result;  ///< as of a calibration
+  DiagnosedModel model;    ///< the same model, as the loop left it
+};
 
-/// Runs the loop on `start`; data set, job and result as those of a calibration. Ends early when `watch` returns false.
-CalibrateResult diagnose(const DataSet& data, const Job& job, Preparation start, const RoundWatcher& watch);
+/// Runs the loop on `known`, a model found before, its numbers fitted again; without it on the job's declared model.
+/// Ends early when `watch` returns false. Throws InputError for data that the model cannot be fitted to.
+Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
+                   const RoundWatcher& watch);
 
 }  // namespace demecal

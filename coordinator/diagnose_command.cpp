@@ -8,26 +8,32 @@
 #include <string>
 #include <vector>
 
+#include "config/files.hpp"
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
 #include "config/model_text.hpp"
+#include "config/proposed_poses.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/diagnose.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/loop_display.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/nearest_name.hpp"
+#include "diagnosis/proposal.hpp"
 #include "report/report_json.hpp"
 #include "report/terminal.hpp"
 
 namespace demecal {
 namespace {
 
+constexpr std::uint64_t kProposals = 31;  ///< the stream of randomness that draws them
+
 struct Request {
   std::string data_file, model_file, out;
   std::vector<std::string> declared;
   std::uint64_t seed = 1;
   ClosedLoopOptions loop;
+  int proposed = 0;
   bool json = false, quiet = false;
 };
 
@@ -68,6 +74,15 @@ Job job_of(const Request& request, const DeclaredModel& declared) {
   return job;
 }
 
+/// The poses that would tell most, in a file beside the results.
+void write_proposed(const Request& request, const DataSet& data, const Diagnosis& diagnosis) {
+  const DiagnosisData of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
+                         poses_of(data, PoseSet::validation)};
+  const std::vector<Stop> stops = propose_poses(of, diagnosis.model, diagnosis.result.loop.rounds, request.proposed,
+                                                RandomStream{request.seed, kProposals});
+  write_file(request.out + "/proposed.csv", proposed_poses_csv(request.data_file, data, stops));
+}
+
 ExitCode run(const Request& request) {
   const DataSet data = load_data_set(request.data_file);
   std::optional<CalibratedModel> known;
@@ -76,20 +91,25 @@ ExitCode run(const Request& request) {
   const Job job = job_of(request, declared_by(request, known, data));
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   LoopDisplay display(stderr, data.robot, request.quiet);
+  if (request.declared.empty() && !known && !job.declared.geometry) {
+    fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",
+               words_of(job.declared));
+  }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
                           words_of(job.declared)));
-  const CalibrateResult result =
-      diagnose(data, job, diagnosis_start(data, job, known), [&](const Round& round) {
-        display.on_round(round);
-        return !interrupt;
-      });
+  const Diagnosis diagnosis = diagnose(data, job, known, [&](const Round& round) {
+    display.on_round(round);
+    return !interrupt;
+  });
+  const CalibrateResult& result = diagnosis.result;
   const CalibrationReport report = write_results(request.out, data, result);
+  if (request.proposed > 0) write_proposed(request, data, diagnosis);
   if (request.json) {
     fmt::print("{}", to_json(report));
   } else {
-    fmt::print("{}\n  {:.1f} s; {}: {}/model.yaml, report.json, report.html\n", to_terminal(report),
-               report.runtime.wall_s,
-               result.end == RunEnd::interrupted ? "interrupted; what was reached" : "results", request.out);
+    fmt::print("{}\n  {:.1f} s; {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
+               report.runtime.wall_s, result.end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
+               request.out, request.proposed > 0 ? ", proposed.csv" : "");
   }
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
 }
@@ -103,7 +123,8 @@ void add_loop_options(CLI::App& command, Request& request) {
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command
-      .add_option("--family-error", request.loop.family_error, "chance of adding anything to a model that lacks nothing")
+      .add_option("--family-error", request.loop.family_error,
+                  "chance of adding anything to a model that lacks nothing")
       ->check(CLI::Range(1e-6, 0.999999))
       ->capture_default_str();
   command.add_option("--highest-ratio", request.loop.highest_ratio, "of the scan over gear harmonics")
@@ -118,8 +139,7 @@ void add_loop_options(CLI::App& command, Request& request) {
 
 void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<Request>();
-  CLI::App* command =
-      app.add_subcommand("diagnose", "what a declared model lacks: the closed loop's statistics alone");
+  CLI::App* command = app.add_subcommand("diagnose", "what a declared model lacks: the closed loop's statistics alone");
   command->add_option("data", request->data_file, "DATASET.yaml")->required();
   command->add_option("--out", request->out, "folder for the results")->required();
   command->add_option("--model", request->model_file, "MODEL.yaml to start from, with its corrections and effects");
@@ -130,6 +150,9 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
       ->delimiter(',')
       ->check(one_of(declared_words()));
   add_loop_options(*command, *request);
+  command->add_option("--propose", request->proposed, "poses worth measuring next, to proposed.csv")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
   command->add_flag("--json", request->json, "print report.json in place of the report for people");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");

@@ -44,8 +44,9 @@ CalibrationReport write_results(const std::string& folder, const DataSet& data, 
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
   const CorrectedRobot& before = added_any(result.loop) ? result.before : written.robot;
-  const CalibrationReport report =
+  CalibrationReport report =
       make_report(data, written, before, result.loop, result.preparation, result.calibration, result.facts);
+  if (result.model.method == Method::diagnose && !has_corrections(written.robot)) report.joints.clear();
   const std::string json = to_json(report);
   write_file(folder + "/report.json", json);
   const std::string history = history_csv(history_rows(result.history));

@@ -24,9 +24,10 @@ struct Preparation {
 /// there are too few calibration poses for what is declared or the fit finds no solution.
 Preparation prepare(const DataSet& data, const Job& job, const FitOptions& options = {});
 
-/// The same from a model that was found before, on these poses or others: its corrections and effects stay, its declared
-/// numbers and the effects' coefficients are fitted again, from wherever the data's frame is. Nothing is made ready for
-/// evolution. `model` must have this arm's joints and a tool for every target. Throws InputError as prepare().
+/// The same from a model that was found before, on these poses or others: its corrections and effects stay, its
+/// declared numbers and the effects' coefficients are fitted again, from wherever the data's frame is. Nothing is made
+/// ready for evolution. `model` must have this arm's joints and a tool for every target. Throws InputError as
+/// prepare().
 Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model);
 
 struct Calibration {

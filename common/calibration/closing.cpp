@@ -50,8 +50,7 @@ LoopOptions loop_options(const Job& job, std::size_t held) {
 }
 
 Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot) {
-  const RowScales scatter =
-      median_deviations(data, robot, observe(data, poses_of(data, PoseSet::calibration), robot));
+  const RowScales scatter = median_deviations(data, robot, observe(data, poses_of(data, PoseSet::calibration), robot));
   const auto scale = [&](std::size_t kind, double used) {
     return used > 0.0 ? std::max(scatter[kind], kSmallestScale) : 0.0;
   };

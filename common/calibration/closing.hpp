@@ -21,8 +21,8 @@ void tidy(DiagnosedModel& model);
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
                            const DiagnosedModel& model);
 
-/// What stands before corrections are evolved anew: the declared model is `model` without its corrections, and the joints
-/// learn what its effects leave.
+/// What stands before corrections are evolved anew: the declared model is `model` without its corrections, and the
+/// joints learn what its effects leave.
 Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model);
 
 /// Makes a later calibration tell its figures "before" as the first one does.

@@ -20,8 +20,8 @@ PairedDifference paired(const SquaredErrors& worse, const SquaredErrors& better)
 
 double sum(const SquaredErrors& errors);
 
-/// `poses` of `data`, with what the effects of a robot do at each of them kept ready: corrections may change, all else of
-/// the robot stays.
+/// `poses` of `data`, with what the effects of a robot do at each of them kept ready: corrections may change, all else
+/// of the robot stays.
 class Jury {
  public:
   Jury(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot);

@@ -90,8 +90,7 @@ bool earns_its_place(const PairedDifference& gain) {
 /// The fall of the error from joints at which one is neutral to those with its correction.
 PairedDifference gain_of(const Jury& jury, const CorrectedRobot& robot, const std::vector<JointVector>& neutral,
                          std::size_t joint, const JointCorrection& correction) {
-  return paired(jury.squared_errors(robot, neutral),
-                jury.squared_errors(robot, jury.with(neutral, joint, correction)));
+  return paired(jury.squared_errors(robot, neutral), jury.squared_errors(robot, jury.with(neutral, joint, correction)));
 }
 
 /// The correction this joint is best given while the others stand as they do in `robot`.

@@ -1,6 +1,7 @@
 #include "diagnosis/experiments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "effects/joint_words.hpp"
@@ -9,14 +10,15 @@
 namespace demecal {
 namespace {
 
-constexpr int kPoses = 200;            ///< of every experiment
+constexpr int kPoses = 200;             ///< of every experiment
 constexpr double kOwnPayload_kg = 2.0;  ///< where none was recorded
 constexpr double kStep_kelvin = 10.0;
 constexpr double kWorthwhile = 1.1;  ///< range within the limits over the measured one
 
 class Drafting {
  public:
-  Drafting(const DiagnosisData& of, RandomStream random) : of_(of), feasible_(of.data, of.fitted), random_(std::move(random)) {}
+  Drafting(const DiagnosisData& of, RandomStream random)
+      : of_(of), feasible_(of.data, of.fitted), random_(std::move(random)) {}
 
   /// A pose at hand sent elsewhere.
   MeasuredPose somewhere(const std::vector<Interval>& ranges) {
@@ -78,9 +80,11 @@ class Drafting {
     const Interval did = ranges[at], may = feasible_.allowed()[at];
     ranges[at] = {std::min(may.lower, did.lower), std::max(may.upper, did.upper)};
     Experiment experiment{"",
-                          " with joint " + std::to_string(joint + 1) + " anywhere from " +
-                              words(joint, ranges[at]) + ", not only from " + words(joint, did),
-                          1, joint, {}};
+                          " with joint " + std::to_string(joint + 1) + " anywhere from " + words(joint, ranges[at]) +
+                              ", not only from " + words(joint, did),
+                          1,
+                          joint,
+                          {}};
     for (int i = 0; i < kPoses; ++i) experiment.stops.push_back(somewhere(ranges));
     return experiment;
   }
@@ -88,7 +92,9 @@ class Drafting {
  private:
   std::string words(int joint, const Interval& range) const {
     const bool turns = is_revolute(of_.data.robot, joint);
-    const auto number = [&](double value) { return number_words(std::round(turns ? degrees(value) : millimetres(value))); };
+    const auto number = [&](double value) {
+      return number_words(std::round(turns ? degrees(value) : millimetres(value)));
+    };
     return number(range.lower) + " to " + number(range.upper) + (turns ? " deg" : " mm");
   }
 

@@ -23,7 +23,8 @@ Eigen::Vector3d upwards(const Eigen::Vector3d& gravity_mps2) {
 /// Height of the lowest of the arm's joints but the first, and of its flange, m.
 double lowest_of(const ArmState& state, const Eigen::Vector3d& up) {
   double lowest = kInfinite;
-  for (std::size_t i = 1; i < state.places.size(); ++i) lowest = std::min(lowest, up.dot(state.places[i].translation()));
+  for (std::size_t i = 1; i < state.places.size(); ++i)
+    lowest = std::min(lowest, up.dot(state.places[i].translation()));
   return lowest;
 }
 

@@ -13,9 +13,9 @@ namespace demecal {
 namespace {
 
 constexpr int kMostPoses = 9999;
-constexpr double kAboutEqual = 1.25;    ///< times the fewest stops
-constexpr double kContained = 1e-6;     ///< of the signal's square may be left of a signal that a rival contains
-constexpr double kPart = 1e-3;          ///< of the signal's square: coefficients that do less have no part in it
+constexpr double kAboutEqual = 1.25;     ///< times the fewest stops
+constexpr double kContained = 1e-6;      ///< of the signal's square may be left of a signal that a rival contains
+constexpr double kPart = 1e-3;           ///< of the signal's square: coefficients that do less have no part in it
 constexpr double kOwnBelief_rad = 1e-3;  ///< how large a correction's terms are, beyond the range it was identified in
 
 using Columns = std::vector<Eigen::Index>;
@@ -24,8 +24,8 @@ using Columns = std::vector<Eigen::Index>;
 /// signal of the named effect, and, where a joint goes beyond its range, what its correction may be there.
 class Question {
  public:
-  Question(const DiagnosisData& of, const DiagnosedModel& model, const Effect& named,
-           const std::vector<Rival>& rivals, RandomStream random)
+  Question(const DiagnosisData& of, const DiagnosedModel& model, const Effect& named, const std::vector<Rival>& rivals,
+           RandomStream random)
       : declared_corrections_(of.declared.joint_corrections),
         values_(Eigen::VectorXd::Map(named.values.data(), static_cast<Eigen::Index>(named.values.size()))),
         knowledge_(of, with(model, named), {named}, std::move(random)) {
@@ -38,18 +38,21 @@ class Question {
     }
     effects_.push_back(named);
     signal_ = column;
+    model_at_hand_ = knowledge_.model_columns(knowledge_.present());
+    asked_at_hand_ = asked(knowledge_.present());
     seen_ = Eigen::MatrixXd::Zero(signal_ + 1, signal_ + 1);
   }
 
   /// The named effect's separation by an experiment from each rival; see poses_needed().
   Separation separation(const Experiment& experiment) {
     const DataSet data = knowledge_.predicted(experiment.stops);
-    const ResidualField& present = knowledge_.present();
     const ResidualField further = knowledge_.field(data);
     const SmoothCorrections beyond = terms_beyond(data, experiment.widened);
-    const Products at_hand = products(knowledge_.model_columns(present), asked(present, beyond), knowledge_.weight());
+    const RowMatrix all_at_hand = beside(asked_at_hand_, beyond.columns(knowledge_.present()));
+    const Products at_hand = products(model_at_hand_, all_at_hand, knowledge_.weight());
     const double share = static_cast<double>(experiment.stops_per_pose) / static_cast<double>(data.poses.size());
-    const Products per_pose = products(knowledge_.model_columns(further), asked(further, beyond), share);
+    const Products per_pose =
+        products(knowledge_.model_columns(further), beside(asked(further), beyond.columns(further)), share);
     seen_ += (at_hand.asked + per_pose.asked).topLeftCorner(signal_ + 1, signal_ + 1);
     Eigen::VectorXd precision = Eigen::VectorXd::Zero(at_hand.asked.cols());
     precision.tail(precision.size() - signal_ - 1).setConstant(1.0 / (kOwnBelief_rad * kOwnBelief_rad));
@@ -100,11 +103,15 @@ class Question {
     return terms;
   }
 
-  RowMatrix asked(const ResidualField& field, const SmoothCorrections& beyond) const {
+  RowMatrix asked(const ResidualField& field) const {
     const RowMatrix effects = knowledge_.effect_columns(effects_, field);
-    RowMatrix columns(field.rows(), signal_ + 1 + static_cast<Eigen::Index>(beyond.terms.size()));
-    columns << effects.leftCols(signal_), effects.rightCols(values_.size()) * values_, beyond.columns(field);
-    return columns;
+    return beside(effects.leftCols(signal_), effects.rightCols(values_.size()) * values_);
+  }
+
+  static RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
+    RowMatrix both(left.rows(), left.cols() + right.cols());
+    both << left, right;
+    return both;
   }
 
   bool declared_corrections_;
@@ -113,6 +120,7 @@ class Question {
   std::vector<Effect> effects_;   ///< the rivals, then the named one
   std::vector<Columns> columns_;  ///< of each rival
   Eigen::Index signal_ = 0;
+  RowMatrix model_at_hand_, asked_at_hand_;
   Eigen::MatrixXd seen_;  ///< products of rivals' and signal's columns over all that was looked at
 };
 
@@ -224,7 +232,8 @@ std::string words_for(const Effect& effect) {
     if (name == "gravity_turn") details.push_back("gravity turned " + number_words(value));
     if (name.starts_with("keep_")) details.push_back(name.substr(5));
   }
-  return details.empty() ? text : text + " (" + listed(details) + ')';
+  for (std::size_t i = 0; i < details.size(); ++i) text += (i == 0 ? " (" : ", ") + details[i];
+  return details.empty() ? text : text + ')';
 }
 
 std::optional<FurtherMeasurement> further_measurement(const DiagnosisData& of, const DiagnosedModel& model,

@@ -83,8 +83,8 @@ Knowledge::Knowledge(const DiagnosisData& of, DiagnosedModel model, const std::v
     const auto at = static_cast<std::size_t>(i);
     const bool coefficient = at < at_.ids.size() && at_.ids[at].kind == ParameterId::Kind::effect;
     const bool apart = coefficient && std::ranges::any_of(asked, [&](const Effect& effect) {
-      return effect.same_law_as(model_.robot.effects[static_cast<std::size_t>(at_.ids[at].index)]);
-    });
+                         return effect.same_law_as(model_.robot.effects[static_cast<std::size_t>(at_.ids[at].index)]);
+                       });
     (apart ? out : kept_).push_back(i);
   }
   to_units_ = root(held(at_.covariance, kept_, out)) / std::sqrt(weight_);

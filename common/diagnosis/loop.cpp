@@ -7,6 +7,7 @@
 #include "diagnosis/backward.hpp"
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/further.hpp"
 #include "diagnosis/group.hpp"
 #include "diagnosis/structure.hpp"
 
@@ -35,6 +36,7 @@ class ClosedLoop {
   bool gained_enough(const GroupOutcome& outcome) const;
   StopReason reason_to_stop(const GroupOutcome& last) const;
   void describe_added();
+  void look_further();
   void finish(const Linearised& at);
   RandomStream random(std::uint64_t purpose) const {
     return RandomStream{options_.seed, purpose, static_cast<std::uint64_t>(group_)};
@@ -206,9 +208,22 @@ void ClosedLoop::describe_added() {
   }
 }
 
+/// What to measure next, for the first few effects that have rivals.
+void ClosedLoop::look_further() {
+  constexpr int kMost = 3;
+  int said = 0;
+  for (Round& round : outcome_.rounds) {
+    const bool named_last = round.verdict == Verdict::added || &round == &outcome_.rounds.back();
+    if (!named_last || round.rivals.empty() || said >= kMost) continue;
+    round.further = further_measurement(of_, model_, round.effect, round.rivals, random(8));
+    ++said;
+  }
+}
+
 void ClosedLoop::finish(const Linearised& at) {
   outcome_.p_structure_left = p_structure_;
   describe_added();
+  look_further();
   std::vector<double> name_nats;
   for (const Candidate& candidate : candidates_) name_nats.push_back(candidate.name_nats);
   const Scan scan(columns_, name_nats, at.fitted, at.projection);

@@ -16,6 +16,7 @@ constexpr double kNewShare = 1e-5;
 Eigen::MatrixXd orthonormaliser(const Eigen::MatrixXd& factor) {
   constexpr double kDependent = 1e-9;
   const Eigen::Index n = factor.cols();
+  if (n == 0) return Eigen::MatrixXd(0, 0);
   Eigen::VectorXd scale = factor.colwise().norm().transpose();
   for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(factor * scale.asDiagonal());

@@ -126,7 +126,6 @@ RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
   return both;
 }
 
-
 }  // namespace
 
 std::vector<Stop> propose_poses(const DiagnosisData& of, const DiagnosedModel& model, const std::vector<Round>& rounds,

@@ -1,7 +1,7 @@
 #include "diagnosis/separation.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <cmath>
 
 namespace demecal {

@@ -20,15 +20,15 @@ Products products(const RowMatrix& model, const RowMatrix& asked, double weight)
 class Separation {
  public:
   /// `present`: of the poses at hand, in coordinates of the model that they know to one unit (its own products are not
-  /// used); `per_pose`: the mean of a further pose; `precision`: of what is believed of the asked columns' coefficients,
-  /// one over their variance (k).
+  /// used); `per_pose`: the mean of a further pose; `precision`: of what is believed of the asked columns'
+  /// coefficients, one over their variance (k).
   Separation(const Products& present, const Products& per_pose, const Eigen::VectorXd& precision);
 
   /// How many columns are asked about.
   Eigen::Index columns() const { return asked_.cols(); }
 
-  /// The sum of squares that the model and the columns `others` leave of column `signal`, at best, after `poses` further
-  /// ones: its noncentrality. It never falls as poses are added.
+  /// The sum of squares that the model and the columns `others` leave of column `signal`, at best, after `poses`
+  /// further ones: its noncentrality. It never falls as poses are added.
   double information(double poses, const std::vector<Eigen::Index>& others, Eigen::Index signal) const;
 
   /// How many further poses tell the signal from the others by themselves, one-sided at 5 % with power 0.9, given all
@@ -36,8 +36,8 @@ class Separation {
   std::optional<int> poses_needed(const std::vector<Eigen::Index>& others, Eigen::Index signal, int most) const;
 
  private:
-  Eigen::VectorXd spread_;                ///< of the model's products per pose: its eigenvalues
-  Eigen::MatrixXd present_, per_pose_;    ///< cross products along them
+  Eigen::VectorXd spread_;              ///< of the model's products per pose: its eigenvalues
+  Eigen::MatrixXd present_, per_pose_;  ///< cross products along them
   Eigen::MatrixXd asked_, asked_per_pose_;
 };
 

@@ -28,6 +28,15 @@ bool loop_added(const JsonValue& report) {
   return std::ranges::any_of(rounds, [](const JsonValue& round) { return round["verdict"].text() == "added"; });
 }
 
+/// What the stage of everything declared adds to the fit.
+const char* declared_stage(const JsonValue& report) {
+  const std::vector<JsonValue> joints = report["joints"].elements();
+  const bool corrected =
+      std::ranges::any_of(joints, [](const JsonValue& joint) { return joint["kept"].truth().value_or(false); });
+  const std::string stopped = report["stopped"].text();
+  return corrected || stopped.empty() || stopped == "not_run" ? "with joint corrections" : "start of the closed loop";
+}
+
 }  // namespace
 
 const Stage* ErrorStages::find(const std::string& key) const {
@@ -40,6 +49,7 @@ ErrorStages error_stages(const JsonValue& report) {
   const JsonValue error_mm = report["error_mm"];
   for (const auto& [key, title] : kStages) {
     Stage stage{.key = key, .title = title, .sets = {}};
+    if (stage.key == "before") stage.title = declared_stage(report);
     for (std::size_t set = 0; set < ErrorStages::kSets.size(); ++set) {
       stage.sets[set] = figures(error_mm[key][ErrorStages::kSets[set]]);
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -30,11 +31,18 @@ std::string heading(const char* what) {
   return fmt::format("  {:<38}{:>9}{:>9}{:>9}{:>9}\n", what, "mean", "rms", "P95", "max");
 }
 
+/// What the stage of everything declared adds to the fit.
+const char* declared_stage(const CalibrationReport& report) {
+  const bool corrected = std::ranges::any_of(report.joints, [](const JointLine& line) { return line.summary.kept; });
+  return corrected || report.loop.stopped == StopReason::not_run ? "with joint corrections"
+                                                                 : "start of the closed loop";
+}
+
 std::string stages(const CalibrationReport& report) {
   std::vector<std::pair<const char*, const ErrorBySet*>> rows{{"nominal", &report.nominal},
                                                               {"base fitted", &report.registered},
                                                               {"declared model fitted", &report.declared},
-                                                              {"with joint corrections", &report.before}};
+                                                              {declared_stage(report), &report.before}};
   if (loop_added(report.loop)) rows.emplace_back("with the effects found", &report.after);
   std::string text;
   for (const NamedSet& set : kSets) {

@@ -11,11 +11,11 @@
 
 namespace demecal {
 
-/// The PUMA 761 with weight, joints 2 and 3 kept within `elbow_deg` (lower and upper limits of both).
-inline Robot laden_puma(std::array<double, 4> elbow_deg) {
+/// The PUMA 761 with so many times its weight, joints 2 and 3 kept within `elbow_deg` (lower and upper limits of both).
+inline Robot laden_puma(std::array<double, 4> elbow_deg, double weight = 1.0) {
   Robot robot = puma_761();
   const std::array<double, 6> masses_kg{150, 110, 60, 12, 6, 2};
-  for (const double mass_kg : masses_kg) robot.masses.push_back({mass_kg, {0.0, 0.0, 0.02}});
+  for (const double mass_kg : masses_kg) robot.masses.push_back({weight * mass_kg, {0.0, 0.0, 0.02}});
   robot.masses[1].centre_m = {-0.38, 0.0, 0.02};
   for (std::size_t i = 0; i < 4; ++i) {
     Joint& joint = robot.chain.joints[1 + i / 2];

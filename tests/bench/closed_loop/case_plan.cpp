@@ -34,30 +34,21 @@ const std::vector<std::string>& turn() {
 }  // namespace
 
 // Smooth errors of a joint hold its offset, gain and eccentricity: these are undeclared only where the arm has no such
-// errors and no corrections are declared. Geometry is never declared, so that it competes everywhere, and the instrument's
-// scale shows beside it.
+// errors and no corrections are declared. Geometry is never declared, so that it competes everywhere, and the
+// instrument's scale shows beside it.
 const std::vector<KindRow>& kind_table() {
   static const DeclaredModel bare = declared(true, false, false), full = declared(true, true, true);
   static const std::vector<KindRow> rows{
       // kind, declared, smooth errors, in pairs
-      {"joint_offset", bare, false, false},
-      {"geometry", full, true, true},
-      {"gain", bare, false, false},
-      {"eccentricity", bare, false, false},
-      {"gear_harmonic", full, true, true},
-      {"compliance", full, true, true},
-      {"link_bending", full, true, true},
-      {"coupling", full, true, true},
-      {"backlash", full, true, true},
-      {"hysteresis", full, true, true},
-      {"axis_wobble", full, true, true},
-      {"thermal_offset", full, true, true},
-      {"thermal_length", full, true, true},
-      {"drift", full, true, true},
-      {"sensor_scale", full, true, true},
-      {"tool", declared(false, true, true), true, false},
-      {kPair, full, true, false},
-      {kOutside, full, true, false},
+      {"joint_offset", bare, false, false}, {"geometry", full, true, true},
+      {"gain", bare, false, false},         {"eccentricity", bare, false, false},
+      {"gear_harmonic", full, true, true},  {"compliance", full, true, true},
+      {"link_bending", full, true, true},   {"coupling", full, true, true},
+      {"backlash", full, true, true},       {"hysteresis", full, true, true},
+      {"axis_wobble", full, true, true},    {"thermal_offset", full, true, true},
+      {"thermal_length", full, true, true}, {"drift", full, true, true},
+      {"sensor_scale", full, true, true},   {"tool", declared(false, true, true), true, false},
+      {kPair, full, true, false},           {kOutside, full, true, false},
   };
   return rows;
 }

@@ -42,7 +42,8 @@ struct CasePlan {
 /// Kinds follow each other in turn (pairs and formulas twice), and arms change from turn to turn.
 CasePlan plan_of(int number);
 
-/// The cases with numbers 0 .. cases - 1 of a benchmark of all kinds; with a kind named, the first `cases` of that kind.
+/// The cases with numbers 0 .. cases - 1 of a benchmark of all kinds; with a kind named, the first `cases` of that
+/// kind.
 std::vector<CasePlan> plans(int cases, const std::string& kind);
 
 }  // namespace demecal::bench

@@ -35,8 +35,8 @@ std::vector<JointError> smooth_errors(int joints, RandomStream random) {
   for (int joint = 0; joint < joints; ++joint) {
     const double wave = random.real(-kLargestWave_rad, kLargestWave_rad), phase = random.real(0.0, 3.0);
     const double slope = random.real(-kLargestSlope, kLargestSlope);
-    const std::string text = std::to_string(wave) + " * SIN(theta + " + std::to_string(phase) + ") + " +
-                             std::to_string(slope) + " * theta";
+    const std::string text =
+        std::to_string(wave) + " * SIN(theta + " + std::to_string(phase) + ") + " + std::to_string(slope) + " * theta";
     errors.push_back({joint, parse(text)});
   }
   return errors;
@@ -61,14 +61,14 @@ Scenario clean_scene(const CasePlan& plan, const Robot& robot) {
   scenario.by_joints = true;
   scenario.joint_ranges = moderate_ranges(robot.chain);
   scenario.poses = kPoses;
-  scenario.sensor_from_base = sensor_place({scenario.seed, kPlace});
+  scenario.sensor_from_base = sensor_place(RandomStream{scenario.seed, kPlace});
   scenario.noise_m = kNoise_m;
   scenario.payloads_kg = {0.0, 3.0};
   scenario.seconds_per_pose = 20.0;
   scenario.temperature = TemperatureCourse{.lower_celsius = 18.0, .upper_celsius = 30.0, .period_s = 1700.0};
   scenario.reference_celsius = 24.0;
   if (row_of(plan.kind).smooth_errors) {
-    scenario.joint_errors = smooth_errors(robot.chain.size(), {scenario.seed, kSmooth});
+    scenario.joint_errors = smooth_errors(robot.chain.size(), RandomStream{scenario.seed, kSmooth});
   }
   return scenario;
 }
@@ -88,8 +88,7 @@ double noise_floor_mm(const Scenario& scenario, const DataSet& data) {
   double squares = 0.0;
   for (const std::size_t index : accept) {
     const MeasuredPose& pose = data.poses[index];
-    const Eigen::Isometry3d true_pose =
-        robot.true_pose({pose.joints, *pose.approach, *pose.payload_kg, *pose.time_s});
+    const Eigen::Isometry3d true_pose = robot.true_pose({pose.joints, *pose.approach, *pose.payload_kg, *pose.time_s});
     squares += (*pose.position_m - scaled(true_pose.translation(), scenario.sensor_scale)).squaredNorm();
   }
   return 1e3 * std::sqrt(squares / static_cast<double>(accept.size()));

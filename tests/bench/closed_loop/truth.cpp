@@ -42,7 +42,8 @@ bool inject_gears(Scenario& scenario, const Effect& truth, const Values& of) {
   } else if (truth.kind == "gain") {
     scenario.gains.push_back({joint, truth.value(0)});
   } else if (truth.kind == "eccentricity") {
-    scenario.eccentricities.push_back({joint, static_cast<int>(truth.setting("order")), of("cosine_rad"), of("sine_rad")});
+    scenario.eccentricities.push_back(
+        {joint, static_cast<int>(truth.setting("order")), of("cosine_rad"), of("sine_rad")});
   } else if (truth.kind == "gear_harmonic") {
     scenario.gear_harmonics.push_back({joint, truth.setting("ratio"), of("cosine_rad"), of("sine_rad")});
   } else if (truth.kind == "coupling") {
@@ -101,8 +102,8 @@ bool inject_instrument(Scenario& scenario, const Effect& truth, const Values& of
 
 void inject(Scenario& scenario, const Effect& truth) {
   const Values of = [&](std::string_view name) { return named_value(truth, scenario.robot, name); };
-  const bool known = inject_gears(scenario, truth, of) || inject_arm(scenario, truth, of) ||
-                     inject_instrument(scenario, truth, of);
+  const bool known =
+      inject_gears(scenario, truth, of) || inject_arm(scenario, truth, of) || inject_instrument(scenario, truth, of);
   DEMECAL_CHECK(known, truth.kind);
 }
 

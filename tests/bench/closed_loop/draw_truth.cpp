@@ -1,0 +1,148 @@
+#include "draw_truth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/judgement.hpp"
+#include "truth.hpp"
+
+namespace demecal::bench {
+namespace {
+
+constexpr double kLeastFactor = 2.0, kMostFactor = 4.0;
+constexpr int kLowestRatio = 10, kHighestRatio = 160;
+constexpr double kLargestTurn_rad = 0.01, kLargestShift_m = 0.01;
+
+bool is_simple_form(const Effect& effect) {
+  if (effect.kind == "compliance") return effect.form == "masses";
+  return effect.kind != "backlash" || effect.form == "approach";
+}
+
+/// Those of a kind in a random order.
+std::vector<NotFound> shuffled(const std::string& kind, const std::vector<NotFound>& detectable, RandomStream& random) {
+  std::vector<NotFound> all;
+  std::ranges::copy_if(detectable, std::back_inserter(all),
+                       [&](const NotFound& one) { return one.effect.kind == kind && is_simple_form(one.effect); });
+  for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[random.index(i)]);
+  return all;
+}
+
+int another_joint(int joint, int joints, RandomStream& random) {
+  return (joint + 1 + static_cast<int>(random.index(static_cast<std::size_t>(joints - 1)))) % joints;
+}
+
+void draw_settings(Effect& effect, const Robot& robot, RandomStream& random) {
+  effect.ranges.clear();
+  if (effect.kind == "gear_harmonic") {
+    const int ratio = kLowestRatio + static_cast<int>(random.index(kHighestRatio - kLowestRatio + 1));
+    effect.settings["ratio"] = ratio;
+  }
+  if (effect.kind == "eccentricity" || effect.kind == "axis_wobble") {
+    effect.settings["order"] = random.chance(0.5) ? 1.0 : 2.0;
+  }
+  if (effect.kind != "coupling") return;
+  effect.settings["from"] = another_joint(effect.joint, robot.chain.size(), random) + 1.0;
+  effect.form = random.chance(0.5) ? "linear" : "harmonic";
+}
+
+/// Friction that half again to one and a half times as much of its own comes on top of under a typical load.
+std::vector<double> friction_direction(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states,
+                                       RandomStream& random) {
+  std::vector<double> torques;
+  for (const ArmState& state : states) torques.push_back(std::abs(state.torque(robot.chain, effect.joint)));
+  std::ranges::sort(torques);
+  const double sign = random.chance(0.5) ? 1.0 : -1.0;
+  return {sign, sign * random.real(0.5, 1.5) / torques[torques.size() / 2]};
+}
+
+std::vector<double> direction(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states,
+                              RandomStream& random) {
+  if (effect.kind == "hysteresis") return friction_direction(effect, robot, states, random);
+  std::vector<double> values(law_of(effect).coefficients(effect, robot).size());
+  double square = 0.0;
+  for (double& value : values) {
+    value = random.normal();
+    square += value * value;
+  }
+  for (double& value : values) value /= std::sqrt(square);
+  return values;
+}
+
+void scale(Effect& effect, double factor) {
+  for (double& value : effect.values) value *= factor;
+}
+
+/// The coupling that an effect is measured by, one unit of it.
+double reference_spread(Effect reference, const Robot& robot, const std::vector<ArmState>& states) {
+  reference.ranges.clear();
+  reference.values = {1.0};
+  return spread(joint_motion(reference, robot, states));
+}
+
+bool is_possible(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  const LargestMotion largest = largest_motion(effect, robot, states);
+  return largest.turn_rad < kLargestTurn_rad && largest.shift_m < kLargestShift_m;
+}
+
+/// Formulas of the joint's own value and another's that no law of the catalogue writes.
+Effect draw_formula(int joint, const Robot& robot, RandomStream& random) {
+  const std::string own = 'q' + std::to_string(joint + 1);
+  const std::string other = 'q' + std::to_string(another_joint(joint, robot.chain.size(), random) + 1);
+  const std::array<std::string, 6> texts{
+      "SIN(" + other + " + 2 * " + own + ')',   own + " * COS(" + other + ')', "SIN(" + own + ") * SIN(" + other + ')',
+      "COS(" + own + " - " + other + " + 0.7)", "s * COS(" + other + ')',      own + " * " + other};
+  Effect effect{.kind = "symbolic", .joint = joint};
+  effect.formula = parse(texts[random.index(texts.size())], symbolic_variables(robot.chain));
+  effect.values = {random.chance(0.5) ? 1.0 : -1.0};
+  return effect;
+}
+
+Effect draw_at(const std::string& kind, const NotFound& measure, const Robot& robot,
+               const std::vector<ArmState>& states, RandomStream& random) {
+  const double size = random.real(kLeastFactor, kMostFactor) * measure.smallest_detectable;
+  Effect effect = measure.effect;
+  if (kind == kOutside) {
+    effect = draw_formula(measure.effect.joint, robot, random);
+  } else {
+    draw_settings(effect, robot, random);
+    effect.values = direction(effect, robot, states, random);
+  }
+  const bool by_reference = kind == kOutside || effect.form == "harmonic";
+  const double unit =
+      by_reference ? reference_spread(measure.effect, robot, states) / spread(joint_motion(effect, robot, states))
+                   : 1.0;
+  scale(effect, size * unit);
+  return effect;
+}
+
+}  // namespace
+
+std::optional<Effect> draw_truth(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
+                                 const std::vector<ArmState>& states, RandomStream& random) {
+  for (const NotFound& measure : shuffled(kind == kOutside ? "coupling" : kind, detectable, random)) {
+    Effect effect = draw_at(kind, measure, robot, states, random);
+    if (is_possible(effect, robot, states)) return effect;
+  }
+  return std::nullopt;
+}
+
+std::vector<Effect> draw_truths(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
+                                const std::vector<ArmState>& states, RandomStream& random) {
+  std::vector<std::string> kinds{kind};
+  if (kind == kPair) {
+    kinds.clear();
+    for (const KindRow& row : kind_table()) {
+      if (row.in_pairs) kinds.push_back(row.kind);
+    }
+    for (std::size_t i = kinds.size(); i > 1; --i) std::swap(kinds[i - 1], kinds[random.index(i)]);
+  }
+  std::vector<Effect> truths;
+  for (const std::string& one : kinds) {
+    if (truths.size() == (kind == kPair ? 2u : 1u)) break;
+    if (auto truth = draw_truth(one, detectable, robot, states, random)) truths.push_back(std::move(*truth));
+  }
+  return truths;
+}
+
+}  // namespace demecal::bench

@@ -1,0 +1,34 @@
+// One case from its plan to its figures: the clean twin, the effect drawn by it, and what the closed loop made of it.
+#pragma once
+
+#include <map>
+
+#include "case_plan.hpp"
+#include "score.hpp"
+
+namespace demecal::bench {
+
+/// What one run of the loop left.
+struct RunFigures {
+  Score score;
+  double before_over_floor = 0.0;  ///< rms of the accept poses over that of their noise, before the loop
+  double after_over_floor = 0.0;
+  std::vector<Round> rounds;
+  std::vector<Effect> final_effects;
+  double seconds = 0.0;
+};
+
+struct CaseFigures {
+  CasePlan plan;
+  std::vector<Effect> truths;  ///< empty: nothing of the kind can be seen, and the case does not count
+  RunFigures clean;            ///< of the twin without the effect
+  RunFigures run;
+};
+
+/// Robots by file name.
+using Robots = std::map<std::string, Robot>;
+
+/// `only_clean` leaves the effect's own run out.
+CaseFigures run_case(const CasePlan& plan, const Robots& robots, bool only_clean);
+
+}  // namespace demecal::bench

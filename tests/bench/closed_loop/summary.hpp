@@ -1,0 +1,36 @@
+// All cases of a kind in one row, and all rows in the figures that the loop is held to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run_case.hpp"
+
+namespace demecal::bench {
+
+struct Summary {
+  std::string kind;
+  int cases = 0;
+  int eligible = 0;        ///< cases whose effect these poses can tell from all others
+  int named_eligible = 0;  ///< of them, named rightly
+  int named = 0;           ///< of all
+  int in_class = 0;        ///< of all
+  int with_false = 0;      ///< cases with an effect added that is not true
+  int false_additions = 0;
+  std::vector<double> before_over_floor{}, after_over_floor{};  ///< one a case
+
+  void take(const RunFigures& figures);
+  void take(const Summary& other);
+};
+
+/// One row a kind of the table with cases in it, in the table's order, then `clean`, then `single`: all kinds with one
+/// undeclared effect of the catalogue together.
+std::vector<Summary> summaries(const std::vector<CaseFigures>& cases);
+
+/// part / whole; 1 where the whole is nothing.
+double share(int part, int whole);
+
+/// Interpolated linearly between order statistics, as the report's 95th percentile is; NaN of nothing.
+double quantile(std::vector<double> values, double share);
+
+}  // namespace demecal::bench

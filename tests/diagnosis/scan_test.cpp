@@ -1,0 +1,180 @@
+// The scan over candidates: its scores against refits, and its null distribution against pure noise.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/scan.hpp"
+#include "measured_arm.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::Each;
+using ::testing::FloatNear;
+
+/// An arm, its field, and what is tried on it.
+struct Bench {
+  KnownArm arm;
+  ResidualField field;
+  EffectColumns columns;
+  std::vector<double> name_nats;
+};
+
+Bench bench(RandomStream& stream, int poses) {
+  Bench made{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}};
+  measure_anyhow(made.arm, stream, {.noise_m = 5e-5}, poses);
+  made.field = field_of(made.arm, kPlacedAndZeroed);
+  Evidence evidence = full_evidence(made.arm.data.robot);
+  evidence.highest_ratio = 6;
+  std::vector<Effect> effects;
+  for (const char* kind : {"joint_offset", "compliance", "backlash", "gear_harmonic", "axis_wobble", "drift"}) {
+    for (Effect& effect : find_law(kind)->proposals(made.arm.data.robot, evidence))
+      effects.push_back(std::move(effect));
+  }
+  made.columns = columns_of(effects, made.arm.data.robot, made.field);
+  for (std::size_t i = 0; i < effects.size(); ++i) made.name_nats.push_back(stream.real(0.0, 5.0));
+  return made;
+}
+
+double best_fall(const Scan& scan) {
+  double best = 0.0;
+  for (const Score& score : scan.scores()) best = std::max(best, score.fall_nats);
+  return best;
+}
+
+double p_value(const std::vector<double>& maxima, double fall) {
+  const auto beyond = std::ranges::count_if(maxima, [&](double each) { return each >= fall; });
+  return (1.0 + static_cast<double>(beyond)) / (1.0 + static_cast<double>(maxima.size()));
+}
+
+TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
+  RandomStream stream{84, 1};
+  const Bench at = bench(stream, 40);
+  const Projection model = projection_of(at.field);
+  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  ASSERT_EQ(scores.size(), at.name_nats.size());
+  int new_ones = 0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const RowMatrix dense = at.columns.dense(at.field, i);
+    const Projection::Trial trial = model.trial(dense, dense);
+    EXPECT_EQ(scores[i].rank, trial.rank);
+    EXPECT_NEAR(scores[i].drop, trial.drop, 1e-6 * (1 + trial.drop));
+    const double left = model.left().squaredNorm();
+    const double nats = trial.rank == 0 ? 0.0
+                                        : 0.5 * 120 * std::log(left / (left - trial.drop)) -
+                                              0.5 * static_cast<double>(trial.rank) * std::log(40.0) - at.name_nats[i];
+    EXPECT_NEAR(scores[i].fall_nats, nats, 1e-6 * (1 + std::abs(nats)));
+    new_ones += trial.rank > 0;
+  }
+  EXPECT_GT(new_ones, 30);
+  EXPECT_LT(new_ones, static_cast<int>(scores.size()));  // joint offsets are declared
+}
+
+TEST(Scan, SmallestIsTheInverseOfTheLargestVarianceOfACoefficient) {
+  RandomStream stream{84, 2};
+  const Bench at = bench(stream, 40);
+  const Projection model = projection_of(at.field);
+  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const RowMatrix dense = at.columns.dense(at.field, i);
+    if (scores[i].rank < dense.cols()) continue;
+    const RowMatrix left = model.trial(dense, dense).fitted;
+    const Eigen::MatrixXd covariance = (left.transpose() * left).inverse();
+    EXPECT_NEAR(scores[i].smallest * covariance.diagonal().maxCoeff(), 1.0, 1e-3);
+  }
+}
+
+TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
+  RandomStream stream{84, 3};
+  const Bench at = bench(stream, 40);
+  Projection model = projection_of(at.field);
+  Scan scan(at.columns, at.name_nats, at.field, model);
+  for (const std::size_t added : {8, 20, 31}) {
+    const RowMatrix dense = at.columns.dense(at.field, added);
+    model.add(model.trial(dense, dense));
+    scan.follow(at.columns, at.field, model);
+    const std::vector<Score> followed = scan.scores();
+    const std::vector<Score> anew = Scan(at.columns, at.name_nats, at.field, model).scores();
+    for (std::size_t i = 0; i < anew.size(); ++i) {
+      EXPECT_EQ(followed[i].rank, anew[i].rank);
+      EXPECT_NEAR(followed[i].drop, anew[i].drop, 1e-8 * (1 + anew[i].drop));
+      EXPECT_NEAR(followed[i].fall_nats, anew[i].fall_nats, 1e-8 * (1 + std::abs(anew[i].fall_nats)));
+    }
+    EXPECT_EQ(followed[added].rank, 0);
+  }
+}
+
+TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
+  RandomStream stream{84, 4};
+  const Bench at = bench(stream, 40);
+  const Projection model = projection_of(at.field);
+  const Scan scan(at.columns, at.name_nats, at.field, model);
+  const RowMatrix named = at.columns.dense(at.field, 12);
+  const RowMatrix direction = model.trial(named, named).fitted.leftCols(1);
+  const std::vector<double> cosines =
+      scan.cosines(at.columns.transposed_times(at.field, direction), direction.squaredNorm());
+  EXPECT_NEAR(cosines[12], 1.0, 1e-6);
+  for (std::size_t i = 0; i < cosines.size(); ++i) {
+    const RowMatrix dense = at.columns.dense(at.field, i);
+    const Projection::Trial trial = model.trial(dense, dense);
+    if (trial.rank == 0) continue;
+    const RowMatrix left = trial.fitted * trial.to_basis;
+    EXPECT_NEAR(cosines[i], (left.transpose() * direction).norm() / direction.norm(), 1e-5);
+  }
+}
+
+TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
+  RandomStream stream{84, 5};
+  Bench at = bench(stream, 40);
+  constexpr int kDraws = 200;
+  int rare = 0;
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    renew_noise(at.field, stream);
+    const Projection model = projection_of(at.field);
+    const Scan scan(at.columns, at.name_nats, at.field, model);
+    const std::vector<double> maxima =
+        scan.null_maxima(at.columns, at.field, model, 99, RandomStream{84, 6, static_cast<std::uint64_t>(draw)});
+    const double p = p_value(maxima, best_fall(scan));
+    rare += p <= 0.05;
+    sum += p;
+  }
+  EXPECT_GE(rare, 2);
+  EXPECT_LE(rare, 22);
+  EXPECT_NEAR(sum / kDraws, 0.5, 0.1);
+}
+
+TEST(Scan, NullIsAFunctionOfItsSeedAndAscends) {
+  RandomStream stream{84, 7};
+  const Bench at = bench(stream, 20);
+  const Projection model = projection_of(at.field);
+  const Scan scan(at.columns, at.name_nats, at.field, model);
+  const std::vector<double> maxima = scan.null_maxima(at.columns, at.field, model, 70, RandomStream{1});
+  EXPECT_EQ(maxima.size(), 70u);
+  EXPECT_TRUE(std::ranges::is_sorted(maxima));
+  EXPECT_EQ(maxima, scan.null_maxima(at.columns, at.field, model, 70, RandomStream{1}));
+  EXPECT_NE(maxima, scan.null_maxima(at.columns, at.field, model, 70, RandomStream{2}));
+}
+
+TEST(Scan, OnlyPosesWithEquallyManyRowsChangePlaces) {
+  RandomStream stream{84, 8};
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
+  measure_anyhow(arm, stream, {.noise_m = 5e-5}, 1);
+  measure_anyhow(arm, stream, {.noise_m = 5e-5, .noise_rad = 1e-4, .orientation = true}, 1);
+  arm.data.anchors_m = {random_vector(stream, 3.0), random_vector(stream, 3.0)};
+  measure_anyhow(arm, stream, {.noise_m = 5e-5, .position = false}, 1);
+  const ResidualField field = field_of(arm, {});
+  const EffectColumns columns =
+      columns_of({{.kind = "gain", .joint = 1}, {.kind = "gain", .joint = 3}}, arm.data.robot, field);
+  const Projection model = projection_of(field);
+  const Scan scan(columns, {-10.0, -10.0}, field, model);
+  const auto best = static_cast<float>(best_fall(scan));
+  EXPECT_GT(best, 5.0F);
+  const std::vector<double> maxima = scan.null_maxima(columns, field, model, 20, RandomStream{1});
+  EXPECT_THAT(std::vector<float>(maxima.begin(), maxima.end()), Each(FloatNear(best, 1e-3F)));
+}
+
+}  // namespace
+}  // namespace demecal
