@@ -24,6 +24,10 @@ class Passes {
   bool look(const RoundWatcher& watch);
   bool evolve_anew(const Evolve& evolve);
   bool is_better(const CorrectedRobot& robot) const;
+  bool may_look_again() const {
+    const auto held = static_cast<int>(closed_.calibration.robot.effects.size());
+    return pass_ < kMostPasses && held < job_.closed_loop.max_effects;
+  }
 
   const DataSet& data_;
   const Job& job_;
@@ -81,7 +85,7 @@ bool Passes::evolve_anew(const Evolve& evolve) {
 }
 
 ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch) {
-  while (look(watch) && job_.declared.joint_corrections && evolve_anew(evolve) && pass_ < kMostPasses) ++pass_;
+  while (look(watch) && job_.declared.joint_corrections && evolve_anew(evolve) && may_look_again()) ++pass_;
   tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
   if (!added_any(closed_.loop)) closed_.before = closed_.calibration.robot;
   return std::move(closed_);

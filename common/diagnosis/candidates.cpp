@@ -23,6 +23,14 @@ bool is_declared(std::string_view kind, const DeclaredModel& declared) {
          (kind == "joint_offset" && declared.joint_offset) || (kind == "geometry" && declared.geometry);
 }
 
+/// Whether a declared correction of the joint holds the effect already: a smooth function of that joint alone.
+bool is_in_correction(const Effect& effect, const DeclaredModel& declared) {
+  constexpr double kSmoothRatio = 3.0;
+  if (!declared.joint_corrections) return false;
+  if (effect.kind == "gear_harmonic") return effect.setting("ratio") <= kSmoothRatio;
+  return effect.kind == "gain" || effect.kind == "eccentricity" || effect.kind == "joint_offset";
+}
+
 bool has_kind(const std::vector<Candidate>& candidates, std::string_view kind) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.effect.kind == kind; });
 }
@@ -62,6 +70,7 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
                                           : std::log(static_cast<double>(proposals.size())) +
                                                 (symbolic ? kOutsideCatalogue_nats : 0.0);
     for (Effect& effect : proposals) {
+      if (is_in_correction(effect, declared)) continue;
       set_measured_ranges(effect, robot, evidence);
       candidates.push_back({std::move(effect), Disguise::none, nats});
     }

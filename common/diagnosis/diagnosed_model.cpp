@@ -30,7 +30,7 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
   std::vector<std::vector<double>> squares(robot.effects.size());
   std::vector<UnitMotion> motions;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
-    squares[i].assign(robot.effects[i].values.size(), 0.0);
+    squares[i].assign(law_of(robot.effects[i]).coefficients(robot.effects[i], described).size(), 0.0);
     for (const ArmState& state : states) {
       motions.clear();
       append_unit_motions(robot.effects[i], described, state, motions);

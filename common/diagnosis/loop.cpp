@@ -66,8 +66,8 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   const bool formulas = options_.formulas && of_.fitted.size() <= kMostPosesForFormulas;
   candidates_ = candidates_for(of_.data.robot, evidence, of_.declared, {options_.kinds, formulas, options_.decoys});
   const auto decoys = std::ranges::find_if(candidates_, [](const Candidate& c) { return c.disguise != Disguise::none; });
-  for (Candidate& candidate : std::ranges::subrange(candidates_.insert(decoys, options_.evolved.begin(), options_.evolved.end()), candidates_.end())) {
-    if (candidate.disguise != Disguise::none) break;
+  const auto evolved = candidates_.insert(decoys, options_.evolved.begin(), options_.evolved.end());
+  for (Candidate& candidate : std::ranges::subrange(evolved, evolved + std::ssize(options_.evolved))) {
     set_measured_ranges(candidate.effect, of_.data.robot, evidence);
   }
   const std::vector<ArmState>& states = at.fitted.states;
@@ -137,7 +137,7 @@ void ClosedLoop::note_decoys(const Group& group, const GroupOutcome& outcome) {
 
 StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
   if (last.decoy_won) return StopReason::decoy;
-  return last.luck && p_structure_ > options_.family_error ? StopReason::no_structure : StopReason::no_gain;
+  return last.luck ? StopReason::no_structure : StopReason::no_gain;
 }
 
 /// Whether the group lowered the validation error by so much that another one may be worth its while.
@@ -158,10 +158,7 @@ bool ClosedLoop::run_group(const Linearised& at) {
   const bool added = !outcome.added.empty();
   model_.robot.effects.insert(model_.robot.effects.end(), outcome.added.begin(), outcome.added.end());
   const bool more = added && !outcome.decoy_won && !outcome.stopped && gained_enough(outcome);
-  if (!more) {
-    p_structure_ = structure(at);
-    outcome_.stopped = reason_to_stop(outcome);
-  }
+  if (!more) outcome_.stopped = reason_to_stop(outcome);
   std::ranges::move(outcome.rounds, std::back_inserter(outcome_.rounds));
   return more;
 }
@@ -174,6 +171,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   make_candidates(at);
   measure_pure_error(at);
   outcome_.permutations = options_.permutations;
+  outcome_.stopped = StopReason::no_gain;
   p_structure_ = structure(at);
   for (group_ = 1; group_ <= kMostGroups; ++group_) {
     if (static_cast<int>(model_.robot.effects.size()) >= options_.max_effects) {
@@ -186,8 +184,12 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
       model_ = refined(of_, std::move(model_), kStepsAgain);
       at = take_back_needless(of_, model_, candidates_, outcome_);
       result.model = model_;
+      p_structure_ = structure(at);
     }
     if (!more) break;
+  }
+  if (outcome_.stopped == StopReason::no_structure && p_structure_ <= options_.family_error) {
+    outcome_.stopped = StopReason::no_gain;
   }
   measure_pure_error(at);
   finish(at);

@@ -25,6 +25,7 @@ Tree unit_variable(const Interval& range) {
 
 /// Legendre polynomial of `degree` in `t` by Bonnet's recurrence on its coefficients, as a Horner scheme.
 Tree legendre(int degree, const Tree& t) {
+  if (degree == 0) return constant_tree(1.0);
   std::vector<double> before{1.0}, now{0.0, 1.0};
   for (int n = 1; n < degree; ++n) {
     std::vector<double> next(static_cast<std::size_t>(n) + 2, 0.0);
@@ -42,7 +43,7 @@ Tree legendre(int degree, const Tree& t) {
 
 void add_terms(SmoothCorrections& smooth, int joint, const Interval& range) {
   const Tree t = unit_variable(range);
-  for (int degree = 1; degree <= kHighestDegree; ++degree) smooth.terms.push_back({joint, legendre(degree, t)});
+  for (int degree = 0; degree <= kHighestDegree; ++degree) smooth.terms.push_back({joint, legendre(degree, t)});
   for (int n = 1; n <= kHighestHarmonic; ++n) {
     const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
     smooth.terms.push_back({joint, apply(Primitive::cosine, angle)});

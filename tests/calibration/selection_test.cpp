@@ -81,5 +81,19 @@ TEST(Selection, DoesNotConsiderACandidateWithAPoleInTheRange) {
   EXPECT_FALSE(selection.choices[0].kept);
 }
 
+TEST(Selection, CorrectionsFromElsewhereCompeteAndBelongTogether) {
+  const DataSet data =
+      measure(true_puma({"", "0.001*SIN(theta)", "0.0012*COS(theta)", "", "", ""}), 90, 5e-5, 5, false);
+  std::vector<JointCandidates> joints{candidates(1, {"0.0003"}), candidates(2, {"0.002*theta"})};
+  const Interval range{-M_PI, M_PI};
+  joints[0].others = {JointCorrection(parse("0.001*SIN(theta)"), {}, range), JointCorrection{}};
+  joints[1].others = {JointCorrection(parse("0.0012*COS(theta)"), {}, range), JointCorrection{}};
+  const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
+                                                 poses_of(data, PoseSet::validation), nominal_robot(data), joints);
+  EXPECT_EQ(selection.robot.corrections[1].formula(), joints[0].others[0].formula());
+  EXPECT_EQ(selection.robot.corrections[2].formula(), joints[1].others[0].formula());
+  EXPECT_EQ(selection.choices[0].candidates, 3U);
+}
+
 }  // namespace
 }  // namespace demecal

@@ -5,7 +5,7 @@
 
 #include "config/load_scenario.hpp"
 #include "effects/measurement.hpp"
-#include "in_memory_fleet.hpp"
+#include "coordinator/in_memory_fleet.hpp"
 #include "simulation/simulated_robot.hpp"
 
 namespace demecal {

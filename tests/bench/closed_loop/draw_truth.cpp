@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "diagnosis/judgement.hpp"
 #include "truth.hpp"
 
 namespace demecal::bench {
@@ -81,8 +80,16 @@ double reference_spread(Effect reference, const Robot& robot, const std::vector<
 }
 
 bool is_possible(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
-  const LargestMotion largest = largest_motion(effect, robot, states);
-  return largest.turn_rad < kLargestTurn_rad && largest.shift_m < kLargestShift_m;
+  std::vector<UnitMotion> units;
+  for (const ArmState& state : states) {
+    units.clear();
+    append_unit_motions(effect, robot, state, units);
+    for (const UnitMotion& unit : units) {
+      const double size = std::abs(unit.size * effect.value(static_cast<std::size_t>(unit.coefficient)));
+      if (size > (unit.axis < 3 ? kLargestShift_m : kLargestTurn_rad)) return false;
+    }
+  }
+  return true;
 }
 
 /// Formulas of the joint's own value and another's that no law of the catalogue writes.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "coordinator/calibrate.hpp"
-#include "coordinator/in_memory_run.hpp"
+#include "in_memory_run.hpp"
 
 namespace demecal {
 

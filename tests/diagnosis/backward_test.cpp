@@ -1,0 +1,104 @@
+// The model refined about an effect, and the backward step that takes needless effects out of it.
+#include "diagnosis/backward.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measured_arm.hpp"
+
+namespace demecal {
+namespace {
+
+const Effect kBacklash{.kind = "backlash", .joint = 1, .settings = {}, .form = "approach", .values = {4e-4}};
+const Effect kHeat{.kind = "thermal_offset", .joint = 3, .settings = {{"reference_celsius", 28}}, .values = {0.0}};
+const Effect kGear{.kind = "gear_harmonic", .joint = 2, .settings = {{"ratio", 9}}, .values = {0.0, 0.0}};
+
+/// An arm with backlash in joint 2, measured 80 times.
+KnownArm loose_arm(RandomStream& stream) {
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
+  arm.truth.effects = {kBacklash};
+  measure_anyhow(arm, stream, {.noise_m = 5e-5}, 80);
+  return arm;
+}
+
+/// The true arm with these effects instead of its own, at the least-squares values.
+DiagnosedModel model_with(const DiagnosisData& of, const KnownArm& arm, std::vector<Effect> effects) {
+  DiagnosedModel model{arm.truth, smooth_corrections(arm.data, of.fitted, arm.truth, false), kScales};
+  model.robot.effects = std::move(effects);
+  return refined(of, std::move(model), 4);
+}
+
+std::vector<Candidate> as_candidates(const std::vector<Effect>& effects) {
+  std::vector<Candidate> candidates;
+  for (const Effect& effect : effects) candidates.push_back({.effect = effect, .name_nats = 2.0});
+  return candidates;
+}
+
+TEST(Refined, FindsCoefficientsWithHonestStandardErrors) {
+  RandomStream stream{90, 1};
+  double squares = 0.0;
+  constexpr int kArms = 12;
+  for (int i = 0; i < kArms; ++i) {
+    const KnownArm arm = loose_arm(stream);
+    const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+    Effect unknown = kBacklash;
+    unknown.values.clear();
+    const DiagnosedModel model = model_with(of, arm, {unknown});
+    const Effect& found = model.robot.effects[0];
+    ASSERT_EQ(found.standard_errors.size(), 1u);
+    squares += std::pow((found.values[0] - 4e-4) / found.standard_errors[0], 2) / kArms;
+    EXPECT_NEAR(model.scales[kPosition], 5e-5, 1e-5);
+  }
+  EXPECT_GT(squares, 0.3);
+  EXPECT_LT(squares, 2.5);
+}
+
+TEST(Refined, IsNotMovedByAPoseFarOut) {
+  RandomStream stream{90, 2};
+  KnownArm arm = loose_arm(stream);
+  const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  const double before = model_with(of, arm, {kBacklash}).robot.effects[0].values[0];
+  *arm.data.poses[5].position_m += Eigen::Vector3d(0.05, 0.0, 0.02);
+  const DiagnosedModel model = model_with(of, arm, {kBacklash});
+  EXPECT_NEAR(model.robot.effects[0].values[0], before, 2 * model.robot.effects[0].standard_errors[0]);
+  EXPECT_LT(linearise(of, model).fitted.root_weight[5], 0.2);
+}
+
+TEST(BackwardStep, TakesBackWhatIsNeedlessAndKeepsWhatIsNot) {
+  RandomStream stream{90, 3};
+  const KnownArm arm = loose_arm(stream);
+  const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  DiagnosedModel model = model_with(of, arm, {kHeat, kBacklash, kGear});
+  LoopOutcome outcome;
+  for (const Effect& effect : {kHeat, kBacklash, kGear}) {
+    outcome.rounds.emplace_back().verdict = Verdict::added;
+    outcome.rounds.back().effect = effect;
+  }
+  const Linearised at = take_back_needless(of, model, as_candidates({kHeat, kBacklash, kGear}), outcome);
+  ASSERT_EQ(model.robot.effects.size(), 1u);
+  EXPECT_TRUE(model.robot.effects[0].same_law_as(kBacklash));
+  EXPECT_NEAR(model.robot.effects[0].values[0], 4e-4, 4 * model.robot.effects[0].standard_errors[0]);
+  EXPECT_EQ(outcome.dropped.size(), 2u);
+  EXPECT_EQ(outcome.rounds[0].verdict, Verdict::rejected);
+  EXPECT_EQ(outcome.rounds[1].verdict, Verdict::added);
+  EXPECT_EQ(outcome.rounds[2].verdict, Verdict::rejected);
+  EXPECT_FALSE(outcome.rounds[0].reason.empty());
+  EXPECT_EQ(at.ids.back().kind, ParameterId::Kind::effect);
+  EXPECT_EQ(at.changes.size(), static_cast<Eigen::Index>(at.ids.size()));
+}
+
+TEST(BackwardStep, LeavesAModelOfNeededEffectsAsItIs) {
+  RandomStream stream{90, 4};
+  const KnownArm arm = loose_arm(stream);
+  const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  DiagnosedModel model = model_with(of, arm, {kBacklash});
+  const std::vector<double> before = model.robot.effects[0].values;
+  LoopOutcome outcome;
+  take_back_needless(of, model, as_candidates({kBacklash}), outcome);
+  EXPECT_EQ(model.robot.effects[0].values, before);
+  EXPECT_TRUE(outcome.dropped.empty());
+}
+
+}  // namespace
+}  // namespace demecal

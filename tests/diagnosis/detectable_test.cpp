@@ -1,0 +1,118 @@
+// What "not found" means: an effect of the stated size would have been found nine times in ten.
+#include "diagnosis/detectable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "measured_arm.hpp"
+
+namespace demecal {
+namespace {
+
+struct Bench {
+  KnownArm arm;
+  ResidualField field;
+  std::vector<Candidate> candidates;
+  EffectColumns columns;
+  std::vector<double> name_nats, null_maxima;
+};
+
+Bench bench(RandomStream& stream) {
+  Bench at{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}, {}, {}};
+  measure_anyhow(at.arm, stream, {.noise_m = 5e-5}, 60);
+  at.field = field_of(at.arm, kPlacedAndZeroed);
+  Evidence evidence = full_evidence(at.arm.data.robot);
+  evidence.highest_ratio = 12;
+  const std::vector<std::string> kinds = {"backlash", "compliance", "gear_harmonic", "thermal_offset", "joint_offset"};
+  at.candidates = candidates_for(at.arm.data.robot, evidence, {}, {.kinds = kinds, .formulas = false, .decoys = false});
+  std::vector<Effect> effects;
+  for (const Candidate& candidate : at.candidates) {
+    effects.push_back(candidate.effect);
+    at.name_nats.push_back(candidate.name_nats);
+  }
+  at.columns = columns_of(effects, at.arm.data.robot, at.field);
+  renew_noise(at.field, stream);
+  const Projection model = projection_of(at.field);
+  const Scan scan(at.columns, at.name_nats, at.field, model);
+  at.null_maxima = scan.null_maxima(at.columns, at.field, model, 199, RandomStream{89});
+  return at;
+}
+
+std::vector<NotFound> not_found(const Bench& at) {
+  const Projection model = projection_of(at.field);
+  const Scan scan(at.columns, at.name_nats, at.field, model);
+  return smallest_detectable(at.candidates, scan.scores(), at.arm.truth, at.arm.data.robot,
+                             {.null_maxima = at.null_maxima, .family_error = 0.05, .variance = 1.0, .poses = 60});
+}
+
+/// The share of trials in which the effect with this first coefficient is found at the family-wise level.
+double power(Bench& at, std::size_t candidate, double size, RandomStream& stream) {
+  constexpr int kTrials = 60;
+  const double threshold = at.null_maxima[static_cast<std::size_t>(0.95 * 198)];
+  const Eigen::VectorXd signal = size * at.columns.dense(at.field, candidate).col(0);
+  int found = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    renew_noise(at.field, stream);
+    at.field.residual += signal;
+    const Projection model = projection_of(at.field);
+    const Scan scan(at.columns, at.name_nats, at.field, model);
+    found += scan.scores()[candidate].fall_nats > threshold;
+  }
+  return static_cast<double>(found) / kTrials;
+}
+
+TEST(SmallestDetectable, IsFoundNineTimesInTenAndHalfOfItSeldom) {
+  RandomStream stream{89, 1};
+  Bench at = bench(stream);
+  int checked = 0;
+  for (const NotFound& each : not_found(at)) {
+    const bool one = each.effect.kind == "backlash" || each.effect.kind == "thermal_offset";
+    if (!one || each.effect.joint % 2 == 0) continue;
+    const auto same = std::ranges::find_if(
+        at.candidates, [&](const Candidate& candidate) { return candidate.effect.same_law_as(each.effect); });
+    const auto index = static_cast<std::size_t>(same - at.candidates.begin());
+    EXPECT_GE(power(at, index, each.smallest_detectable, stream), 0.75) << each.effect.kind << each.effect.joint;
+    EXPECT_LE(power(at, index, 0.5 * each.smallest_detectable, stream), 0.5) << each.effect.kind << each.effect.joint;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 6);
+}
+
+TEST(SmallestDetectable, IsThatOfTheLeastVisibleOfItsKindAndJoint) {
+  RandomStream stream{89, 2};
+  const Bench at = bench(stream);
+  const Projection model = projection_of(at.field);
+  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  for (const NotFound& each : not_found(at)) {
+    if (each.effect.kind != "gear_harmonic") continue;
+    EXPECT_EQ(each.unit, "rad");
+    double least = 1e300, its = 0.0;
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const Effect& effect = at.candidates[i].effect;
+      if (effect.kind != "gear_harmonic" || effect.joint != each.effect.joint) continue;
+      least = std::min(least, scores[i].smallest);
+      if (effect.same_law_as(each.effect)) its = scores[i].smallest;
+    }
+    EXPECT_EQ(its, least);
+  }
+}
+
+TEST(SmallestDetectable, IsNotStatedForWhatTheModelHoldsOrCannotShow) {
+  RandomStream stream{89, 3};
+  Bench at = bench(stream);
+  at.arm.truth.effects = {{.kind = "backlash", .joint = 3, .settings = {}, .form = "approach"}};
+  bool compliance = false;
+  for (const NotFound& each : not_found(at)) {
+    EXPECT_NE(each.effect.kind, "joint_offset");  // declared: nothing of it is visible
+    EXPECT_FALSE(each.effect.kind == "backlash" && each.effect.joint == 3);
+    EXPECT_GT(each.smallest_detectable, 0.0);
+    compliance = compliance || (each.effect.kind == "compliance" && each.unit == "rad/Nm");
+  }
+  EXPECT_TRUE(compliance);
+  at.null_maxima.clear();
+  EXPECT_TRUE(not_found(at).empty());
+}
+
+}  // namespace
+}  // namespace demecal

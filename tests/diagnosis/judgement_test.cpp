@@ -1,0 +1,146 @@
+// Whether gains and coefficients are sure: bootstrap bounds against what is known of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "diagnosis/judgement.hpp"
+#include "measured_arm.hpp"
+
+namespace demecal {
+namespace {
+
+TEST(ToolErrors, AreLengthsOfPositionRowsInMillimetres) {
+  RandomStream stream{87, 1};
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
+  measure_anyhow(arm, stream, {.noise_m = 1e-4}, 3);
+  measure_anyhow(arm, stream, {.noise_m = 1e-4, .noise_rad = 1e-3, .orientation = true}, 3);
+  arm.data.anchors_m = {random_vector(stream, 3.0), random_vector(stream, 3.0)};
+  measure_anyhow(arm, stream, {.noise_m = 1e-4, .position = false}, 2);
+  const ResidualField field = field_of(arm, {});
+  const std::vector<double> errors = tool_errors_mm(field, field.residual, kScales, arm.data);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_NEAR(errors[i], 1e3 * tool_error_m(arm.truth, arm.data, arm.data.poses[i]), 1e-9) << i;
+  }
+}
+
+TEST(WholeErrors, AreThoseOfPositionWhereNothingElseWasMeasured) {
+  RandomStream stream{87, 2};
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
+  measure_anyhow(arm, stream, {.noise_m = 1e-4}, 4);
+  measure_anyhow(arm, stream, {.orientation = true}, 1);
+  ResidualField field = field_of(arm, {});
+  field.residual.tail(6).setConstant(2.0);
+  const std::vector<double> whole = whole_errors_mm(field, field.residual, kScales);
+  const std::vector<double> position = tool_errors_mm(field, field.residual, kScales, arm.data);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(whole[i], position[i]);
+  EXPECT_DOUBLE_EQ(whole[4], 1e3 * kScales[kPosition] * 2.0 * std::sqrt(3.0));
+}
+
+TEST(GainBound, IsTheGainWhereEveryPoseGainsTheSame) {
+  const std::vector<double> before(40, 0.5), after(40, 0.3);
+  EXPECT_NEAR(gain_lower_bound_mm2(before, after, RandomStream{1}), 0.25 - 0.09, 1e-12);
+  EXPECT_EQ(gain_lower_bound_mm2(before, before, RandomStream{1}), 0.0);
+  EXPECT_EQ(gain_lower_bound_mm2({}, {}, RandomStream{1}), 0.0);
+}
+
+TEST(GainBound, IsBelowTheTrueGainNineteenTimesInTwenty) {
+  RandomStream stream{87, 3};
+  constexpr int kSets = 400;
+  int below = 0;
+  for (int set = 0; set < kSets; ++set) {
+    std::vector<double> before, after;
+    for (int i = 0; i < 40; ++i) {  // squares differ by 0.05 on average
+      before.push_back(std::sqrt(1.0 + 0.1 * stream.normal()));
+      after.push_back(std::sqrt(0.95 + 0.1 * stream.normal()));
+    }
+    below += gain_lower_bound_mm2(before, after, RandomStream{87, 4, static_cast<std::uint64_t>(set)}) < 0.05;
+  }
+  EXPECT_GE(below, 0.91 * kSets);
+  EXPECT_LE(below, 0.98 * kSets);
+}
+
+TEST(GainBound, IsNotDecidedByOnePoseFarOut) {
+  std::vector<double> before(30, 1.0), after(30, 1.05);
+  before[7] = 20.0;
+  after[7] = 19.0;
+  EXPECT_LT(gain_lower_bound_mm2(before, after, RandomStream{1}), 0.0);
+}
+
+struct Noisy {
+  ResidualField field;
+  Projection::Trial trial;
+};
+
+/// Backlash of joint 2, so many standard errors wide.
+Noisy noisy_backlash(RandomStream& stream, double standard_errors) {
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
+  measure_anyhow(arm, stream, {}, 60);
+  Noisy made{field_of(arm, {.registration = true}), {}};
+  const RowMatrix column =
+      columns_of({{.kind = "backlash", .joint = 1, .settings = {}, .form = "approach"}}, arm.data.robot, made.field)
+          .dense(made.field, 0);
+  const Projection::Trial alone = projection_of(made.field).trial(column, column);
+  renew_noise(made.field, stream);
+  made.field.residual += column * (standard_errors / alone.fitted.norm());
+  made.trial = projection_of(made.field).trial(column, column);
+  return made;
+}
+
+Resampled resample(const Noisy& at, std::uint64_t seed) {
+  return resampled(at.field, at.trial, projection_of(at.field).left(), 400, RandomStream{87, seed});
+}
+
+TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
+  RandomStream stream{87, 5};
+  double width = 0.0;
+  constexpr int kArms = 10;
+  for (int i = 0; i < kArms; ++i) {
+    const Noisy at = noisy_backlash(stream, 8.0);
+    const auto [lower, upper] = resample(at, 6).interval[0];
+    EXPECT_LT(lower, at.trial.coefficients[0]);
+    EXPECT_GT(upper, at.trial.coefficients[0]);
+    width += (upper - lower) * at.trial.fitted.norm() / kArms;
+  }
+  EXPECT_NEAR(width, 3.92, 0.6);
+}
+
+TEST(Resampled, SignIsStableWhereTheEffectIsThereAndNotWhereItIsNot) {
+  RandomStream stream{87, 7};
+  EXPECT_EQ(resample(noisy_backlash(stream, 8.0), 8).sign_stability, 1.0);
+  const Noisy at = noisy_backlash(stream, 0.0);
+  const double in_errors = std::abs(at.trial.coefficients[0]) * at.trial.fitted.norm();
+  const double expected = 0.5 * std::erfc(-in_errors / std::sqrt(2.0));
+  EXPECT_LT(in_errors, 1.6);
+  EXPECT_NEAR(resample(at, 9).sign_stability, expected, 0.1);
+}
+
+TEST(Resampled, IsAFunctionOfItsSeed) {
+  RandomStream stream{87, 10};
+  const Noisy at = noisy_backlash(stream, 2.0);
+  EXPECT_EQ(resample(at, 11).interval, resample(at, 11).interval);
+  EXPECT_NE(resample(at, 11).interval, resample(at, 12).interval);
+}
+
+TEST(LargestMotion, IsHowFarAnEffectStraysFromItsMean) {
+  RandomStream stream{87, 13};
+  const Robot robot = laden_arm(stream, Arm::sliding_standard);
+  std::vector<ArmState> states;
+  for (const double sign : {1.0, -1.0, 1.0, -1.0}) {
+    states.push_back(arm_state(robot, random_stop(stream, robot)));
+    states.back().stop.approach.setConstant(sign);
+  }
+  const auto backlash = [](int joint, double width) {
+    return Effect{.kind = "backlash", .joint = joint, .settings = {}, .form = "approach", .values = {width}};
+  };
+  EXPECT_NEAR(largest_motion(backlash(1, 6e-4), robot, states).turn_rad, 3e-4, 1e-15);
+  EXPECT_EQ(largest_motion(backlash(1, 6e-4), robot, states).shift_m, 0.0);
+  EXPECT_NEAR(largest_motion(backlash(2, 6e-4), robot, states).shift_m, 3e-4, 1e-15);
+  const Effect offset{.kind = "joint_offset", .joint = 1, .values = {0.1}};
+  EXPECT_NEAR(largest_motion(offset, robot, states).turn_rad, 0.0, 1e-15);
+  EXPECT_EQ(largest_motion(offset, robot, {}).turn_rad, 0.0);
+}
+
+}  // namespace
+}  // namespace demecal
