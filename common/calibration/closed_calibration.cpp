@@ -1,6 +1,7 @@
 #include "calibration/closed_calibration.hpp"
 
 #include "calibration/closing.hpp"
+#include "calibration/formula_candidates.hpp"
 #include "calibration/loop_passes.hpp"
 
 namespace demecal {
@@ -21,7 +22,8 @@ class Passes {
   ClosedCalibration run(const Evolve& evolve, const RoundWatcher& watch);
 
  private:
-  bool look(const RoundWatcher& watch);
+  bool look(const RoundWatcher& watch, std::vector<Candidate> formulas = {});
+  std::vector<Candidate> evolve_formulas(const Evolve& evolve) const;
   bool evolve_anew(const Evolve& evolve);
   bool is_better(const CorrectedRobot& robot) const;
   bool may_look_again() const {
@@ -45,7 +47,7 @@ bool Passes::is_better(const CorrectedRobot& robot) const {
 }
 
 /// One pass of the loop; whether it added anything and another may follow.
-bool Passes::look(const RoundWatcher& watch) {
+bool Passes::look(const RoundWatcher& watch, std::vector<Candidate> formulas) {
   bool stopped = false;
   const auto watched = [&](const Round& round) {
     Round numbered = round;
@@ -54,7 +56,9 @@ bool Passes::look(const RoundWatcher& watch) {
     return !stopped;
   };
   const Fit start = loop_start(data_, preparation_.declared, closed_.calibration.robot);
-  LoopResult found = close_loop(data_, job_.declared, start, loop_options(job_), watched);
+  LoopOptions options = loop_options(job_);
+  options.evolved = std::move(formulas);
+  LoopResult found = close_loop(data_, job_.declared, start, options, watched);
   tidy(found.before);
   tidy(found.model);
   const bool first = pass_ == 1, added = added_any(found.outcome);
@@ -84,8 +88,38 @@ bool Passes::evolve_anew(const Evolve& evolve) {
   return true;
 }
 
+/// Formulas outside the catalogue that islands find in what the model leaves of each joint's error.
+std::vector<Candidate> Passes::evolve_formulas(const Evolve& evolve) const {
+  constexpr std::size_t kMostPerJoint = 12;
+  const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration), poses_of(data_, PoseSet::validation)};
+  const Fit start = loop_start(data_, preparation_.declared, closed_.calibration.robot);
+  const std::vector<FormulaTable> tables = formula_tables(of, diagnosed_model(of, start));
+  std::vector<JointTraining> training;
+  for (const FormulaTable& table : tables) {
+    training.push_back({.joint = static_cast<std::uint32_t>(table.joint), .table = table.table,
+                        .scale_rad = table.scale_rad, .range_rad = {}, .branch = {}});
+  }
+  std::vector<Candidate> formulas;
+  const auto fronts = evolve(training);
+  for (std::size_t i = 0; fronts && i < fronts->size(); ++i) {
+    for (Candidate& formula : formula_candidates(tables[i], (*fronts)[i].front, kMostPerJoint)) {
+      formulas.push_back(std::move(formula));
+    }
+  }
+  return formulas;
+}
+
 ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch) {
   while (look(watch) && job_.declared.joint_corrections && evolve_anew(evolve) && may_look_again()) ++pass_;
+  const bool left = closed_.loop.p_structure_left <= job_.closed_loop.family_error;
+  const bool asked = closed_.loop.stopped == StopReason::no_gain || closed_.loop.stopped == StopReason::no_structure;
+  if (left && asked) {
+    std::vector<Candidate> formulas = evolve_formulas(evolve);
+    if (!formulas.empty()) {
+      ++pass_;
+      look(watch, std::move(formulas));
+    }
+  }
   tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
   if (!added_any(closed_.loop)) closed_.before = closed_.calibration.robot;
   return std::move(closed_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/formula_library.hpp"
 
@@ -24,9 +25,10 @@ bool is_declared(std::string_view kind, const DeclaredModel& declared) {
 }
 
 /// Whether a declared correction of the joint holds the effect already: a smooth function of that joint alone.
-bool is_in_correction(const Effect& effect, const DeclaredModel& declared) {
+bool is_in_correction(const Effect& effect, const Robot& robot, const DeclaredModel& declared) {
   constexpr double kSmoothRatio = 3.0;
-  if (!declared.joint_corrections) return false;
+  if (!declared.joint_corrections || effect.joint < 0) return false;
+  if (robot.chain.joints[static_cast<std::size_t>(effect.joint)].type != JointType::revolute) return false;
   if (effect.kind == "gear_harmonic") return effect.setting("ratio") <= kSmoothRatio;
   return effect.kind == "gain" || effect.kind == "eccentricity" || effect.kind == "joint_offset";
 }
@@ -66,11 +68,11 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
     const bool symbolic = law->kind() == "symbolic";
     std::vector<Effect> proposals = symbolic && options.formulas ? formula_library(robot, evidence)
                                                                  : law->proposals(robot, evidence);
-    const double nats = proposals.empty() ? 0.0
-                                          : std::log(static_cast<double>(proposals.size())) +
-                                                (symbolic ? kOutsideCatalogue_nats : 0.0);
+    std::map<std::string, int> alike;  // of one form each, so that a law does not grow dear by its further forms
+    for (const Effect& effect : proposals) ++alike[effect.form];
     for (Effect& effect : proposals) {
-      if (is_in_correction(effect, declared)) continue;
+      const double nats = std::log(alike[effect.form]) + (symbolic ? kOutsideCatalogue_nats : 0.0);
+      if (is_in_correction(effect, robot, declared)) continue;
       set_measured_ranges(effect, robot, evidence);
       candidates.push_back({std::move(effect), Disguise::none, nats});
     }

@@ -16,7 +16,7 @@ enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature
 struct Candidate {
   Effect effect;
   Disguise disguise = Disguise::none;
-  double name_nats = 0.0;  ///< the price of naming it: log of the number of its like
+  double name_nats = 0.0;  ///< the price of naming it: log of the number of its kind and form
 };
 
 struct CandidateOptions {

@@ -122,6 +122,14 @@ void set_standard_errors(CorrectedRobot& robot, const Linearised& at) {
 
 }  // namespace
 
+DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start) {
+  DiagnosedModel model;
+  model.robot = start.robot;
+  model.smooth = smooth_corrections(of.data, of.fitted, start.robot, of.declared.joint_corrections);
+  model.scales = {start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
+  return model;
+}
+
 Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   const FitOptions options;
   std::vector<ParameterId> ids = free_ids(of, model.robot, options);

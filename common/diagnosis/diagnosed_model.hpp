@@ -36,6 +36,9 @@ struct DiagnosisData {
   std::vector<std::size_t> fitted, judging;  ///< poses
 };
 
+/// What a diagnosis begins with: the fitted model, its corrections the base of smooth terms where they are declared.
+DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start);
+
 /// Linearises at `model`. Smooth terms are believed to be near zero by automatic relevance determination, links to be
 /// near their maker's figures.
 Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model);

@@ -81,6 +81,7 @@ std::size_t Group::by_name(std::size_t formula) const {
   for (const Rival& rival : rivals_of(formula, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
     if (rival.effect.kind == "symbolic" || (rival.cosine < kSame && rival.nats_behind > kNatsToTell)) continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (candidates_[i].disguise != Disguise::none) continue;
       const bool better = named == formula || scores_[i].fall_nats > scores_[named].fall_nats;
       if (!out_[i] && better && candidates_[i].effect.same_law_as(rival.effect)) named = i;
     }
@@ -159,7 +160,8 @@ void Group::leave_out_alike(const Round& round) {
   for (const Rival& rival : round.rivals) {
     if (rival.cosine < kAlike) continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      out_[i] = out_[i] || candidates_[i].effect.same_law_as(rival.effect);
+      const bool real = candidates_[i].disguise == Disguise::none;
+      out_[i] = out_[i] || (real && candidates_[i].effect.same_law_as(rival.effect));
     }
   }
 }

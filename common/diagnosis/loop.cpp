@@ -244,11 +244,7 @@ void ClosedLoop::finish(const Linearised& at) {
 LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
                       const RoundWatcher& watch) {
   const DiagnosisData of{data, declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
-  DiagnosedModel model;
-  model.robot = start.robot;
-  model.smooth = smooth_corrections(data, of.fitted, start.robot, declared.joint_corrections);
-  model.scales = {start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
-  return ClosedLoop(of, options, watch).run(std::move(model));
+  return ClosedLoop(of, options, watch).run(diagnosed_model(of, start));
 }
 
 }  // namespace demecal

@@ -19,7 +19,7 @@ TEST(Closing, TheLoopStartsWithTheScatterOfItsRobot) {
   const DataSet data = lacking_arm(0.0, 1);
   const Preparation preparation = prepare(data, looping_job());
   CorrectedRobot off = preparation.declared.robot;
-  off.sensor_from_base.translation().x() += 0.01;
+  off.sensor_from_base.translation().array() += 0.01;
   const Fit near = loop_start(data, preparation.declared, preparation.declared.robot);
   const Fit far = loop_start(data, preparation.declared, off);
   EXPECT_GT(far.sigma_position_m, 3.0 * near.sigma_position_m);

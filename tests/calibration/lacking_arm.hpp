@@ -10,12 +10,12 @@ inline Effect backlash_of_joint_2(double width_rad) {
   return {.kind = "backlash", .joint = 1, .values = {width_rad}};
 }
 
-/// 150 poses with 0.05 mm noise per axis, a third of them for validation.
+/// 120 poses with 0.05 mm noise per axis, a third of them for validation.
 inline DataSet lacking_arm(double backlash_rad, std::uint64_t seed) {
   CorrectedRobot truth = true_puma({"0.0008*SIN(theta)", "", "0.0006*COS(theta)", "", "", ""});
   truth.described.chain = truth.chain;
   truth.effects = {backlash_of_joint_2(backlash_rad)};
-  DataSet data = measure(true_puma({"", "", "", "", "", ""}), 150, 0.0, seed, false);
+  DataSet data = measure(true_puma({"", "", "", "", "", ""}), 120, 0.0, seed, false);
   RandomStream random{seed, 815};
   for (MeasuredPose& pose : data.poses) {
     pose.approach = ApproachSigns(6);
@@ -29,7 +29,7 @@ inline DataSet lacking_arm(double backlash_rad, std::uint64_t seed) {
 inline Job looping_job() {
   Job job;
   job.declared = {.registration = true, .joint_corrections = true};
-  job.closed_loop.highest_ratio = 20;
+  job.closed_loop.candidates = {"backlash", "gain", "coupling"};
   return job;
 }
 

@@ -9,7 +9,12 @@ namespace demecal {
 namespace {
 
 Round added(int number, int group, const Effect& effect) {
-  return {.number = number, .group = group, .verdict = Verdict::added, .effect = effect, .reason = {}};
+  Round round;
+  round.number = number;
+  round.group = group;
+  round.verdict = Verdict::added;
+  round.effect = effect;
+  return round;
 }
 
 Effect backlash(int joint, double width_rad) {

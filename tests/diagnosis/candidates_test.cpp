@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -83,7 +84,8 @@ TEST(Candidates, AreEveryLawsProposalsWithinTheEvidence) {
     for (const Candidate& candidate : all) {
       if (candidate.effect.kind != law->kind()) continue;
       EXPECT_EQ(candidate.disguise, Disguise::none);
-      EXPECT_NEAR(candidate.name_nats, std::log(static_cast<double>(proposals.size())), 1e-12);
+      const auto alike = std::ranges::count(proposals, candidate.effect.form, &Effect::form);
+      EXPECT_NEAR(candidate.name_nats, std::log(static_cast<double>(alike)), 1e-12);
       for (const int joint : law->ranged_joints(candidate.effect, arm.data.robot)) {
         ASSERT_TRUE(candidate.effect.ranges.contains(joint));
         EXPECT_EQ(candidate.effect.ranges.at(joint), evidence.joint_ranges[static_cast<std::size_t>(joint)]);
@@ -108,6 +110,23 @@ TEST(Candidates, AreNeitherDeclaredNorUnwanted) {
     kinds.insert(each.effect.kind);
   }
   EXPECT_THAT(kinds, UnorderedElementsAre("gain", "tool"));
+}
+
+TEST(Candidates, LeaveOutWhatDeclaredCorrectionsHoldAlready) {
+  RandomStream stream{88, 9};
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::sliding_standard));
+  measure_anyhow(arm, stream, {.noise_m = 5e-5}, 20);
+  const Evidence evidence = evidence_of(arm.data, all_poses(arm.data));
+  std::map<std::string, std::set<int>> joints;
+  for (const Candidate& each : candidates_for(arm.data.robot, evidence, {.joint_corrections = true}, {})) {
+    if (each.effect.kind == "gear_harmonic" && each.effect.setting("ratio") > 3) continue;
+    joints[each.effect.kind].insert(each.effect.joint);
+  }
+  EXPECT_THAT(joints["gain"], UnorderedElementsAre(2));  // the sliding one, which has no correction
+  EXPECT_THAT(joints["joint_offset"], UnorderedElementsAre(2));
+  EXPECT_THAT(joints["gear_harmonic"], IsEmpty());
+  EXPECT_THAT(joints["eccentricity"], IsEmpty());
+  EXPECT_EQ(joints["backlash"].size(), 6u);
 }
 
 TEST(Candidates, HaveDecoysThatCannotBeTrue) {

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::Each;
 
-constexpr int kTermsPerJoint = 14;
+constexpr int kTermsPerJoint = 15;
 
 KnownArm stanford(RandomStream& stream, int poses) {
   KnownArm arm = perfect_arm(stanford_arm(), Frame::base);
@@ -50,6 +50,24 @@ TEST(SmoothCorrections, TermsAreOfSizeOneWithinTheRange) {
     EXPECT_GT(largest, 0.5) << i;
     EXPECT_LT(largest, 1.0 + 1e-9) << i;
   }
+}
+
+TEST(SmoothCorrections, TermsOfAJointAreIndependent) {
+  RandomStream stream{85, 7};
+  const KnownArm arm = stanford(stream, 60);
+  const SmoothCorrections smooth = smooth_corrections(arm.data, all_poses(arm.data), arm.truth, true);
+  Eigen::MatrixXd values(60, kTermsPerJoint);
+  for (Eigen::Index term = 0; term < kTermsPerJoint; ++term) {
+    SmoothCorrections one = smooth;
+    one.coefficients[term] = 1.0;
+    const JointCorrection correction = one.corrections()[0];
+    for (Eigen::Index pose = 0; pose < 60; ++pose) {
+      values(pose, term) = correction(arm.data.poses[static_cast<std::size_t>(pose)].joints[0]);
+    }
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(values);
+  pivoted.setThreshold(1e-6);
+  EXPECT_EQ(pivoted.rank(), kTermsPerJoint);
 }
 
 TEST(SmoothCorrections, ColumnsAreWhatTheirCoefficientsChange) {

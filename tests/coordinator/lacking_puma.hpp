@@ -1,0 +1,32 @@
+// The demo's PUMA measured more often: smooth joint errors, and backlash that no job declares.
+#pragma once
+
+#include "config/load_scenario.hpp"
+#include "coordinator/calibrate.hpp"
+#include "simulation/simulated_robot.hpp"
+
+namespace demecal {
+
+/// `backlash` false: the same without backlash.
+inline Scenario lacking_puma(bool backlash) {
+  Scenario scenario = load_scenario(DEMECAL_SOURCE_DIR "/configs/scenarios/demo.yaml");
+  scenario.poses = {100, 60, 40};
+  if (!backlash) scenario.backlash.clear();
+  return scenario;
+}
+
+inline Job short_looping_job() {
+  Job job;
+  job.name = "short";
+  job.seed = 5;
+  job.gp.population_size = 60;
+  job.gp.number_generations = 30;
+  job.closed_loop.highest_ratio = 30;
+  return job;
+}
+
+inline bool is_backlash_of_joint_2(const Effect& effect) {
+  return effect.kind == "backlash" && effect.joint == 1;
+}
+
+}  // namespace demecal
