@@ -87,9 +87,9 @@ ExitCode run(const Request& request) {
   const DataSet data = load_data_set(request.data_file);
   std::optional<CalibratedModel> known;
   if (!request.model_file.empty()) known = load_model(request.model_file);
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
   make_writable(request.out);
   const Job job = job_of(request, declared_by(request, known, data));
-  const std::atomic<bool>& interrupt = watch_for_interrupt();
   LoopDisplay display(stderr, data.robot, request.quiet);
   if (request.declared.empty() && !known && !job.declared.geometry) {
     fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",

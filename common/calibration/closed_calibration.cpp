@@ -55,7 +55,9 @@ bool Passes::look(const RoundWatcher& watch, std::vector<Candidate> formulas) {
     stopped = watch && !watch(numbered);
     return !stopped;
   };
-  const Fit start = loop_start(data_, preparation_.declared, closed_.calibration.robot);
+  const Fit& declared = preparation_.declared;
+  const CorrectedRobot from = best_started(data_, job_.declared, declared, closed_.calibration.robot);
+  const Fit start = loop_start(data_, declared, from);
   LoopOptions options = loop_options(job_);
   options.evolved = std::move(formulas);
   LoopResult found = close_loop(data_, job_.declared, start, options, watched);

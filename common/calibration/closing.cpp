@@ -62,6 +62,20 @@ Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& r
   return start;
 }
 
+CorrectedRobot best_started(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
+                            const CorrectedRobot& robot) {
+  constexpr int kSteps = 12;
+  if (!declared.joint_corrections || !has_corrections(robot)) return robot;
+  const DiagnosisData of{data, declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
+  const std::vector<std::size_t> deciding = deciding_poses(data);
+  const auto index_mm2 = [&](const CorrectedRobot& start) {
+    const DiagnosedModel model = diagnosed_model(of, loop_start(data, fit, start));
+    return performance_index_mm2(refined(of, model, kSteps).robot, data, deciding);
+  };
+  CorrectedRobot bare = without_corrections(robot);
+  return index_mm2(bare) < index_mm2(robot) ? bare : robot;
+}
+
 void tidy(DiagnosedModel& model) {
   for (double& coefficient : model.smooth.coefficients) {
     if (std::abs(coefficient) < kSmallestCoefficient) coefficient = 0.0;

@@ -13,6 +13,7 @@ constexpr int kMostRejections = 12;
 constexpr double kAlike = 0.9;      ///< cosine
 constexpr double kSame = 0.995;     ///< cosine
 constexpr double kNatsToTell = 5.0;
+constexpr double kNatsAbout = 3.0;
 constexpr double kStable = 0.95;    ///< share of resamples that must agree with a sign
 constexpr double kEvident = 2.0;    ///< times the largest fall by luck: no need to permute again
 constexpr double kLargestTurn_rad = 0.02;  ///< gears, bearings and links that give way more are broken
@@ -70,8 +71,23 @@ std::optional<std::size_t> Group::best() const {
     if (out_[i] || scores_[i].rank == 0) continue;
     if (!best || scores_[i].fall_nats > scores_[*best].fall_nats) best = i;
   }
-  if (best && candidates_[*best].effect.kind == "symbolic") return by_name(*best);
-  return best;
+  if (!best) return best;
+  return simplest_like(candidates_[*best].effect.kind == "symbolic" ? by_name(*best) : *best);
+}
+
+/// Of candidates that explain the same and are as good a description, but for a little, the one with the fewest numbers.
+std::size_t Group::simplest_like(std::size_t index) const {
+  std::size_t simplest = index;
+  const Projection::Trial trial =
+      projection_.trial(columns_.dense(at_.fitted, index), RowMatrix::Zero(at_.judging.rows(), columns_.spans()[index].count));
+  for (const Rival& rival : rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
+    if (rival.cosine < kAlike || rival.nats_behind > kNatsAbout) continue;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (out_[i] || candidates_[i].disguise != Disguise::none || scores_[i].rank >= scores_[simplest].rank) continue;
+      if (candidates_[i].effect.same_law_as(rival.effect)) simplest = i;
+    }
+  }
+  return simplest;
 }
 
 /// The catalogue's effect that a formula is in disguise: as good a description, or all but the same columns.

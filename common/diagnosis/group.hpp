@@ -50,6 +50,7 @@ class Group {
  private:
   std::optional<std::size_t> best() const;
   std::size_t by_name(std::size_t formula) const;
+  std::size_t simplest_like(std::size_t index) const;
   void renew_null(std::size_t index);
   Round judge(std::size_t index, Projection::Trial& trial);
   std::string objection(const Round& round, const Projection::Trial& trial) const;

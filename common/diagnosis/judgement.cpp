@@ -47,7 +47,7 @@ std::vector<PoseSums> pose_sums(const ResidualField& field, const Projection::Tr
 Eigen::VectorXd solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) {
   constexpr double kNothing = 1e-9;
   Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
-  for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
+  for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * gram * scale.asDiagonal());
   Eigen::VectorXd turned = eigen.eigenvectors().transpose() * scale.cwiseProduct(moment);
   for (Eigen::Index i = 0; i < turned.size(); ++i) {

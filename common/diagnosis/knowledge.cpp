@@ -37,6 +37,7 @@ struct Spectrum {
 
 Spectrum spectrum(const Eigen::MatrixXd& covariance) {
   Eigen::VectorXd scale = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  if (scale.size() == 0) return {scale, covariance, scale};  // of a model without numbers
   Eigen::VectorXd inverse = scale;
   for (double& value : inverse) value = value > 0 ? 1 / value : 0.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * covariance * inverse.asDiagonal());

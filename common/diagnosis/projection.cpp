@@ -64,7 +64,7 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& ju
   result.judging = judging - judging_basis_ * along;
   result.beliefs = -beliefs_basis_ * along;
   Eigen::VectorXd scale = fitted.colwise().norm().transpose();
-  for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
+  for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
   const Eigen::MatrixXd gram =
       scale.asDiagonal() * (fitted.transpose() * fitted - along.transpose() * along) * scale.asDiagonal();
   const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * left_);

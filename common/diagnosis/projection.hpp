@@ -17,6 +17,10 @@ struct ModelColumns {
   Eigen::VectorXd offset;
 };
 
+/// The norm below which a column is taken to be nothing: a whole radian, metre or unit share that moves all that was
+/// measured by less than its scatter.
+inline constexpr double kNoColumn = 1.0;
+
 /// An orthonormal basis of the model's columns (believed values taken as further measurements), and the least-squares
 /// residuals. Adding columns keeps both up to date.
 class Projection {

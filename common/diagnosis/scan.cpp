@@ -69,7 +69,7 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
     const auto along = along_.middleRows(spans[i].first, spans[i].count);
     const Eigen::MatrixXd left = whole_[i] - along * along.transpose();
     Eigen::VectorXd scale = whole_[i].diagonal().cwiseSqrt();
-    for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
+    for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * left * scale.asDiagonal());
     Eigen::VectorXd inverse = eigen.eigenvalues();
     for (double& value : inverse) {

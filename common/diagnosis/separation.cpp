@@ -20,13 +20,16 @@ Products products(const RowMatrix& model, const RowMatrix& asked, double weight)
 }
 
 Separation::Separation(const Products& present, const Products& per_pose, const Eigen::VectorXd& precision) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(per_pose.model);
-  spread_ = eigen.eigenvalues().cwiseMax(0.0);
-  present_ = eigen.eigenvectors().transpose() * present.cross;
-  per_pose_ = eigen.eigenvectors().transpose() * per_pose.cross;
+  present_ = present.cross;
+  per_pose_ = per_pose.cross;
   asked_ = present.asked;
   asked_per_pose_ = per_pose.asked;
   asked_.diagonal() += precision;
+  if (per_pose.model.size() == 0) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(per_pose.model);
+  spread_ = eigen.eigenvalues().cwiseMax(0.0);
+  present_ = eigen.eigenvectors().transpose() * present_;
+  per_pose_ = eigen.eigenvectors().transpose() * per_pose_;
 }
 
 double Separation::information(double poses, const std::vector<Eigen::Index>& others, Eigen::Index signal) const {

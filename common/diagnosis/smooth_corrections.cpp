@@ -58,6 +58,21 @@ double value_at(const SmoothCorrections& smooth, const SmoothTerm& term, double 
   return evaluate(term.formula, {&inside, 1});
 }
 
+/// Takes away the least sure quarter of the terms that are less than two standard errors from zero: relevance alone
+/// keeps one in three of those that are not there.
+void prune(Eigen::VectorXd& belief, const Eigen::VectorXd& mean, const Eigen::MatrixXd& inverse, double variance,
+           Eigen::Index fixed) {
+  constexpr double kGone = 1e11, kSure = 2.0;
+  std::vector<std::pair<double, Eigen::Index>> unsure;
+  for (Eigen::Index i = fixed; i < belief.size(); ++i) {
+    const double errors = std::abs(mean[i]) / std::sqrt(variance * inverse(i, i));
+    if (belief[i] < kGone && errors < kSure) unsure.emplace_back(errors, i);
+  }
+  std::sort(unsure.begin(), unsure.end());
+  const std::size_t taken = (unsure.size() + 3) / 4;
+  for (std::size_t i = 0; i < taken; ++i) belief[unsure[i].second] = 1e12;
+}
+
 }  // namespace
 
 std::vector<JointCorrection> SmoothCorrections::corrections() const {
@@ -116,7 +131,7 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
 }
 
 Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, double rows) {
-  constexpr int kRounds = 200;
+  constexpr int kRounds = 80, kPruneEvery = 8;
   constexpr double kLargest = 1e8;  ///< 1/rad: a coefficient so believed is zero
   const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
   const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
@@ -141,6 +156,7 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, dou
       determined += known;
       belief[i] = std::clamp(known / std::max(mean[i] * mean[i], 1e-30), 1e-10, 1e12);
     }
+    if (round % kPruneEvery == kPruneEvery - 1) prune(belief, mean, inverse, variance, fixed);
     const double squares = whole - 2.0 * mean.dot(scaled_moment) + mean.dot(scaled * mean);
     variance = std::max(squares, 1e-12 * whole) / std::max(rows - determined, 1.0);
   }

@@ -49,8 +49,9 @@ TEST_P(Kinds, PutIntoTheSimulatedArmWhatTheirLawSays) {
   scenario.noise_m = 0.0;
   const DataSet clean = measured(scenario);
   RandomStream random{17};
+  const JustDetectable just = [](const NotFound& measure, const Effect&) { return measure.smallest_detectable; };
   const auto truth =
-      draw_truth(GetParam(), seen(GetParam()), scenario.robot, states_of(clean, PoseSet::calibration), random);
+      draw_truth(GetParam(), seen(GetParam()), scenario.robot, states_of(clean, PoseSet::calibration), just, random);
   ASSERT_TRUE(truth);
   inject(scenario, *truth);
   const DataSet data = measured(scenario);

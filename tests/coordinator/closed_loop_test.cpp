@@ -35,8 +35,10 @@ TEST(ClosedLoop, AddsNothingToTheCleanTwin) {
 
 TEST(ClosedLoop, GivesTheSameModelWhateverTheWorkers) {
   const DataSet data = simulate(lacking_puma(true));
-  const CalibrateResult one = calibrate_in_memory(data, short_looping_job(), 1);
-  const CalibrateResult three = calibrate_in_memory(data, short_looping_job(), 3);
+  Job job = short_looping_job();
+  job.closed_loop.candidates = {"backlash", "coupling"};
+  const CalibrateResult one = calibrate_in_memory(data, job, 1);
+  const CalibrateResult three = calibrate_in_memory(data, job, 3);
   EXPECT_FALSE(one.model.robot.effects.empty());
   EXPECT_EQ(model_text(one.model), model_text(three.model));
 }
@@ -51,10 +53,12 @@ TEST(ClosedLoop, DoesNotRunWhereNoEffectIsAllowed) {
 }
 
 TEST(ClosedLoop, CountsGenerationsOnWhereCorrectionsAreEvolvedAnew) {
-  const CalibrateResult result = calibrate_in_memory(simulate(lacking_puma(true)), short_looping_job());
+  Job job = short_looping_job();
+  job.closed_loop.candidates = {"backlash"};
+  const CalibrateResult result = calibrate_in_memory(simulate(lacking_puma(true)), job);
   std::uint32_t last = 0;
   for (const Progress& progress : result.history) last = std::max(last, progress.generation);
-  const auto generations = static_cast<std::uint32_t>(short_looping_job().gp.number_generations);
+  const auto generations = static_cast<std::uint32_t>(job.gp.number_generations);
   EXPECT_GT(last, generations);
   EXPECT_EQ(last % generations, 0U);
   EXPECT_EQ(result.facts.generations, result.facts.islands * last);

@@ -52,12 +52,13 @@ TEST(SmoothCorrections, TermsAreOfSizeOneWithinTheRange) {
   }
 }
 
-TEST(SmoothCorrections, TermsOfAJointAreIndependent) {
+TEST(SmoothCorrections, BeginWithAConstantAndIndependentPolynomials) {
   RandomStream stream{85, 7};
   const KnownArm arm = stanford(stream, 60);
   const SmoothCorrections smooth = smooth_corrections(arm.data, all_poses(arm.data), arm.truth, true);
-  Eigen::MatrixXd values(60, kTermsPerJoint);
-  for (Eigen::Index term = 0; term < kTermsPerJoint; ++term) {
+  constexpr int kPolynomials = 9;
+  Eigen::MatrixXd values(60, kPolynomials);
+  for (Eigen::Index term = 0; term < kPolynomials; ++term) {
     SmoothCorrections one = smooth;
     one.coefficients[term] = 1.0;
     const JointCorrection correction = one.corrections()[0];
@@ -67,7 +68,8 @@ TEST(SmoothCorrections, TermsOfAJointAreIndependent) {
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(values);
   pivoted.setThreshold(1e-6);
-  EXPECT_EQ(pivoted.rank(), kTermsPerJoint);
+  EXPECT_EQ(pivoted.rank(), kPolynomials);
+  EXPECT_EQ(values.col(0), Eigen::VectorXd::Ones(60));
 }
 
 TEST(SmoothCorrections, ColumnsAreWhatTheirCoefficientsChange) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "config/load_scenario.hpp"
-#include "effects/measurement.hpp"
 #include "coordinator/in_memory_fleet.hpp"
+#include "effects/measurement.hpp"
 #include "simulation/simulated_robot.hpp"
 
 namespace demecal {
@@ -21,6 +21,7 @@ Job short_job(const DeclaredModel& declared) {
   job.seed = 11;
   job.declared = declared;
   job.gp.number_generations = 60;
+  job.closed_loop.max_effects = 0;
   return job;
 }
 

@@ -35,12 +35,13 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-SmallJob::SmallJob(int generations, int demes) {
+SmallJob::SmallJob(int generations, int demes, const std::string& errors) {
   char name[] = "/tmp/demecal-job-XXXXXX";
   if (::mkdtemp(name) == nullptr) throw std::runtime_error("no scratch folder");
   folder_ = name;
   std::string scenario = kScenario;
   scenario.replace(scenario.find("ROBOT"), 5, std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/puma761.yaml");
+  scenario += errors;
   write(folder_ / "scenario.yaml", scenario);
   write(folder_ / "job.yaml",
         "# A short evolution\ndemecal_job: 1\ndata: data/dataset.yaml\nmethod: direct\nseed: 3\n"

@@ -9,8 +9,9 @@ namespace demecal {
 /// Writes a scenario and a job, simulates the data with the real program, and removes everything when it goes.
 class SmallJob {
  public:
-  /// `generations` and `demes` set how long the evolution takes.
-  explicit SmallJob(int generations = 20, int demes = 2);
+  /// `generations` and `demes` set how long the evolution takes; `errors` are lines of YAML that the scenario has
+  /// besides.
+  explicit SmallJob(int generations = 20, int demes = 2, const std::string& errors = "");
   ~SmallJob();
   SmallJob(const SmallJob&) = delete;
   SmallJob& operator=(const SmallJob&) = delete;

@@ -72,13 +72,6 @@ void scale(Effect& effect, double factor) {
   for (double& value : effect.values) value *= factor;
 }
 
-/// The coupling that an effect is measured by, one unit of it.
-double reference_spread(Effect reference, const Robot& robot, const std::vector<ArmState>& states) {
-  reference.ranges.clear();
-  reference.values = {1.0};
-  return spread(joint_motion(reference, robot, states));
-}
-
 bool is_possible(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
   std::vector<UnitMotion> units;
   for (const ArmState& state : states) {
@@ -105,37 +98,31 @@ Effect draw_formula(int joint, const Robot& robot, RandomStream& random) {
   return effect;
 }
 
+/// Of the size 1.
 Effect draw_at(const std::string& kind, const NotFound& measure, const Robot& robot,
                const std::vector<ArmState>& states, RandomStream& random) {
-  const double size = random.real(kLeastFactor, kMostFactor) * measure.smallest_detectable;
+  if (kind == kOutside) return draw_formula(measure.effect.joint, robot, random);
   Effect effect = measure.effect;
-  if (kind == kOutside) {
-    effect = draw_formula(measure.effect.joint, robot, random);
-  } else {
-    draw_settings(effect, robot, random);
-    effect.values = direction(effect, robot, states, random);
-  }
-  const bool by_reference = kind == kOutside || effect.form == "harmonic";
-  const double unit =
-      by_reference ? reference_spread(measure.effect, robot, states) / spread(joint_motion(effect, robot, states))
-                   : 1.0;
-  scale(effect, size * unit);
+  draw_settings(effect, robot, random);
+  effect.values = direction(effect, robot, states, random);
   return effect;
 }
 
 }  // namespace
 
 std::optional<Effect> draw_truth(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
-                                 const std::vector<ArmState>& states, RandomStream& random) {
+                                 const std::vector<ArmState>& states, const JustDetectable& just,
+                                 RandomStream& random) {
   for (const NotFound& measure : shuffled(kind == kOutside ? "coupling" : kind, detectable, random)) {
     Effect effect = draw_at(kind, measure, robot, states, random);
+    scale(effect, random.real(kLeastFactor, kMostFactor) * just(measure, effect));
     if (is_possible(effect, robot, states)) return effect;
   }
   return std::nullopt;
 }
 
 std::vector<Effect> draw_truths(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
-                                const std::vector<ArmState>& states, RandomStream& random) {
+                                const std::vector<ArmState>& states, const JustDetectable& just, RandomStream& random) {
   std::vector<std::string> kinds{kind};
   if (kind == kPair) {
     kinds.clear();
@@ -147,7 +134,7 @@ std::vector<Effect> draw_truths(const std::string& kind, const std::vector<NotFo
   std::vector<Effect> truths;
   for (const std::string& one : kinds) {
     if (truths.size() == (kind == kPair ? 2u : 1u)) break;
-    if (auto truth = draw_truth(one, detectable, robot, states, random)) truths.push_back(std::move(*truth));
+    if (auto truth = draw_truth(one, detectable, robot, states, just, random)) truths.push_back(std::move(*truth));
   }
   return truths;
 }

@@ -1,6 +1,7 @@
 // Which effect a case gets, and how large: by what these poses could show, never by what the loop finds.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -10,16 +11,18 @@
 
 namespace demecal::bench {
 
-/// An effect of `kind` at a random joint of those at which `detectable` names it: coefficients in a random direction,
-/// their length 2 to 4 times its smallest detectable one. Ratios are whole numbers from 10 to 160, other joints and
-/// orders are drawn. A coupling that turns with the other joint, and a formula, move their joint as widely as the
-/// linear coupling that they are measured by would. Joints at which it would go more than 10 mrad (10 mm) at any
-/// of `states` are passed over: no arm does. Nothing where no joint is left.
+/// By how much an effect must be multiplied to be just detectable, where that kind and joint are detectable as named.
+using JustDetectable = std::function<double(const NotFound&, const Effect&)>;
+
+/// An effect of `kind` at a random joint of those at which `detectable` names it: coefficients in a random direction, 2
+/// to 4 times as long as that direction must be to be just detectable. Ratios are whole numbers from 10 to 160; other
+/// joints, orders and forms are drawn; formulas are measured by the couplings of their joint. Joints that would go more
+/// than 10 mrad (10 mm) astray at any of `states` are passed over: no arm does. Nothing where no joint is left.
 std::optional<Effect> draw_truth(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
-                                 const std::vector<ArmState>& states, RandomStream& random);
+                                 const std::vector<ArmState>& states, const JustDetectable& just, RandomStream& random);
 
 /// The effects of a case: one, or two of different kinds for pairs; fewer where nothing could be drawn.
 std::vector<Effect> draw_truths(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
-                                const std::vector<ArmState>& states, RandomStream& random);
+                                const std::vector<ArmState>& states, const JustDetectable& just, RandomStream& random);
 
 }  // namespace demecal::bench

@@ -64,15 +64,17 @@ Json run_json(const RunFigures& run, const Robot& robot) {
 }  // namespace
 
 void write_table(std::ostream& out, const std::vector<Summary>& rows) {
-  fmt::print(out, "{:<16}{:>6}{:>9}{:>9}{:>9}{:>10}{:>9}{:>14}{:>14}{:>10}\n", "", "", "can be", "of them", "of all",
-             "in class", "cases w.", "before/floor", "after/floor", "95 %");
-  fmt::print(out, "{:<16}{:>6}{:>9}{:>9}{:>9}{:>10}{:>9}{:>14}{:>14}{:>10}\n", "kind", "cases", "told", "named %",
-             "named %", "%", "false", "median", "median", "");
+  const char* heading = "{:<15}{:>6}{:>8}{:>9}{:>9}{:>10}{:>10}{:>14}{:>13}{:>7}{:>8}\n";
+  out << fmt::format(fmt::runtime(heading), "", "", "can be", "of them", "of all", "in class", "cases w.",
+                     "before/floor", "after/floor", "", "/clean");
+  out << fmt::format(fmt::runtime(heading), "kind", "cases", "told", "named %", "named %", "%", "false", "median",
+                     "median", "95 %", "median");
   for (const Summary& row : rows) {
-    fmt::print(out, "{:<16}{:>6}{:>9}{:>9.1f}{:>9.1f}{:>10.1f}{:>9}{:>14.3f}{:>14.3f}{:>10.3f}\n", row.kind, row.cases,
-               row.eligible, 100.0 * share(row.named_eligible, row.eligible), 100.0 * share(row.named, row.cases),
-               100.0 * share(row.in_class, row.cases), row.with_false, quantile(row.before_over_floor, 0.5),
-               quantile(row.after_over_floor, 0.5), quantile(row.after_over_floor, 0.95));
+    fmt::print(out, "{:<15}{:>6}{:>8}{:>9.1f}{:>9.1f}{:>10.1f}{:>10}{:>14.3f}{:>13.3f}{:>7.3f}{:>8.3f}\n", row.kind,
+               row.cases, row.eligible, 100.0 * share(row.named_eligible, row.eligible),
+               100.0 * share(row.named, row.cases), 100.0 * share(row.in_class, row.cases), row.with_false,
+               quantile(row.before_over_floor, 0.5), quantile(row.after_over_floor, 0.5),
+               quantile(row.after_over_floor, 0.95), quantile(row.after_over_clean, 0.5));
   }
   out << '\n';
   for (const Summary& row : rows) write_bounds(out, row);
@@ -87,6 +89,7 @@ void write_json(std::ostream& out, const std::vector<Summary>& rows) {
                        {"in_class", share(row.in_class, row.cases)},
                        {"after_over_floor_median", quantile(row.after_over_floor, 0.5)},
                        {"after_over_floor_p95", quantile(row.after_over_floor, 0.95)},
+                       {"after_over_clean_median", quantile(row.after_over_clean, 0.5)},
                        {"before_over_floor_median", quantile(row.before_over_floor, 0.5)},
                        {"eligible_cases", row.eligible},
                        {"named_cases", row.named},

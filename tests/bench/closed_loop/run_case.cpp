@@ -6,6 +6,7 @@
 #include "draw_truth.hpp"
 #include "fitting/fit.hpp"
 #include "scene.hpp"
+#include "sight.hpp"
 #include "truth.hpp"
 
 namespace demecal::bench {
@@ -40,18 +41,26 @@ RunFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::vec
   return figures;
 }
 
+/// Effects for a case by what the loop says of its clean twin.
+std::vector<Effect> truths_for(const CasePlan& plan, const DataSet& clean, const LoopResult& result) {
+  const DiagnosisData of{clean, row_of(plan.kind).declared, poses_of(clean, PoseSet::calibration),
+                         poses_of(clean, PoseSet::validation)};
+  const Sight sight(of, result.model);
+  RandomStream random{plan.seed(), kTruth};
+  return draw_truths(
+      plan.kind, result.outcome.not_found, clean.robot, states_of(clean, PoseSet::calibration),
+      [&](const NotFound& measure, const Effect& effect) { return sight.detectable(measure, effect); }, random);
+}
+
 }  // namespace
 
 CaseFigures run_case(const CasePlan& plan, const Robots& robots, bool only_clean) {
   CaseFigures figures{.plan = plan, .truths = {}, .clean = {}, .run = {}};
-  const Robot& robot = robots.at(plan.robot_file);
-  Scenario scenario = clean_scene(plan, robot);
+  Scenario scenario = clean_scene(plan, robots.at(plan.robot_file));
   LoopResult result;
   figures.clean = run_on(scenario, plan, {}, result);
   if (only_clean) return figures;
-  RandomStream random{plan.seed(), kTruth};
-  figures.truths = draw_truths(plan.kind, result.outcome.not_found, robot,
-                               states_of(measured(scenario), PoseSet::calibration), random);
+  figures.truths = truths_for(plan, measured(scenario), result);
   if (figures.truths.empty()) return figures;
   for (const Effect& truth : figures.truths) inject(scenario, truth);
   figures.run = run_on(scenario, plan, figures.truths, result);

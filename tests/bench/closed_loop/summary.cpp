@@ -6,7 +6,7 @@
 
 namespace demecal::bench {
 
-void Summary::take(const RunFigures& figures) {
+void Summary::take(const RunFigures& figures, const RunFigures& clean) {
   const Score& score = figures.score;
   ++cases;
   eligible += score.eligible ? 1 : 0;
@@ -17,6 +17,7 @@ void Summary::take(const RunFigures& figures) {
   false_additions += score.false_additions;
   before_over_floor.push_back(figures.before_over_floor);
   after_over_floor.push_back(figures.after_over_floor);
+  after_over_clean.push_back(figures.after_over_floor / clean.before_over_floor);
 }
 
 void Summary::take(const Summary& other) {
@@ -29,6 +30,7 @@ void Summary::take(const Summary& other) {
   false_additions += other.false_additions;
   before_over_floor.insert(before_over_floor.end(), other.before_over_floor.begin(), other.before_over_floor.end());
   after_over_floor.insert(after_over_floor.end(), other.after_over_floor.begin(), other.after_over_floor.end());
+  after_over_clean.insert(after_over_clean.end(), other.after_over_clean.begin(), other.after_over_clean.end());
 }
 
 std::vector<Summary> summaries(const std::vector<CaseFigures>& cases) {
@@ -37,13 +39,13 @@ std::vector<Summary> summaries(const std::vector<CaseFigures>& cases) {
   for (const KindRow& row : kind_table()) {
     Summary summary{.kind = row.kind};
     for (const CaseFigures& one : cases) {
-      if (one.plan.kind == row.kind && !one.truths.empty()) summary.take(one.run);
+      if (one.plan.kind == row.kind && !one.truths.empty()) summary.take(one.run, one.clean);
     }
     if (summary.cases == 0) continue;
     if (row.kind != kPair && row.kind != kOutside) single.take(summary);
     all.push_back(std::move(summary));
   }
-  for (const CaseFigures& one : cases) clean.take(one.clean);
+  for (const CaseFigures& one : cases) clean.take(one.clean, one.clean);
   if (clean.cases > 0) all.push_back(std::move(clean));
   if (single.cases > 0) all.push_back(std::move(single));
   return all;

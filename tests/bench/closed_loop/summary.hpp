@@ -18,8 +18,10 @@ struct Summary {
   int with_false = 0;      ///< cases with an effect added that is not true
   int false_additions = 0;
   std::vector<double> before_over_floor{}, after_over_floor{};  ///< one a case
+  std::vector<double> after_over_clean{};  ///< the error after over that of the twin which lacks nothing
 
-  void take(const RunFigures& figures);
+  /// One run; `clean` is that of its twin.
+  void take(const RunFigures& figures, const RunFigures& clean);
   void take(const Summary& other);
 };
 

@@ -1,0 +1,25 @@
+// How small an effect the poses of a case could show: the loop's own word for it, applied to the effect's own
+// direction.
+#pragma once
+
+#include "diagnosis/diagnosed_model.hpp"
+#include "diagnosis/outcome.hpp"
+
+namespace demecal::bench {
+
+class Sight {
+ public:
+  /// Of the model that the loop ended with on the poses of `of`; both must outlive it.
+  Sight(const DiagnosisData& of, const DiagnosedModel& model);
+
+  /// By how much `effect` (with coefficients) must be multiplied to be just detectable. `measure` says how long the
+  /// least visible coefficients of its kind must be, and so how much of the residual must be explained; the effect
+  /// explains it where it explains as much. Infinite where the model explains the effect wholly.
+  double detectable(const NotFound& measure, const Effect& effect) const;
+
+ private:
+  const DiagnosisData& of_;
+  Linearised at_;
+};
+
+}  // namespace demecal::bench

@@ -1,0 +1,140 @@
+// The closed loop through the real programs: what no file declares is found, named, and in the model that is left.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::json;
+
+const char* const kBacklash = "  backlash:\n    - {joint: 2, width_rad: 0.001}\n";
+
+std::vector<std::string> diagnose(const SmallJob& job, const std::string& out, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"diagnose", job.data(), "--out", job.path(out)};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+Json report_of(const SmallJob& job, const std::string& out) {
+  return Json::parse(job.text(out + "/report.json"));
+}
+
+bool is_the_backlash(const Json& effect) {
+  return effect["kind"] == "backlash" && effect["joint"] == 2;
+}
+
+/// Whether a round added backlash of joint 2, or what so few poses cannot tell from it and say so.
+bool names_the_backlash(const Json& report) {
+  return std::any_of(report["rounds"].begin(), report["rounds"].end(), [](const Json& round) {
+    if (round["verdict"] != "added") return false;
+    return is_the_backlash(round["effect"]) ||
+           std::any_of(round["rivals"].begin(), round["rivals"].end(), is_the_backlash);
+  });
+}
+
+void expect_evaluate_to_agree(const SmallJob& job, const std::string& out) {
+  const Ended ended = run("demecal", {"evaluate", job.path(out + "/model.yaml"), job.data(), "--json"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(Json::parse(ended.out)["error_mm"], report_of(job, out)["error_mm"]["after"]);
+}
+
+TEST(Diagnose, NamesUndeclaredBacklash) {
+  const SmallJob job(20, 2, kBacklash);
+  const Ended ended = run("demecal", diagnose(job, "out", {"--declare", "registration,joint_corrections"}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("backlash"), std::string::npos) << ended.out;
+  const Json report = report_of(job, "out");
+  EXPECT_EQ(report["method"], "diagnose");
+  EXPECT_NE(report["stopped"], "not_run");
+  EXPECT_TRUE(names_the_backlash(report));
+  EXPECT_LT(report["error_mm"]["after"]["accept"]["rms"], report["error_mm"]["before"]["accept"]["rms"]);
+  EXPECT_FALSE(job.text("out/report.html").empty());
+  expect_evaluate_to_agree(job, "out");
+}
+
+TEST(Diagnose, TakesUpTheModelThatItLeft) {
+  const SmallJob job(20, 2, kBacklash);
+  ASSERT_EQ(run("demecal", diagnose(job, "first", {"--declare", "joint_corrections"})).code, 0);
+  const Ended again = run("demecal", diagnose(job, "second", {"--model", job.path("first/model.yaml")}));
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(names_the_backlash(report_of(job, "second")));
+  expect_evaluate_to_agree(job, "second");
+}
+
+TEST(Diagnose, IsTheSameEveryTimeAndDoesNotReadTheTruth) {
+  const SmallJob job(20, 2, kBacklash);
+  ASSERT_EQ(run("demecal", diagnose(job, "with")).code, 0);
+  std::filesystem::remove(job.path("data/truth.yaml"));
+  ASSERT_EQ(run("demecal", diagnose(job, "without")).code, 0);
+  EXPECT_FALSE(job.text("with/model.yaml").empty());
+  EXPECT_EQ(job.text("with/model.yaml"), job.text("without/model.yaml"));
+}
+
+TEST(Diagnose, PrintsItsReportAsJson) {
+  const SmallJob job;
+  const Ended ended = run("demecal", diagnose(job, "out", {"--json", "--candidates", "backlash"}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(Json::parse(ended.out), report_of(job, "out"));
+}
+
+TEST(Diagnose, ProposesPosesInTheDataSetsOwnColumns) {
+  const SmallJob job;
+  ASSERT_EQ(run("demecal", diagnose(job, "out", {"--propose", "5", "--candidates", "backlash,coupling"})).code, 0);
+  std::istringstream table(job.text("out/proposed.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(line, "pose_id,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,s1,s2,s3,s4,s5,s6");
+  int rows = 0;
+  while (std::getline(table, line)) {
+    ++rows;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 12) << line;
+  }
+  EXPECT_EQ(rows, 5);
+}
+
+TEST(Diagnose, UnknownWordsEndWithTenAndTheNearestOne) {
+  const SmallJob job;
+  const Ended declared = run("demecal", diagnose(job, "out", {"--declare", "tool,geometri"}));
+  EXPECT_EQ(declared.code, 10);
+  EXPECT_NE(declared.err.find("'geometry'"), std::string::npos) << declared.err;
+  const Ended candidate = run("demecal", diagnose(job, "out", {"--candidates", "baklash"}));
+  EXPECT_EQ(candidate.code, 10);
+  EXPECT_NE(candidate.err.find("'backlash'"), std::string::npos) << candidate.err;
+  EXPECT_EQ(run("demecal", diagnose(job, "out", {"--model", job.path("none.yaml")})).code, 11);
+}
+
+TEST(Diagnose, InterruptedSavesWhatItReached) {
+  const SmallJob job(20, 2, kBacklash);
+  Program program("demecal", diagnose(job, "out"));
+  while (!std::filesystem::exists(job.path("out"))) std::this_thread::yield();
+  program.signal(SIGINT);
+  const Ended ended = program.wait(std::chrono::seconds(60));
+  EXPECT_EQ(ended.code, 130) << ended.err;
+  EXPECT_TRUE(report_of(job, "out")["runtime"]["interrupted"]);
+  expect_evaluate_to_agree(job, "out");
+}
+
+TEST(Calibrate, ClosesTheLoopAndEvaluateReproducesItsFigures) {
+  const SmallJob job(20, 2, kBacklash);
+  const auto calibrate = [&](const std::string& out, const std::string& workers) {
+    return run("demecal", {"calibrate", job.job(), "--out", job.path(out), "--workers", workers, "--domain",
+                           private_domain(), "--max-effects", "5"});
+  };
+  const Ended ended = calibrate("one", "1");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(names_the_backlash(report_of(job, "one")));
+  expect_evaluate_to_agree(job, "one");
+  ASSERT_EQ(calibrate("two", "2").code, 0);
+  EXPECT_EQ(job.text("one/model.yaml"), job.text("two/model.yaml"));
+}
+
+}  // namespace
+}  // namespace demecal
