@@ -93,13 +93,17 @@ bool Passes::evolve_anew(const Evolve& evolve) {
 /// Formulas outside the catalogue that islands find in what the model leaves of each joint's error.
 std::vector<Candidate> Passes::evolve_formulas(const Evolve& evolve) const {
   constexpr std::size_t kMostPerJoint = 12;
-  const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration), poses_of(data_, PoseSet::validation)};
+  const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration),
+                         poses_of(data_, PoseSet::validation)};
   const Fit start = loop_start(data_, preparation_.declared, closed_.calibration.robot);
   const std::vector<FormulaTable> tables = formula_tables(of, diagnosed_model(of, start));
   std::vector<JointTraining> training;
   for (const FormulaTable& table : tables) {
-    training.push_back({.joint = static_cast<std::uint32_t>(table.joint), .table = table.table,
-                        .scale_rad = table.scale_rad, .range_rad = {}, .branch = {}});
+    training.push_back({.joint = static_cast<std::uint32_t>(table.joint),
+                        .table = table.table,
+                        .scale_rad = table.scale_rad,
+                        .range_rad = {},
+                        .branch = {}});
   }
   std::vector<Candidate> formulas;
   const auto fronts = evolve(training);

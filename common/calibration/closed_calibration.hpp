@@ -22,9 +22,9 @@ struct ClosedCalibration {
 /// Closes the loop around `first`. Where effects were added and joint corrections are declared, the corrections are
 /// evolved anew from what the effects leave of the joints' errors; the evolved ones, the loop's own smooth sums and the
 /// first ones compete on the deciding poses, and the model with the smaller error there is kept. Where that is the one
-/// evolved anew the loop looks at it again, at most three times in all. Where structure is left that no effect explains,
-/// formulas over all that a joint's error may depend on are evolved on it, and compete in one more pass. Ends early when
-/// `watch` returns false.
+/// evolved anew the loop looks at it again, at most three times in all. Where structure is left that no effect
+/// explains, formulas over all that a joint's error may depend on are evolved on it, and compete in one more pass. Ends
+/// early when `watch` returns false.
 ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
                                     const Calibration& first, const Evolve& evolve, const RoundWatcher& watch);
 

@@ -13,8 +13,8 @@ LoopOptions loop_options(const Job& job, std::size_t held = 0);
 /// the fit of the declared model did not use are not used.
 Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot);
 
-/// The robot whose corrections the loop is best started from: `robot`, or the same without any, whichever does better on
-/// the deciding poses once smooth terms are fitted beside them. Where joint corrections are not declared, `robot`.
+/// The robot whose corrections the loop is best started from: `robot`, or the same without any, whichever does better
+/// on the deciding poses once smooth terms are fitted beside them. Where joint corrections are not declared, `robot`.
 CorrectedRobot best_started(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
                             const CorrectedRobot& robot);
 

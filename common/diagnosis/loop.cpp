@@ -15,7 +15,7 @@ namespace demecal {
 namespace {
 
 constexpr int kSteps = 12;       ///< of Gauss and Newton, from the declared fit
-constexpr int kStepsAgain = 2;   ///< after effects were added to a model that was already refined
+constexpr int kStepsAgain = 3;   ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
 constexpr std::size_t kMostPosesForFormulas = 5000;  ///< thousands of formulas over more take minutes
 
@@ -156,7 +156,11 @@ bool ClosedLoop::run_group(const Linearised& at) {
   GroupOutcome outcome = group.run(watch_);
   note_decoys(group, outcome);
   const bool added = !outcome.added.empty();
-  model_.robot.effects.insert(model_.robot.effects.end(), outcome.added.begin(), outcome.added.end());
+  for (Effect effect : outcome.added) {
+    // A group's values hold beside its own linear steps of all other numbers: the joint refit begins without them.
+    std::fill(effect.values.begin(), effect.values.end(), 0.0);
+    model_.robot.effects.push_back(std::move(effect));
+  }
   const bool more = added && !outcome.decoy_won && !outcome.stopped && gained_enough(outcome);
   if (!more) outcome_.stopped = reason_to_stop(outcome);
   std::ranges::move(outcome.rounds, std::back_inserter(outcome_.rounds));

@@ -27,6 +27,19 @@ TEST(Closing, TheLoopStartsWithTheScatterOfItsRobot) {
   EXPECT_EQ(far.sigma_distance_m, 0.0);
 }
 
+TEST(Closing, StartsWithoutCorrectionsThatSmoothTermsCannotMakeGood) {
+  const DataSet data = lacking_arm(0.0, 6);
+  const Job job = looping_job();
+  const Fit declared = prepare(data, job).declared;
+  CorrectedRobot rough = declared.robot;
+  rough.corrections[0] = {parse("0.0008*SIN(theta)+0.0005*SIN(41*theta)"), {}, {-1.3, 1.3}};
+  const auto started = [&](const CorrectedRobot& robot, const DeclaredModel& model) {
+    return best_started(data, model, declared, robot);
+  };
+  EXPECT_FALSE(has_corrections(started(rough, job.declared)));
+  EXPECT_TRUE(has_corrections(started(rough, {.registration = true}))) << "nothing else could take its place";
+}
+
 TEST(Closing, GivesDeclaredNumbersTheirStandardErrors) {
   const DataSet data = lacking_arm(6e-4, 2);
   const Job job = looping_job();

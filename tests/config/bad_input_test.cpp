@@ -208,6 +208,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "the nearest is 'backlash'"},
         BadInput{"CertainFamilyError", "job.yaml", "family_error: 0.01", "family_error: 1", "job.yaml:31", "1",
                  "closed_loop.family_error must be below 1"},
+        BadInput{"TooManyEffects", "job.yaml", "max_effects: 4", "max_effects: 1001", "job.yaml:30", "1001",
+                 "closed_loop.max_effects must lie within 0 to 1000"},
+        BadInput{"NegativeRatio", "job.yaml", "[161, 211.5]", "[161, -3]", "job.yaml:34", "-3",
+                 "closed_loop.ratios[2] must be"},
         BadInput{"MissingData", "job.yaml", "data: dataset.yaml\n", "", "job.yaml:2", "", "data is missing"}),
     name_of);
 

@@ -106,6 +106,16 @@ TEST(LoadJob, ReadsEveryKey) {
   EXPECT_EQ(job.closed_loop.max_effects, 4);
   EXPECT_EQ(job.closed_loop.family_error, 0.01);
   EXPECT_THAT(job.closed_loop.candidates, ElementsAre("backlash", "compliance"));
+  EXPECT_EQ(job.closed_loop.highest_ratio, 90);
+  EXPECT_THAT(job.closed_loop.ratios, ElementsAre(161.0, 211.5));
+}
+
+TEST(LoadJob, DeclaresByTheSameWordsFromACommandLine) {
+  const std::vector<std::string> words{"tool", "joint_corrections"};
+  const DeclaredModel declared = declared_of(words);
+  EXPECT_TRUE(declared.tool && declared.joint_corrections);
+  EXPECT_FALSE(declared.registration || declared.joint_offset || declared.geometry);
+  EXPECT_THAT(declared_words(), ElementsAre("registration", "tool", "joint_offset", "geometry", "joint_corrections"));
 }
 
 TEST(LoadJob, KeepsDefaultsForWhatIsLeftOut) {
@@ -117,6 +127,7 @@ TEST(LoadJob, KeepsDefaultsForWhatIsLeftOut) {
   EXPECT_EQ(job.islands.per_joint, defaults.islands.per_joint);
   EXPECT_EQ(job.declared.registration, defaults.declared.registration);
   EXPECT_TRUE(job.closed_loop.candidates.empty());
+  EXPECT_EQ(job.closed_loop.max_effects, 100);
 }
 
 TEST(LoadScenario, ReadsWhereAndHowIsMeasured) {

@@ -69,6 +69,15 @@ TEST(ModelFile, KeepsEveryEffectOfTheCatalogueToTheBit) {
   }
 }
 
+TEST(ModelFile, KeepsHowTheModelWasFound) {
+  RandomStream stream{992};
+  CalibratedModel model = random_model(stream);
+  for (const Method method : {Method::direct, Method::distal, Method::diagnose}) {
+    model.method = method;
+    EXPECT_EQ(written_and_read(model).method, method) << word_of(method);
+  }
+}
+
 TEST(ModelFile, PredictsTheSameAfterwards) {
   RandomStream stream{992};
   CalibratedModel model = random_model(stream);

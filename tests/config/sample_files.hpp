@@ -78,6 +78,8 @@ closed_loop:
   max_effects: 4
   family_error: 0.01
   candidates: [backlash, compliance]
+  highest_ratio: 90
+  ratios: [161, 211.5]
 )yaml";
 
 inline const std::string kScenarioText = R"yaml(# the arm of two joints, simulated
