@@ -13,8 +13,8 @@ namespace demecal {
 struct FormulaTable {
   int joint = 0;  ///< from 0
   TrainingTable table;
-  double scale_rad = 1.0;             ///< of the target: its weighted mean absolute value
-  double reference_celsius = 20.0;    ///< that T counts from
+  double scale_rad = 1.0;           ///< of the target: its weighted mean absolute value
+  double reference_celsius = 20.0;  ///< that T counts from
 };
 
 /// The least-squares residual of the model at every fitted pose, laid at one revolute joint after another: the angle

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kMostConstants = 8;
 constexpr int kSteps = 30;
-constexpr double kNear = 0.15;          ///< of a round number
-constexpr double kRoundingNats = 1.0;   ///< what a round constant may cost: it is worth more than that
+constexpr double kNear = 0.15;         ///< of a round number
+constexpr double kRoundingNats = 1.0;  ///< what a round constant may cost: it is worth more than that
 
 std::vector<std::size_t> constants_of(const Tree& tree) {
   std::vector<std::size_t> places;

@@ -51,8 +51,8 @@ std::optional<std::size_t> needless(const Linearised& at, const CorrectedRobot& 
   double least = 0.0;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
     const double rise = rise_without(at, robot.effects[i], columns[i]) / variance;
-    const double fall = 0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) -
-                        name_nats(robot.effects[i], candidates);
+    const double fall =
+        0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) - name_nats(robot.effects[i], candidates);
     if (fall < least) {
       least = fall;
       worst = i;

@@ -42,7 +42,8 @@ void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, Disgu
   std::vector<Candidate> decoys;
   int last = -2;
   for (const Candidate& candidate : candidates) {
-    if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.disguise != Disguise::none) continue;
+    if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.disguise != Disguise::none)
+      continue;
     if (candidate.effect.form == "seated" || candidate.effect.form == "coupled") continue;
     last = candidate.effect.joint;
     decoys.push_back(candidate);
@@ -66,8 +67,8 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
   for (const EffectLaw* law : catalogue()) {
     if (!is_wanted(options.kinds, law->kind()) || is_declared(law->kind(), declared)) continue;
     const bool symbolic = law->kind() == "symbolic";
-    std::vector<Effect> proposals = symbolic && options.formulas ? formula_library(robot, evidence)
-                                                                 : law->proposals(robot, evidence);
+    std::vector<Effect> proposals =
+        symbolic && options.formulas ? formula_library(robot, evidence) : law->proposals(robot, evidence);
     std::map<std::string, int> alike;  // of one form each, so that a law does not grow dear by its further forms
     for (const Effect& effect : proposals) ++alike[effect.form];
     for (Effect& effect : proposals) {

@@ -16,8 +16,8 @@ bool holds(const CorrectedRobot& model, const Effect& effect) {
 }
 
 double amplitude(const Candidate& candidate, const Score& score, const Detection& detection) {
-  const auto place = static_cast<std::size_t>((1.0 - detection.family_error) *
-                                              static_cast<double>(detection.null_maxima.size() - 1));
+  const auto place =
+      static_cast<std::size_t>((1.0 - detection.family_error) * static_cast<double>(detection.null_maxima.size() - 1));
   const double price = 0.5 * static_cast<double>(score.rank) * std::log(static_cast<double>(detection.poses));
   const double least = 2.0 * (std::max(0.0, detection.null_maxima[place]) + price + candidate.name_nats);
   return (std::sqrt(least) + kPower90) * std::sqrt(detection.variance / score.smallest);

@@ -41,7 +41,8 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
   }
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k].kind != ParameterId::Kind::effect) continue;
-    const auto effect = static_cast<std::size_t>(ids[k].index), coefficient = static_cast<std::size_t>(ids[k].coefficient);
+    const auto effect = static_cast<std::size_t>(ids[k].index),
+               coefficient = static_cast<std::size_t>(ids[k].coefficient);
     const auto at = static_cast<Eigen::Index>(k);
     prior.precision[at] = std::sqrt(squares[effect][coefficient] / static_cast<double>(states.size())) / kUsualMotion;
     prior.offset[at] = robot.effects[effect].value(coefficient);
@@ -66,8 +67,8 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const Eigen::Vecto
 
 ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
                            const ResidualField& fitted, const ResidualField& judging) {
-  ModelColumns columns{beside(fitted.declared, smooth.columns(fitted)), beside(judging.declared, smooth.columns(judging)),
-                       {}, {}};
+  ModelColumns columns{
+      beside(fitted.declared, smooth.columns(fitted)), beside(judging.declared, smooth.columns(judging)), {}, {}};
   const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
   columns.precision.setZero(n + terms);
   columns.precision.head(n) = prior.precision;
@@ -142,8 +143,8 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   Projection projection(columns, fitted.residual, judging.residual);
   Eigen::VectorXd changes = projection.changes();
   Eigen::MatrixXd covariance = projection.covariance();
-  return {std::move(ids),        std::move(fitted),  std::move(judging), std::move(projection),
-          std::move(changes), std::move(covariance)};
+  return {std::move(ids),        std::move(fitted),  std::move(judging),
+          std::move(projection), std::move(changes), std::move(covariance)};
 }
 
 DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps) {

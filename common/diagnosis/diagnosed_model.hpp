@@ -25,8 +25,8 @@ struct Linearised {
   std::vector<ParameterId> ids;
   ResidualField fitted, judging;
   Projection projection;
-  Eigen::VectorXd changes;          ///< least-squares steps of `ids`, then of the smooth terms
-  Eigen::MatrixXd covariance;       ///< of the same numbers, in rows of unit variance
+  Eigen::VectorXd changes;     ///< least-squares steps of `ids`, then of the smooth terms
+  Eigen::MatrixXd covariance;  ///< of the same numbers, in rows of unit variance
 };
 
 /// What stays the same from step to step.

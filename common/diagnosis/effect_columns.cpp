@@ -14,7 +14,8 @@ void EffectColumns::append(const Effect& effect, const Robot& robot, const std::
     motions.clear();
     append_unit_motions(effect, robot, states[static_cast<std::size_t>(pose)], motions);
     for (const UnitMotion& motion : motions) {
-      auto [features, fresh] = loose_[motion_column(motion.place, motion.axis)].try_emplace(columns_ + motion.coefficient);
+      auto [features, fresh] =
+          loose_[motion_column(motion.place, motion.axis)].try_emplace(columns_ + motion.coefficient);
       if (fresh) features->second.setZero(poses);
       features->second[pose] += motion.size;
     }
@@ -74,8 +75,7 @@ Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, cons
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
   Eigen::MatrixXf product = Eigen::MatrixXf::Zero(columns_, rows.cols());
   for (const Block& block : blocks_) {
-    const Eigen::MatrixXf part =
-        block.features.cast<float>().transpose() * along_motion(field, block.motion, rows);
+    const Eigen::MatrixXf part = block.features.cast<float>().transpose() * along_motion(field, block.motion, rows);
     for (std::size_t i = 0; i < block.columns.size(); ++i) {
       product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
     }

@@ -10,12 +10,12 @@ namespace demecal {
 namespace {
 
 constexpr int kMostRejections = 12;
-constexpr double kAlike = 0.9;      ///< cosine
-constexpr double kSame = 0.995;     ///< cosine
+constexpr double kAlike = 0.9;   ///< cosine
+constexpr double kSame = 0.995;  ///< cosine
 constexpr double kNatsToTell = 5.0;
 constexpr double kNatsAbout = 3.0;
-constexpr double kStable = 0.95;    ///< share of resamples that must agree with a sign
-constexpr double kEvident = 2.0;    ///< times the largest fall by luck: no need to permute again
+constexpr double kStable = 0.95;           ///< share of resamples that must agree with a sign
+constexpr double kEvident = 2.0;           ///< times the largest fall by luck: no need to permute again
 constexpr double kLargestTurn_rad = 0.02;  ///< gears, bearings and links that give way more are broken
 constexpr double kLargestShift_m = 0.02;
 
@@ -75,11 +75,12 @@ std::optional<std::size_t> Group::best() const {
   return simplest_like(candidates_[*best].effect.kind == "symbolic" ? by_name(*best) : *best);
 }
 
-/// Of candidates that explain the same and are as good a description, but for a little, the one with the fewest numbers.
+/// Of candidates that explain the same and are as good a description, but for a little, the one with the fewest
+/// numbers.
 std::size_t Group::simplest_like(std::size_t index) const {
   std::size_t simplest = index;
-  const Projection::Trial trial =
-      projection_.trial(columns_.dense(at_.fitted, index), RowMatrix::Zero(at_.judging.rows(), columns_.spans()[index].count));
+  const Projection::Trial trial = projection_.trial(columns_.dense(at_.fitted, index),
+                                                    RowMatrix::Zero(at_.judging.rows(), columns_.spans()[index].count));
   for (const Rival& rival : rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
     if (rival.cosine < kAlike || rival.nats_behind > kNatsAbout) continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -92,7 +93,8 @@ std::size_t Group::simplest_like(std::size_t index) const {
 
 /// The catalogue's effect that a formula is in disguise: as good a description, or all but the same columns.
 std::size_t Group::by_name(std::size_t formula) const {
-  const Projection::Trial trial = projection_.trial(columns_.dense(at_.fitted, formula), RowMatrix::Zero(at_.judging.rows(), 1));
+  const Projection::Trial trial =
+      projection_.trial(columns_.dense(at_.fitted, formula), RowMatrix::Zero(at_.judging.rows(), 1));
   std::size_t named = formula;
   for (const Rival& rival : rivals_of(formula, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
     if (rival.effect.kind == "symbolic" || (rival.cosine < kSame && rival.nats_behind > kNatsToTell)) continue;
@@ -165,7 +167,8 @@ void Group::take(Round round, const Projection::Trial& trial) {
   scan_.follow(columns_, at_.fitted, projection_);
   scores_ = scan_.scores();
   const auto errors = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
-  const double gain_mm2 = errors.empty() ? sure_gain_mm2_ + 1.0 : gain_lower_bound_mm2(start_errors_mm_, errors, random(7));
+  const double gain_mm2 =
+      errors.empty() ? sure_gain_mm2_ + 1.0 : gain_lower_bound_mm2(start_errors_mm_, errors, random(7));
   if (gain_mm2 <= sure_gain_mm2_) return;
   sure_gain_mm2_ = gain_mm2;
   sure_rounds_ = outcome_.rounds.size();

@@ -17,10 +17,10 @@ struct GroupRules {
   double family_error = 0.05;
   int permutations = 999;
   int resamples = 400;
-  int most = 12;           ///< effects in one group
+  int most = 12;  ///< effects in one group
   std::uint64_t seed = 1;
   int group = 1;
-  int first_round = 1;     ///< number of the group's first round
+  int first_round = 1;  ///< number of the group's first round
   double p_structure = 1.0;
 };
 
@@ -41,8 +41,8 @@ class Group {
         std::vector<double>& null_maxima, const GroupRules& rules);
 
   /// Tries candidates, the best first. One is added that luck explains too rarely, that shortens the description, whose
-  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay up to the one after
-  /// which the lower bound of their joint gain on the validation poses is largest, and above zero.
+  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay up to the one
+  /// after which the lower bound of their joint gain on the validation poses is largest, and above zero.
   GroupOutcome run(const std::function<bool(const Round&)>& watch);
   /// The best fall in description length of every decoy, in candidates' order.
   const std::vector<double>& decoy_falls() const { return decoy_falls_; }

@@ -140,7 +140,8 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
   }
   Resampled result;
   result.sign_stability = static_cast<double>(agree) / draws;
-  for (std::vector<double>& values : drawn) result.interval.push_back({quantile(values, 0.025), quantile(values, 0.975)});
+  for (std::vector<double>& values : drawn)
+    result.interval.push_back({quantile(values, 0.025), quantile(values, 0.975)});
   return result;
 }
 

@@ -9,7 +9,8 @@
 
 namespace demecal {
 
-/// The tool error of every judging pose, mm: of its position rows or, where there are none, the root mean square of all.
+/// The tool error of every judging pose, mm: of its position rows or, where there are none, the root mean square of
+/// all.
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
                                    const DataSet& data);
 
@@ -30,8 +31,8 @@ LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std
 
 /// How coefficients scatter when the fitted poses are drawn anew with replacement.
 struct Resampled {
-  double sign_stability = 1.0;                   ///< share of draws that agree with the sign of the whole effect
-  std::vector<std::array<double, 2>> interval;   ///< 2.5 % and 97.5 % of every coefficient
+  double sign_stability = 1.0;                  ///< share of draws that agree with the sign of the whole effect
+  std::vector<std::array<double, 2>> interval;  ///< 2.5 % and 97.5 % of every coefficient
 };
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
                     RandomStream random);

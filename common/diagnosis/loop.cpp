@@ -14,8 +14,8 @@
 namespace demecal {
 namespace {
 
-constexpr int kSteps = 12;       ///< of Gauss and Newton, from the declared fit
-constexpr int kStepsAgain = 3;   ///< after effects were added to a model that was already refined
+constexpr int kSteps = 12;      ///< of Gauss and Newton, from the declared fit
+constexpr int kStepsAgain = 3;  ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
 constexpr std::size_t kMostPosesForFormulas = 5000;  ///< thousands of formulas over more take minutes
 
@@ -65,7 +65,8 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   outcome_.unseen = unseen_kinds(evidence, options_.kinds);
   const bool formulas = options_.formulas && of_.fitted.size() <= kMostPosesForFormulas;
   candidates_ = candidates_for(of_.data.robot, evidence, of_.declared, {options_.kinds, formulas, options_.decoys});
-  const auto decoys = std::ranges::find_if(candidates_, [](const Candidate& c) { return c.disguise != Disguise::none; });
+  const auto decoys =
+      std::ranges::find_if(candidates_, [](const Candidate& c) { return c.disguise != Disguise::none; });
   const auto evolved = candidates_.insert(decoys, options_.evolved.begin(), options_.evolved.end());
   for (Candidate& candidate : std::ranges::subrange(evolved, evolved + std::ssize(options_.evolved))) {
     set_measured_ranges(candidate.effect, of_.data.robot, evidence);
@@ -108,8 +109,7 @@ GroupRules ClosedLoop::rules() const {
   return {.family_error = options_.family_error,
           .permutations = options_.permutations,
           .resamples = options_.resamples,
-          .most = std::min(options_.group_size,
-                           options_.max_effects - static_cast<int>(model_.robot.effects.size())),
+          .most = std::min(options_.group_size, options_.max_effects - static_cast<int>(model_.robot.effects.size())),
           .seed = options_.seed,
           .group = group_,
           .first_round = static_cast<int>(outcome_.rounds.size()) + 1,

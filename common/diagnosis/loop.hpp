@@ -13,17 +13,17 @@
 namespace demecal {
 
 struct LoopOptions {
-  std::vector<std::string> kinds;    ///< words of the catalogue to consider; empty: all
+  std::vector<std::string> kinds;  ///< words of the catalogue to consider; empty: all
   int max_effects = 100;
-  double family_error = 0.05;        ///< chance of adding anything to a model that lacks nothing
+  double family_error = 0.05;  ///< chance of adding anything to a model that lacks nothing
   int permutations = 999;
   int resamples = 400;
-  int group_size = 24;               ///< effects that may be added between two joint refits
-  double least_gain = 0.005;         ///< share of the validation error that a group must win for another to follow
-  int highest_ratio = 200;           ///< of the scan over gear harmonics
-  std::vector<double> stated_ratios; ///< beyond the scan
-  bool formulas = true;              ///< formulas outside the catalogue compete, where there are at most 5000 poses
-  std::vector<Candidate> evolved{};  ///< formulas that evolution found on the residual: they compete too
+  int group_size = 24;                ///< effects that may be added between two joint refits
+  double least_gain = 0.005;          ///< share of the validation error that a group must win for another to follow
+  int highest_ratio = 200;            ///< of the scan over gear harmonics
+  std::vector<double> stated_ratios;  ///< beyond the scan
+  bool formulas = true;               ///< formulas outside the catalogue compete, where there are at most 5000 poses
+  std::vector<Candidate> evolved{};   ///< formulas that evolution found on the residual: they compete too
   bool decoys = true;
   std::uint64_t seed = 1;
 };
@@ -38,8 +38,9 @@ struct LoopResult {
 };
 
 /// Runs the ten steps from `start`, a declared model already fitted (its corrections are kept and, where joint
-/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses judge (where there are
-/// none, resampling of the calibration poses alone does); accept poses are never looked at. A function of its arguments.
+/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses judge (where there
+/// are none, resampling of the calibration poses alone does); accept poses are never looked at. A function of its
+/// arguments.
 LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
                       const RoundWatcher& watch = {});
 

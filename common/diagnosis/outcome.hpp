@@ -31,18 +31,18 @@ struct Round {
   int number = 0;  ///< from 1
   int group = 0;   ///< rounds of one group were judged against the same permutations and refitted together; from 1
   Verdict verdict = Verdict::none;
-  Effect effect;  ///< with its values at the end of its group; of the best candidate where none was added
-  std::string diagnosis;       ///< one sentence for an engineer
-  std::string formula;         ///< one line
-  std::string reason;          ///< why it was not added; empty where it was
-  std::vector<Rival> rivals;   ///< nearest first
-  double p_structure = 1.0;    ///< of the omnibus test for dependence before this group
-  double p_family = 1.0;       ///< family-wise, over all candidates
-  double fall_nats = 0.0;      ///< of the description length
+  Effect effect;                ///< with its values at the end of its group; of the best candidate where none was added
+  std::string diagnosis;        ///< one sentence for an engineer
+  std::string formula;          ///< one line
+  std::string reason;           ///< why it was not added; empty where it was
+  std::vector<Rival> rivals;    ///< nearest first
+  double p_structure = 1.0;     ///< of the omnibus test for dependence before this group
+  double p_family = 1.0;        ///< family-wise, over all candidates
+  double fall_nats = 0.0;       ///< of the description length
   double gain_lower_mm2 = 0.0;  ///< one-sided 95 % bound of the fall of the mean squared error on validation poses
   double sign_stability = 0.0;  ///< share of resamples in which the leading coefficient keeps its sign
   std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient, by resampling poses; SI
-  double validation_before_mm = 0.0;  ///< mean tool error on the validation poses
+  double validation_before_mm = 0.0;            ///< mean tool error on the validation poses
   double validation_after_mm = 0.0;
   std::optional<FurtherMeasurement> further;  ///< where there are rivals
 };
@@ -62,7 +62,7 @@ struct Unseen {
 
 /// A candidate that cannot be true, and how it fared.
 struct Decoy {
-  std::string name;          ///< "backlash of joint 2 by shuffled approach signs"
+  std::string name;             ///< "backlash of joint 2 by shuffled approach signs"
   double best_fall_nats = 0.0;  ///< over all groups
   bool won = false;
 };
@@ -76,12 +76,12 @@ struct LoopOutcome {
   std::vector<NotFound> not_found;
   std::vector<Unseen> unseen;
   std::vector<Decoy> decoys;
-  std::vector<std::size_t> outliers;            ///< poses (in the data set) that were down-weighted as far out
-  std::optional<double> noise_m;                ///< per axis, from repeats
-  std::optional<double> lack_of_fit_p;          ///< of the F test against repeats, before the loop
-  std::optional<double> explained_share;        ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
-  double p_structure_left = 1.0;                ///< of the omnibus test at the end
-  int candidates = 0;                           ///< effects tried in every round
+  std::vector<std::size_t> outliers;      ///< poses (in the data set) that were down-weighted as far out
+  std::optional<double> noise_m;          ///< per axis, from repeats
+  std::optional<double> lack_of_fit_p;    ///< of the F test against repeats, before the loop
+  std::optional<double> explained_share;  ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
+  double p_structure_left = 1.0;          ///< of the omnibus test at the end
+  int candidates = 0;                     ///< effects tried in every round
   int permutations = 0;
 };
 

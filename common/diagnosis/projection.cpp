@@ -22,8 +22,10 @@ Eigen::MatrixXd orthonormaliser(const Eigen::MatrixXd& factor) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(factor * scale.asDiagonal());
   pivoted.setThreshold(kDependent);
   const Eigen::Index rank = pivoted.rank();
-  const Eigen::MatrixXd inverse = pivoted.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(
-      Eigen::MatrixXd::Identity(rank, rank));
+  const Eigen::MatrixXd inverse = pivoted.matrixR()
+                                      .topLeftCorner(rank, rank)
+                                      .triangularView<Eigen::Upper>()
+                                      .solve(Eigen::MatrixXd::Identity(rank, rank));
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(n, rank);
   padded.topRows(rank) = inverse;
   return scale.asDiagonal() * (pivoted.colsPermutation() * padded);

@@ -86,8 +86,7 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
 double Scan::fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
   if (rank == 0) return 0.0;
   const double share = std::min(drop / squares, 1.0 - 1e-12);
-  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) -
-         name_nats_[candidate];
+  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) - name_nats_[candidate];
 }
 
 std::vector<Score> Scan::scores() const {
@@ -111,8 +110,8 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
   return cosines;
 }
 
-std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field,
-                                      const Projection& model, int count, RandomStream random) const {
+std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
+                                      int count, RandomStream random) const {
   const RowMatrixF basis = model.basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
   const auto groups = alike(field);

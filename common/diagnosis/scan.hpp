@@ -12,10 +12,10 @@ namespace demecal {
 
 /// One candidate against the residual.
 struct Score {
-  double drop = 0.0;        ///< fall of the sum of squares
-  Eigen::Index rank = 0;    ///< directions that the model does not have
-  double fall_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
-  double smallest = 0.0;    ///< of the projected columns' Gram matrix (unscaled): its smallest kept eigenvalue
+  double drop = 0.0;       ///< fall of the sum of squares
+  Eigen::Index rank = 0;   ///< directions that the model does not have
+  double fall_nats = 0.0;  ///< fall of the description length: likelihood won, less the price of coefficients and name
+  double smallest = 0.0;   ///< of the projected columns' Gram matrix (unscaled): its smallest kept eigenvalue
 };
 
 /// All candidates' projections off one model. Building it costs one pass over the candidates' columns.

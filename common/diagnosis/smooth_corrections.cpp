@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/projection.hpp"
 #include "expression/evaluate.hpp"
 
 namespace demecal {
@@ -12,6 +13,7 @@ namespace {
 constexpr double kLeastMotion_rad = 1e-3;
 constexpr int kHighestDegree = 8;
 constexpr int kHighestHarmonic = 3;
+constexpr double kGone = 1e8;  ///< belief in zero, in scaled units, of a term that is out for good
 
 Tree times(double factor, const Tree& tree) {
   return apply(Primitive::multiply, constant_tree(factor), tree);
@@ -62,7 +64,7 @@ double value_at(const SmoothCorrections& smooth, const SmoothTerm& term, double 
 /// keeps one in three of those that are not there.
 void prune(Eigen::VectorXd& belief, const Eigen::VectorXd& mean, const Eigen::MatrixXd& inverse, double variance,
            Eigen::Index fixed) {
-  constexpr double kGone = 1e11, kSure = 2.0;
+  constexpr double kSure = 2.0;
   std::vector<std::pair<double, Eigen::Index>> unsure;
   for (Eigen::Index i = fixed; i < belief.size(); ++i) {
     const double errors = std::abs(mean[i]) / std::sqrt(variance * inverse(i, i));
@@ -70,7 +72,7 @@ void prune(Eigen::VectorXd& belief, const Eigen::VectorXd& mean, const Eigen::Ma
   }
   std::sort(unsure.begin(), unsure.end());
   const std::size_t taken = (unsure.size() + 3) / 4;
-  for (std::size_t i = 0; i < taken; ++i) belief[unsure[i].second] = 1e12;
+  for (std::size_t i = 0; i < taken; ++i) belief[unsure[i].second] = kGone;
 }
 
 }  // namespace
@@ -132,17 +134,21 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
 
 Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, double rows) {
   constexpr int kRounds = 80, kPruneEvery = 8;
-  constexpr double kLargest = 1e8;  ///< 1/rad: a coefficient so believed is zero
+  constexpr double kLargest = 300.0;         ///< times what the poses say of a coefficient: one so believed is zero
+  constexpr double kLeastPrecision = 100.0;  ///< 1/rad
   const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
   const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
   const Eigen::VectorXd moment = factor.leftCols(n).transpose() * factor.col(n);
   const double whole = factor.col(n).squaredNorm();
   Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
-  for (double& value : scale) value = value > 0 ? 1 / value : 1.0;
+  for (double& value : scale) value = 1 / std::max(value, kNoColumn);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
   const Eigen::VectorXd scaled_moment = scale.cwiseProduct(moment);
-  Eigen::VectorXd belief = Eigen::VectorXd::Constant(n, 1e-10);  // in scaled units, over the variance of rows
+  Eigen::VectorXd belief = Eigen::VectorXd::Constant(n, 1e-9);  // in scaled units, over the variance of rows
   belief.tail(terms).setConstant(1e-2);
+  for (Eigen::Index i = fixed; i < n; ++i) {
+    if (gram(i, i) < kNoColumn * kNoColumn) belief[i] = kGone;  // a joint that moves nothing of what was measured
+  }
   double variance = 1.0;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::MatrixXd posterior = scaled;
@@ -154,7 +160,7 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, dou
     for (Eigen::Index i = fixed; i < n; ++i) {
       const double known = std::clamp(1.0 - variance * belief[i] * inverse(i, i), 1e-12, 1.0);
       determined += known;
-      belief[i] = std::clamp(known / std::max(mean[i] * mean[i], 1e-30), 1e-10, 1e12);
+      if (belief[i] < kGone) belief[i] = std::clamp(known / std::max(mean[i] * mean[i], 1e-30), 1e-10, kGone);
     }
     if (round % kPruneEvery == kPruneEvery - 1) prune(belief, mean, inverse, variance, fixed);
     const double squares = whole - 2.0 * mean.dot(scaled_moment) + mean.dot(scaled * mean);
@@ -163,7 +169,7 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, dou
   Eigen::VectorXd precision(terms);
   for (Eigen::Index i = 0; i < terms; ++i) {
     // back to rows of unit variance: precision of the unscaled coefficient
-    precision[i] = std::min(kLargest, std::sqrt(belief[fixed + i]) / scale[fixed + i]);
+    precision[i] = std::min(kLargest, std::sqrt(belief[fixed + i])) * std::max(kLeastPrecision, 1 / scale[fixed + i]);
   }
   return precision;
 }

@@ -20,10 +20,10 @@ struct SmoothTerm {
 /// encoders are sums of few of them. The tangent space of the joint corrections, whatever formula evolution finds.
 struct SmoothCorrections {
   std::vector<SmoothTerm> terms;
-  Eigen::VectorXd coefficients;         ///< rad, one per term
-  std::vector<JointCorrection> base;    ///< one per joint: corrections that are already there
-  std::vector<AngleBranch> branches;    ///< one per joint
-  std::vector<Interval> ranges;         ///< one per joint, rad
+  Eigen::VectorXd coefficients;       ///< rad, one per term
+  std::vector<JointCorrection> base;  ///< one per joint: corrections that are already there
+  std::vector<AngleBranch> branches;  ///< one per joint
+  std::vector<Interval> ranges;       ///< one per joint, rad
 
   /// The corrections with their coefficients in place.
   std::vector<JointCorrection> corrections() const;

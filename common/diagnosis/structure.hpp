@@ -8,20 +8,20 @@
 
 namespace demecal {
 
-/// The p-value of an omnibus test for dependence. The residual of every pose is taken as an error of each joint in turn;
-/// for each joint and each circumstance (every joint's value, approach, torque, payload, temperature, time, and every
-/// pair of joint values) poses that are neighbours in that circumstance are asked whether their errors agree more than
-/// chance would have it. The largest agreement, each in units of its own scatter under `permutations` permutations of
-/// whole poses' residuals, is compared with the largest of each permutation: family-wise. At most 1000 poses take part,
-/// evenly spaced.
+/// The p-value of an omnibus test for dependence. The residual of every pose is taken as an error of each joint in
+/// turn; for each joint and each circumstance (every joint's value, approach, torque, payload, temperature, time, and
+/// every pair of joint values) poses that are neighbours in that circumstance are asked whether their errors agree more
+/// than chance would have it. The largest agreement, each in units of its own scatter under `permutations` permutations
+/// of whole poses' residuals, is compared with the largest of each permutation: family-wise. At most 1000 poses take
+/// part, evenly spaced.
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int permutations,
                          RandomStream random);
 
 /// Repeats of a pose give the pure error, whatever the model.
 struct PureError {
-  double deviation_m = 0.0;    ///< of positions, per axis, about the mean of their repeats
-  double freedom = 0.0;        ///< degrees of freedom, in rows
-  double squares = 0.0;        ///< sum of squared deviations of position rows, m^2
+  double deviation_m = 0.0;  ///< of positions, per axis, about the mean of their repeats
+  double freedom = 0.0;      ///< degrees of freedom, in rows
+  double squares = 0.0;      ///< sum of squared deviations of position rows, m^2
 };
 /// Nothing where no pose is repeated.
 std::optional<PureError> pure_error(const DataSet& data, std::span<const std::size_t> poses);

@@ -17,8 +17,8 @@ const std::string kGravityTurn = "gravity_turn";
 
 /// A joint that gives way where gravity pushes it. Forms: `masses`, by the torque of known masses and the payload;
 /// `payload`, of the payload alone; `moments`, of unknown masses, whose first moments times the compliance are the
-/// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known; gravity_turn: 1 or 2
-/// takes the part of gravity that a leaning mount turns about either direction across it); `tilted`, of known masses
+/// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known; gravity_turn: 1 or
+/// 2 takes the part of gravity that a leaning mount turns about either direction across it); `tilted`, of known masses
 /// where gravity leans a little from where it is said to point.
 class Compliance final : public EffectLaw {
  public:

@@ -135,6 +135,9 @@ TEST_F(Scores, CountRivalsAsTheClassAndCloseOnesAsInseparable) {
   EXPECT_TRUE(of(outcome, {coupling(3.0)}, {coupling(4.0)}).eligible);
   outcome.rounds[0].rivals[0].cosine = 0.95;
   EXPECT_FALSE(of(outcome, {coupling(3.0)}, {coupling(4.0)}).eligible);
+  outcome.rounds[0].rivals[0].effect = coupling(3.0);
+  outcome.rounds[0].rivals[0].effect.form = "harmonic";
+  EXPECT_TRUE(of(outcome, {coupling(3.0)}, {coupling(3.0)}).eligible);
 }
 
 TEST_F(Scores, WantBothEffectsOfAPairAndNoneOfAnUnharmedArm) {

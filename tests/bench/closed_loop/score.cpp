@@ -29,8 +29,11 @@ class Judge {
   const std::vector<ArmState>& states_;
 };
 
-bool separable(const Round& round) {
-  return std::ranges::all_of(round.rivals, [](const Rival& rival) { return rival.cosine < kAlike; });
+/// Whether no effect of another name would explain the same; other forms of the named one are no rivals here.
+bool separable(const Round& round, const Judge& judge) {
+  return std::ranges::all_of(round.rivals, [&](const Rival& rival) {
+    return rival.cosine < kAlike || judge.same(rival.effect, round.effect);
+  });
 }
 
 }  // namespace
@@ -52,7 +55,7 @@ Score score(const LoopOutcome& outcome, const std::vector<Effect>& final_effects
     score.eligible = true;
     return score;
   }
-  score.eligible = first == nullptr || separable(*first);
+  score.eligible = first == nullptr || separable(*first, judge);
   if (truths.size() == 1) {
     score.named = first != nullptr && judge.same(first->effect, truths[0]);
     score.in_class = score.named || (first != nullptr && judge.is_rival(truths[0], *first));

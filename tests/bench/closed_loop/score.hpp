@@ -10,7 +10,7 @@ namespace demecal::bench {
 
 struct Score {
   bool named = false;     ///< the first effect added is true; of pairs, both truths were added; of none, nothing was
-  bool eligible = false;  ///< no rival of the first effect added has a cosine of 0.9: it should have been named
+  bool eligible = false;  ///< no rival by another name has a cosine of 0.9 with the first effect added
   bool in_class =
       false;  ///< named, or the truth is among the first one's rivals; of pairs, among those of any added one
   int false_additions = 0;  ///< effects of the final model that are not true

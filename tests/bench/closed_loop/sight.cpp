@@ -18,7 +18,7 @@ double Sight::detectable(const NotFound& measure, const Effect& effect) const {
   const auto values = Eigen::Map<const Eigen::VectorXd>(effect.values.data(), std::ssize(effect.values));
   const Projection::Trial trial =
       at_.projection.trial(columns.dense(at_.fitted, 1) * values, RowMatrix::Zero(at_.judging.rows(), 1));
-  return needed / std::hypot(trial.fitted.norm(), trial.beliefs.norm());
+  return needed / trial.fitted.norm();
 }
 
 }  // namespace demecal::bench
