@@ -10,8 +10,9 @@ namespace demecal {
 namespace {
 
 constexpr int kMostRejections = 12;
-constexpr double kAlike = 0.9;   ///< cosine
-constexpr double kSame = 0.995;  ///< cosine
+constexpr double kLeastFreedom = 12.0;  ///< measured numbers that a model must leave to be judged by
+constexpr double kAlike = 0.9;          ///< cosine
+constexpr double kSame = 0.995;         ///< cosine
 constexpr double kNatsToTell = 5.0;
 constexpr double kNatsAbout = 3.0;
 constexpr double kStable = 0.95;           ///< share of resamples that must agree with a sign
@@ -147,6 +148,8 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
 std::string Group::objection(const Round& round, const Projection::Trial& trial) const {
   if (round.p_family > rules_.family_error) return "chance would explain as much too often";
   if (round.fall_nats <= 0.0) return "the description grows longer by it";
+  if (projection_.freedom() - static_cast<double>(trial.rank) < kLeastFreedom)
+    return "too few measured numbers are left";
   if (!at_.judging.poses.empty()) {
     const auto before = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
     const auto after = whole_errors_mm(at_.judging, trial.judging_left, model_.scales);

@@ -78,26 +78,43 @@ TEST(KnownShare, IgnoresWholeTurnsOfRevoluteJointsOnly) {
   EXPECT_EQ(share_at(ranged(-0.5, 0.5, 2), 0.2 + kTurn, 2), 0.0) << "joint 3 slides";
 }
 
-TEST(KnownShare, ScalesEveryUnitMotion) {
+TEST(MeasuredRange, ARippleFadesBeyondItFromWhatItIsAtTheEnd) {
   RandomStream stream{32, 1};
   const Robot robot = laden_arm(stream, Arm::standard);
   Stop stop = random_stop(stream, robot);
+  const Effect everywhere{.kind = "gear_harmonic", .joint = 1, .settings = {{"ratio", 24}}};
+  Effect ranged = everywhere;
+  ranged.ranges = {{1, {0.0, 1.0}}};
+  stop.joints[1] = 1.0;
+  std::vector<UnitMotion> at_end{{7, 0, 0, 1.0}}, faded = at_end, none = at_end;
+  append_unit_motions(everywhere, robot, arm_state(robot, stop), at_end);
   stop.joints[1] = 1.04;
-  const ArmState state = arm_state(robot, stop);
-  Effect effect{.kind = "axis_wobble", .joint = 1, .settings = {{"order", 1}}};
-  std::vector<UnitMotion> whole{{7, 0, 0, 1.0}}, faded = whole, none = whole;
-  append_unit_motions(effect, robot, state, whole);
-  effect.ranges = {{1, {0.0, 1.0}}};
-  append_unit_motions(effect, robot, state, faded);
-  ASSERT_EQ(faded.size(), whole.size());
-  const double share = known_share(effect, robot.chain, stop.joints);
+  append_unit_motions(ranged, robot, arm_state(robot, stop), faded);
+  ASSERT_EQ(faded.size(), at_end.size());
+  const double share = known_share(ranged, robot.chain, stop.joints);
   EXPECT_GT(share, 0.5);
   EXPECT_LT(share, 0.8);
   EXPECT_EQ(faded[0].size, 1.0) << "what stood there before";
-  for (std::size_t i = 1; i < whole.size(); ++i) EXPECT_EQ(faded[i].size, share * whole[i].size);
-  effect.ranges = {{1, {0.0, 0.5}}};
-  append_unit_motions(effect, robot, state, none);
+  for (std::size_t i = 1; i < at_end.size(); ++i) EXPECT_EQ(faded[i].size, share * at_end[i].size);
+  stop.joints[1] = 1.5;
+  append_unit_motions(ranged, robot, arm_state(robot, stop), none);
   EXPECT_EQ(none.size(), 1u);
+}
+
+TEST(MeasuredRange, ASlowEffectKeepsBeyondItWhatItIsAtTheEnd) {
+  RandomStream stream{32, 2};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  Stop stop = random_stop(stream, robot);
+  const Effect everywhere{.kind = "axis_wobble", .joint = 1, .settings = {{"order", 1}}};
+  Effect ranged = everywhere;
+  ranged.ranges = {{1, {0.0, 1.0}}};
+  stop.joints[1] = 1.0;
+  std::vector<UnitMotion> at_end, beyond;
+  append_unit_motions(everywhere, robot, arm_state(robot, stop), at_end);
+  stop.joints[1] = 1.6;
+  append_unit_motions(ranged, robot, arm_state(robot, stop), beyond);
+  ASSERT_EQ(beyond.size(), at_end.size());
+  for (std::size_t i = 0; i < at_end.size(); ++i) EXPECT_EQ(beyond[i].size, at_end[i].size);
 }
 
 }  // namespace
