@@ -180,6 +180,7 @@ TEST(UnitMotions, OfUnknownMassesSpanTheTorqueOfAnyMasses) {
     for (const Effect& effect : find_law("compliance")->proposals(robot, evidence)) {
       if (effect.form != "moments") continue;
       const auto count = static_cast<Eigen::Index>(law_of(effect).coefficients(effect, robot).size());
+      if (count < 2) continue;  // one part at a time: several of them make the whole
       Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(60, count);
       Eigen::VectorXd torque(60);
       for (Eigen::Index row = 0; row < 60; ++row) {
