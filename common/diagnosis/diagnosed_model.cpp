@@ -126,7 +126,8 @@ void set_standard_errors(CorrectedRobot& robot, const Linearised& at) {
 DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start) {
   DiagnosedModel model;
   model.robot = start.robot;
-  model.smooth = smooth_corrections(of.data, of.fitted, start.robot, of.declared.joint_corrections);
+  model.smooth =
+      smooth_corrections(of.data, of.fitted, start.robot, of.declared.joint_corrections, of.declared.joint_offset);
   model.scales = {start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
   return model;
 }

@@ -43,9 +43,10 @@ Tree legendre(int degree, const Tree& t) {
   return tree;
 }
 
-void add_terms(SmoothCorrections& smooth, int joint, const Interval& range) {
+void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool offset_declared) {
   const Tree t = unit_variable(range);
-  for (int degree = 0; degree <= kHighestDegree; ++degree) smooth.terms.push_back({joint, legendre(degree, t)});
+  for (int degree = offset_declared ? 1 : 0; degree <= kHighestDegree; ++degree)
+    smooth.terms.push_back({joint, legendre(degree, t)});
   for (int n = 1; n <= kHighestHarmonic; ++n) {
     const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
     smooth.terms.push_back({joint, apply(Primitive::cosine, angle)});
@@ -109,7 +110,7 @@ RowMatrix SmoothCorrections::columns(const ResidualField& field) const {
 }
 
 SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::size_t> poses,
-                                     const CorrectedRobot& robot, bool declared) {
+                                     const CorrectedRobot& robot, bool declared, bool offset_declared) {
   SmoothCorrections smooth;
   smooth.base = robot.corrections;
   smooth.branches.resize(smooth.base.size());
@@ -126,7 +127,7 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
     if (lower == angles.end()) continue;
     smooth.ranges[at] = {*lower, *upper};
     const bool moves = link.type == JointType::revolute && *upper - *lower > kLeastMotion_rad;
-    if (declared && moves) add_terms(smooth, joint, smooth.ranges[at]);
+    if (declared && moves) add_terms(smooth, joint, smooth.ranges[at], offset_declared);
   }
   smooth.coefficients.setZero(static_cast<Eigen::Index>(smooth.terms.size()));
   return smooth;
@@ -135,7 +136,7 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
 Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, double rows) {
   constexpr int kRounds = 80, kPruneEvery = 8;
   constexpr double kLargest = 300.0;         ///< times what the poses say of a coefficient: one so believed is zero
-  constexpr double kLeastPrecision = 100.0;  ///< 1/rad
+  constexpr double kLeastPrecision = 100.0;  ///< 1/rad: no joint errs by whole hundredths
   const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
   const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
   const Eigen::VectorXd moment = factor.leftCols(n).transpose() * factor.col(n);
@@ -169,7 +170,8 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, dou
   Eigen::VectorXd precision(terms);
   for (Eigen::Index i = 0; i < terms; ++i) {
     // back to rows of unit variance: precision of the unscaled coefficient
-    precision[i] = std::min(kLargest, std::sqrt(belief[fixed + i])) * std::max(kLeastPrecision, 1 / scale[fixed + i]);
+    const double seen = std::min(kLargest, std::sqrt(belief[fixed + i])) / scale[fixed + i];
+    precision[i] = std::max(kLeastPrecision, seen);
   }
   return precision;
 }

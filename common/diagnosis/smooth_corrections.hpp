@@ -32,9 +32,9 @@ struct SmoothCorrections {
 };
 
 /// Terms for the joints of `robot` over the commanded joints of `poses`, coefficients zero; its corrections are the
-/// base. `declared` false: no terms at all.
+/// base. `declared` false: no terms at all; `offset_declared`: no constant ones.
 SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::size_t> poses,
-                                     const CorrectedRobot& robot, bool declared);
+                                     const CorrectedRobot& robot, bool declared, bool offset_declared = false);
 
 /// How precisely each term's coefficient should be believed to be zero before the poses are seen (one over its standard
 /// deviation, 1/rad), chosen so that the poses are most likely: automatic relevance determination (MacKay, 1992). Terms
