@@ -36,7 +36,7 @@ std::vector<double> prices(const std::vector<Candidate>& candidates) {
   return nats;
 }
 
-double mean_square(const std::vector<double>& errors) {
+double sum_of_squares(const std::vector<double>& errors) {
   return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
 }
 
@@ -153,7 +153,7 @@ std::string Group::objection(const Round& round, const Projection::Trial& trial)
   if (!at_.judging.poses.empty()) {
     const auto before = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
     const auto after = whole_errors_mm(at_.judging, trial.judging_left, model_.scales);
-    if (mean_square(after) >= mean_square(before) && round.gain_lower_mm2 <= 0.0) {
+    if (sum_of_squares(after) >= sum_of_squares(before) && round.gain_lower_mm2 <= 0.0) {
       return "no gain on the validation poses";
     }
   }
