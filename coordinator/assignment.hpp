@@ -34,6 +34,8 @@ class Assignment {
   /// the longest queue. Empty where there are no workers.
   std::vector<Move> balance();
 
+  /// Empty where the island is without a worker.
+  const std::string& holder(IslandKey island) const { return holder_.at(island); }
   bool has_workers() const { return !slots_.empty(); }
   std::size_t worker_count() const { return slots_.size(); }
 

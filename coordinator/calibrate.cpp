@@ -11,17 +11,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+std::string words_for(Sought sought, int luck) {
+  if (sought == Sought::corrections) return "evolving the joint corrections anew beside the effects";
+  if (sought == Sought::formulas) return "evolving formulas over all circumstances on what is left";
+  return "the same search on permuted poses, to know what luck finds: number " + std::to_string(luck);
+}
+
 /// Closes the loop around result.calibration.
 void close_the_loop(const DataSet& data, const Job& job, Evolutions& evolutions, const std::atomic<bool>& interrupt,
                     const CalibrateOptions& options, CalibrateResult& result) {
   LoopDisplay display(stderr, data.robot, options.quiet);
   const auto watch = [&](const Round& round) {
     display.on_round(round);
+    if (options.chronicle != nullptr) options.chronicle->round_ends(round, data.robot);
     return !interrupt;
   };
-  const Evolve evolve = [&](const std::vector<JointTraining>& training) {
-    display.say("evolving the joint corrections anew beside the effects");
-    std::optional<std::vector<JointCandidates>> candidates = evolutions.run(training);
+  int lucky = 0;
+  const Evolve evolve = [&](const std::vector<JointTraining>& training, Sought sought) {
+    display.say(words_for(sought, sought == Sought::luck ? ++lucky : 0));
+    std::optional<std::vector<JointCandidates>> candidates = evolutions.run(training, sought != Sought::luck);
     if (evolutions.end() == RunEnd::no_worker) display.say("no worker is left: the loop's own corrections are kept");
     if (evolutions.end() != RunEnd::finished) candidates.reset();
     return candidates;
@@ -68,6 +76,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   result.facts = evolutions.facts();
   result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   result.facts.interrupted = result.end == RunEnd::interrupted;
+  result.facts.asynchronous = options.asynchronous;
   return result;
 }
 

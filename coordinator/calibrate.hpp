@@ -8,8 +8,10 @@
 #include <string>
 
 #include "calibration/job.hpp"
+#include "coordinator/chronicle.hpp"
 #include "coordinator/evolution_run.hpp"
 #include "coordinator/exit_codes.hpp"
+#include "coordinator/run_journal.hpp"
 #include "data/data_set.hpp"
 #include "report/calibration_report.hpp"
 
@@ -25,8 +27,11 @@ class Fleet {
 };
 
 struct CalibrateOptions {
-  std::chrono::milliseconds worker_patience{30000};
+  RunPatience patience;
   bool quiet = false;
+  bool asynchronous = false;       ///< islands wait for no neighbour: the result depends on timing
+  Chronicle* chronicle = nullptr;  ///< told what happens, for people; none: nobody
+  RunJournal* journal = nullptr;   ///< where evolutions are recorded and taken up again; none: nowhere
 };
 
 struct CalibrateResult {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "coordinator/commands.hpp"
 #include "coordinator/dds_fleet.hpp"
 #include "coordinator/interrupt.hpp"
+#include "coordinator/job_identity.hpp"
 #include "coordinator/result_folder.hpp"
 #include "errors/input_error.hpp"
 #include "report/terminal.hpp"
@@ -19,12 +21,12 @@ namespace demecal {
 namespace {
 
 struct Request {
-  std::string job_file, out, data_file, method;
+  std::string job_file, out, resume, data_file, method;
   int workers = static_cast<int>(std::thread::hardware_concurrency());
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
-  bool quiet = false, network = false;
+  bool quiet = false, network = false, asynchronous = false;
   DdsOptions dds;
 };
 
@@ -49,7 +51,37 @@ void print_head(const Request& request, const Job& job, const DataSet& data) {
                                  : fmt::format("waiting up to {:g} s for workers", request.worker_timeout_s));
 }
 
+/// The journal of the run in its folder of results.
+std::unique_ptr<RunJournal> open_journal(const Request& request, const Job& job, const DataSet& data) {
+  const auto start = request.resume.empty() ? RunJournal::Start::anew : RunJournal::Start::resume;
+  const JobIdentity identity = identity_of(request.job_file, job, data, request.asynchronous);
+  auto journal = std::make_unique<RunJournal>(request.out, identity, start);
+  if (!request.quiet && !journal->found().empty()) fmt::print(stderr, "  {}\n", journal->found());
+  return journal;
+}
+
+/// How to go on after a run that did not come to its end.
+std::string resuming(const Request& request) {
+  return fmt::format("`demecal calibrate {} --resume {}`, with the same options, goes on from there", request.job_file,
+                     request.out);
+}
+
+/// A full disk is no fault of the user's input, and the journal still has what was reached.
+CalibrationReport write(const Request& request, const DataSet& data, const CalibrateResult& result) {
+  try {
+    return write_results(request.out, data, result);
+  } catch (const InputError& error) {
+    throw std::runtime_error(fmt::format("{}; {}", error.what(), resuming(request)));
+  }
+}
+
 ExitCode run(Request request) {
+  if (request.out.empty()) request.out = request.resume;
+  if (request.out.empty() || (!request.resume.empty() && !same_folder(request.out, request.resume))) {
+    fmt::print(stderr,
+               "--out is missing, or names another folder than --resume: a resumed run leaves its results there\n");
+    return ExitCode::wrong_arguments;
+  }
   if (request.network || !request.dds.peers.empty() || !request.dds.discovery_server.empty()) {
     request.dds.reach = DdsOptions::Reach::network;
   }
@@ -61,21 +93,38 @@ ExitCode run(Request request) {
   const auto make_fleet = [&] { return std::make_unique<DdsFleet>(request.dds, request.workers); };
   CalibrateOptions options;
   options.quiet = request.quiet;
-  options.worker_patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
+  options.asynchronous = request.asynchronous;
+  options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
+  const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
+  options.journal = journal.get();
+  Chronicle chronicle(request.out, !request.resume.empty(), job.name, join_dds(request.dds, Role::herald, "chronicle"));
+  options.chronicle = &chronicle;
   const CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
   const RunEnd end = result.end;
   if (end == RunEnd::no_worker) {
-    fmt::print(stderr, "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default\n",
-               request.worker_timeout_s, request.dds.domain);
+    chronicle.ends(LoopNews::Stage::failed, "failed: no worker came");
+    fmt::print(stderr,
+               "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default; {}\n",
+               request.worker_timeout_s, request.dds.domain, resuming(request));
     return ExitCode::no_worker;
   }
-  const CalibrationReport report = write_results(request.out, data, result);
+  const CalibrationReport report = write(request, data, result);
+  if (end == RunEnd::interrupted) {
+    chronicle.ends(LoopNews::Stage::interrupted, "interrupted");
+  } else {
+    chronicle.ends(LoopNews::Stage::finished, "finished");
+  }
   fmt::print(
       "{}\n  {} islands on {} workers, {} evaluations in {:.1f} s\n  {}: {}/model.yaml, report.json, report.html, "
       "history.csv\n",
       to_terminal(report), report.runtime.islands, report.runtime.workers, report.runtime.evaluations,
       report.runtime.wall_s, end == RunEnd::interrupted ? "interrupted; what was reached" : "results", request.out);
-  return end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
+  if (end == RunEnd::interrupted) {
+    fmt::print("  {}\n", resuming(request));
+    return ExitCode::interrupted;
+  }
+  journal->remove();
+  return ExitCode::done;
 }
 
 }  // namespace
@@ -84,7 +133,9 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<Request>();
   CLI::App* command = app.add_subcommand("calibrate", "run a calibration job and write model, report and history");
   command->add_option("job", request->job_file, "JOB.yaml")->required();
-  command->add_option("--out", request->out, "folder for the results")->required();
+  command->add_option("--out", request->out, "folder for the results (needed, unless --resume names it)");
+  command->add_option("--resume", request->resume,
+                      "folder of a run that was broken off: goes on from its journal, and leaves the results there");
   command->add_option("--workers", request->workers, "local worker processes; 0 waits for workers started elsewhere")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
@@ -103,10 +154,16 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--peer", request->dds.peers, "addresses of other hosts, where there is no multicast");
   command->add_option("--discovery-server", request->dds.discovery_server, "ADDRESS:PORT of a discovery server");
   command
+      ->add_option("--security", request->dds.security,
+                   "folder of certificates, from scripts/security; not with a discovery server")
+      ->excludes("--discovery-server");
+  command
       ->add_option("--worker-timeout-s", request->worker_timeout_s,
                    "how long to be without any worker before giving up")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_flag("--asynchronous", request->asynchronous,
+                    "islands wait for no neighbour: never idle, but another run gives another result");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }

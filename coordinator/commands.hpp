@@ -13,5 +13,6 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code);
 void add_evaluate(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
+void add_monitor(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace demecal

@@ -16,6 +16,7 @@ std::vector<std::string> worker_arguments(const DdsOptions& options, RunId run) 
   for (const std::string& address : options.interfaces) add("--interface", address);
   for (const std::string& peer : options.peers) add("--peer", peer);
   if (!options.discovery_server.empty()) add("--discovery-server", options.discovery_server);
+  if (!options.security.empty()) add("--security", options.security);
   return arguments;
 }
 
@@ -27,7 +28,13 @@ DdsFleet::DdsFleet(const DdsOptions& options, int local_workers)
       transport_(join_dds(options, Role::coordinator, "coordinator")) {}
 
 void DdsFleet::launch(RunId run) {
-  workers_.emplace(beside_this_program("demecal-worker"), worker_arguments(options_, run), local_workers_);
+  std::vector<std::string> arguments = worker_arguments(options_, run);
+  int processes = local_workers_;
+  if (!options_.security.empty() && processes > 0) {
+    arguments.insert(arguments.end(), {"--slots", std::to_string(processes)});
+    processes = 1;
+  }
+  workers_.emplace(beside_this_program("demecal-worker"), arguments, processes);
 }
 
 }  // namespace demecal

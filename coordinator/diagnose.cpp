@@ -1,5 +1,7 @@
 #include "coordinator/diagnose.hpp"
 
+#include "calibration/last_fit.hpp"
+#include "calibration/loop_passes.hpp"
 #include "coordinator/known_arm.hpp"
 
 namespace demecal {
@@ -50,13 +52,19 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
                                 loop_options(job, declared.robot.effects.size()), watched);
   tidy(found.before);
   tidy(found.model);
-  result.calibration = calibration_of(data, job.declared, result.preparation, found.model);
-  result.before = std::move(found.before.robot);
+  LoopEnds ends{std::move(found.before), std::move(found.model)};
+  const std::optional<LoopEnds> last = fitted_at_last(data, job.declared, ends);
+  const UnseenValidation unseen = unseen_validation(data, ends);
+  if (last) ends = *last;
+  result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
+  if (last) result.calibration.unseen = unseen;
+  result.before = std::move(ends.before.robot);
   result.loop = std::move(found.outcome);
+  tell_of(result.loop, ends.after.robot, data.robot);
   result.model = model_of(data, job, result.calibration);
   result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   result.facts.interrupted = result.end == RunEnd::interrupted;
-  return {std::move(result), std::move(found.model)};
+  return {std::move(result), std::move(ends.after)};
 }
 
 }  // namespace demecal

@@ -1,7 +1,5 @@
 #include "coordinator/evolution_run.hpp"
 
-#include <set>
-
 #include "protocol/faults.hpp"
 
 namespace demecal {
@@ -9,37 +7,61 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kFarewell{2000};
+/// How long what the last holder of an island still had to tell may be on its way.
+constexpr std::chrono::milliseconds kBelated{500};
 
 }  // namespace
 
 EvolutionRun::EvolutionRun(Transport& transport, CalibrationData data, RunObserver& observer)
-    : transport_(transport), data_(std::move(data)), observer_(observer), assignment_(islands(data_.archipelago)) {
-  for (const IslandKey island : islands(data_.archipelago)) isles_[island];
+    : EvolutionRun(transport, RunState(std::move(data)), observer) {}
+
+EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& observer)
+    : transport_(transport),
+      state_(std::move(state)),
+      observer_(observer),
+      assignment_(islands(state_.data().archipelago)) {
+  for (const Outcome& outcome : state_.outcomes()) assignment_.finish(outcome.island);
 }
 
-RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, std::chrono::milliseconds worker_patience) {
-  using Clock = std::chrono::steady_clock;
-  transport_.publish(data_);
-  transport_.publish(Control{data_.run, Control::State::running, data_.job});
+RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience patience) {
+  transport_.publish(state_.data());
+  transport_.publish(Control{state_.data().run, Control::State::running, state_.data().job});
+  RunEnd how = RunEnd::finished;
+  try {
+    how = work(interrupt, patience);
+  } catch (...) {
+    end(Control::State::cancelled);
+    throw;
+  }
+  end(how == RunEnd::finished ? Control::State::finished : Control::State::cancelled);
+  RunResult result = state_.result(how);
+  result.waited_share = std::move(waited_share_);
+  return result;
+}
+
+RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patience) {
   Clock::time_point last_worker = Clock::now(), last_tick = last_worker;
-  RunEnd end = RunEnd::finished;
-  while (!all_finished()) {
+  last_news_ = last_worker;
+  while (!state_.all_finished()) {
     if (const std::optional<Message> message = transport_.receive(kTick)) receive(*message);
     hand_out();
     const Clock::time_point now = Clock::now();
     if (assignment_.has_workers()) last_worker = now;
     if (now - last_tick >= kTick) {
+      give_again();
       observer_.on_tick();
       last_tick = now;
     }
-    if (interrupt) end = RunEnd::interrupted;
-    if (now - last_worker >= worker_patience) end = RunEnd::no_worker;
-    if (end != RunEnd::finished) break;
+    if (interrupt) return RunEnd::interrupted;
+    if (now - last_worker >= patience.worker) return RunEnd::no_worker;
+    if (now - last_news_ >= patience.news && state_.any_out_of_reach()) return RunEnd::stuck;
   }
-  transport_.publish(
-      Control{data_.run, end == RunEnd::finished ? Control::State::finished : Control::State::cancelled, data_.job});
+  return RunEnd::finished;
+}
+
+void EvolutionRun::end(Control::State state) {
+  transport_.publish(Control{state_.data().run, state, state_.data().job});
   transport_.flush(kFarewell);
-  return gather(end);
 }
 
 void EvolutionRun::receive(const Message& message) {
@@ -52,7 +74,8 @@ void EvolutionRun::receive(const Message& message) {
 
 void EvolutionRun::take(const WorkerStatus& status) {
   if (find_fault(status)) return;
-  if (status.only_run != 0 && status.only_run != data_.run) return;
+  if (status.only_run != 0 && status.only_run != state_.data().run) return;
+  waited_share_[status.worker] = status.waited_share;
   if (status.leaving) {
     lose(status.worker);
     return;
@@ -62,27 +85,24 @@ void EvolutionRun::take(const WorkerStatus& status) {
 }
 
 void EvolutionRun::take(const Progress& progress) {
-  if (find_fault(progress, data_)) return;
-  const bool is_new = isles_.at(progress.island).progress.try_emplace(progress.epoch, progress).second;
-  if (is_new) observer_.on_progress(progress);
+  if (!state_.take(progress)) return;
+  last_news_ = Clock::now();
+  observer_.on_progress(progress);
 }
 
 void EvolutionRun::take(const Checkpoint& checkpoint) {
-  if (find_fault(checkpoint, data_)) return;
-  Isle& isle = isles_.at(checkpoint.island);
-  // Whoever computed it: the state after an epoch is the same from every attempt.
-  if (checkpoint.state.epoch <= isle.reached.epoch) return;
-  isle.reached = checkpoint.state;
-  isle.recent = checkpoint.recent;
+  const auto given = given_.find(checkpoint.island);
+  if (given != given_.end() && given->second.attempt == checkpoint.attempt) given->second.answered = true;
+  if (!state_.take(checkpoint)) return;
+  last_news_ = Clock::now();
+  observer_.on_checkpoint(checkpoint);
 }
 
 void EvolutionRun::take(const Outcome& outcome) {
-  if (find_fault(outcome, data_)) return;
-  Isle& isle = isles_.at(outcome.island);
-  if (isle.finished) return;
-  isle.finished = true;
-  outcomes_[outcome.island] = outcome;
+  if (!state_.take(outcome)) return;
+  last_news_ = Clock::now();
   assignment_.finish(outcome.island);
+  observer_.on_outcome(outcome);
 }
 
 void EvolutionRun::lose(const std::string& worker) {
@@ -91,31 +111,23 @@ void EvolutionRun::lose(const std::string& worker) {
 }
 
 void EvolutionRun::hand_out() {
-  for (const Move& move : assignment_.balance()) {
-    Isle& isle = isles_.at(move.island);
-    transport_.publish(IslandTask{data_.run, move.island, ++isle.attempt, move.worker, isle.reached, isle.recent});
-  }
+  for (const Move& move : assignment_.balance()) give(move.island, move.worker);
 }
 
-bool EvolutionRun::all_finished() const {
-  return outcomes_.size() == isles_.size();
+void EvolutionRun::give(IslandKey island, const std::string& worker) {
+  const IslandTask task = state_.task(island, given_[island].attempt + 1, worker);
+  given_[island] = {worker, task.attempt, task.start.epoch, Clock::now(), false};
+  transport_.publish(task);
 }
 
-RunResult EvolutionRun::gather(RunEnd end) const {
-  RunResult result{.end = end, .fronts = {}, .history = {}};
-  std::set<std::string> workers;
-  for (const auto& [island, isle] : isles_) {
-    const auto outcome = outcomes_.find(island);
-    const bool done = outcome != outcomes_.end();
-    result.fronts[island] = done ? outcome->second.front : isle.reached.front;
-    result.generations += done ? outcome->second.generations : isle.reached.generation;
-    result.evaluations += done ? outcome->second.evaluations : isle.reached.evaluations;
-    result.migrations += done ? outcome->second.migrants_taken : isle.reached.migrants_taken;
-    if (done) workers.insert(outcome->second.worker);
-    for (const auto& [epoch, progress] : isle.progress) result.history.push_back(progress);
+/// An island may have been farther than was known when it was given away, and its neighbours so much farther that they
+/// have forgotten the migrants it would need from there on: its holder is told where to go on instead.
+void EvolutionRun::give_again() {
+  for (const auto& [island, given] : given_) {
+    if (given.answered || Clock::now() - given.moment < kBelated) continue;
+    if (assignment_.holder(island) != given.worker || state_.epoch(island) <= given.epoch) continue;
+    give(island, std::string(given.worker));
   }
-  result.workers = workers.size();
-  return result;
 }
 
 }  // namespace demecal

@@ -8,50 +8,54 @@
 #include <vector>
 
 #include "coordinator/assignment.hpp"
+#include "coordinator/run_state.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal {
 
-enum class RunEnd { finished, no_worker, interrupted };
-
-/// What came of a run; of an interrupted one, what the islands had reached.
-struct RunResult {
-  RunEnd end = RunEnd::finished;
-  std::map<IslandKey, Population> fronts;  ///< best of each length, per island
-  std::vector<Progress> history;           ///< one per island and epoch, by island, then epoch
-  std::uint32_t generations = 0;           ///< over all islands
-  std::uint64_t evaluations = 0;
-  std::uint64_t migrations = 0;  ///< individuals taken in
-  std::size_t workers = 0;       ///< different ones that finished an island
-};
-
-/// Told what happens, as it happens.
+/// Told what happens, as it happens; of messages, those that tell something new.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual void on_progress(const Progress&) {}
+  virtual void on_checkpoint(const Checkpoint&) {}
+  virtual void on_outcome(const Outcome&) {}
   virtual void on_worker(const WorkerStatus&) {}
   virtual void on_lost(const std::string& /*worker*/) {}
   /// About every tenth of a second.
   virtual void on_tick() {}
 };
 
+/// How long a run is patient.
+struct RunPatience {
+  std::chrono::milliseconds worker{30000};  ///< without any worker
+  std::chrono::milliseconds news{10000};    ///< without news, where an island cannot be taken up
+};
+
 class EvolutionRun {
  public:
+  /// Begins at the start of the evolution.
   EvolutionRun(Transport& transport, CalibrationData data, RunObserver& observer);
+  /// Goes on from what is known; `state` is that of a run whose number is new.
+  EvolutionRun(Transport& transport, RunState state, RunObserver& observer);
 
-  /// Until every island has bred all its generations, `interrupt` is set, or no worker was there for `worker_patience`.
-  RunResult run(const std::atomic<bool>& interrupt, std::chrono::milliseconds worker_patience);
+  /// Until every island has bred all its generations, `interrupt` is set, no worker was there for as long as `patience`
+  /// says, or the run is stuck. Where an observer throws, the workers are told that the run is over.
+  RunResult run(const std::atomic<bool>& interrupt, RunPatience patience);
 
  private:
-  struct Isle {
+  using Clock = std::chrono::steady_clock;
+
+  struct Given {
+    std::string worker;
     std::uint32_t attempt = 0;
-    IslandState reached;  ///< the last checkpoint
-    std::vector<Migrants> recent;
-    bool finished = false;
-    std::map<std::uint32_t, Progress> progress;  ///< by epoch
+    std::uint32_t epoch = 0;  ///< from which on
+    Clock::time_point moment;
+    bool answered = false;  ///< by a checkpoint
   };
 
+  RunEnd work(const std::atomic<bool>& interrupt, RunPatience patience);
+  void end(Control::State state);
   void receive(const Message& message);
   void take(const WorkerStatus& status);
   void take(const Progress& progress);
@@ -59,15 +63,16 @@ class EvolutionRun {
   void take(const Outcome& outcome);
   void lose(const std::string& worker);
   void hand_out();
-  bool all_finished() const;
-  RunResult gather(RunEnd end) const;
+  void give(IslandKey island, const std::string& worker);
+  void give_again();
 
   Transport& transport_;
-  CalibrationData data_;
+  RunState state_;
   RunObserver& observer_;
   Assignment assignment_;
-  std::map<IslandKey, Isle> isles_;
-  std::map<IslandKey, Outcome> outcomes_;
+  std::map<IslandKey, Given> given_;            ///< the last task of each island
+  std::map<std::string, double> waited_share_;  ///< by worker
+  Clock::time_point last_news_;
 };
 
 }  // namespace demecal

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "coordinator/progress_display.hpp"
 
@@ -15,9 +16,9 @@ RunId new_run() {
   return (static_cast<RunId>(moment) << 16) ^ static_cast<RunId>(::getpid()) ^ 1U;
 }
 
-CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings) {
+/// Without a run's number yet.
+CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings, bool asynchronous) {
   CalibrationData data;
-  data.run = new_run();
   data.job = job.name;
   data.seed = job.seed;
   data.parameters = job.gp;
@@ -26,6 +27,7 @@ CalibrationData calibration_data(const Job& job, const std::vector<JointTraining
   data.archipelago.migration_interval = job.islands.migration_interval;
   data.archipelago.migrants = job.islands.migrants;
   data.archipelago.between_joints = job.islands.between_joints;
+  data.archipelago.asynchronous = asynchronous;
   for (const JointTraining& training : trainings) {
     data.archipelago.joints.push_back(training.joint);
     data.tables.push_back(training.table);
@@ -46,24 +48,93 @@ std::vector<JointCandidates> candidates_of(const std::vector<JointTraining>& tra
   return candidates;
 }
 
+/// What happens, told to those who look on, and to chronicle and journal where there are any.
+class Recorded : public RunObserver {
+ public:
+  Recorded(RunObserver& watching, Chronicle* chronicle, RunJournal* journal)
+      : watching_(watching), chronicle_(chronicle), journal_(journal) {}
+  void on_progress(const Progress& progress) override {
+    watching_.on_progress(progress);
+    if (chronicle_ != nullptr) chronicle_->heard(progress);
+    if (journal_ != nullptr) journal_->on_progress(progress);
+  }
+  void on_checkpoint(const Checkpoint& checkpoint) override {
+    if (journal_ != nullptr) journal_->on_checkpoint(checkpoint);
+  }
+  void on_outcome(const Outcome& outcome) override {
+    if (journal_ != nullptr) journal_->on_outcome(outcome);
+  }
+  void on_worker(const WorkerStatus& status) override {
+    watching_.on_worker(status);
+    if (chronicle_ != nullptr) chronicle_->heard(status);
+  }
+  void on_lost(const std::string& worker) override {
+    watching_.on_lost(worker);
+    if (chronicle_ != nullptr) chronicle_->heard(WorkerLost{worker});
+  }
+  void on_tick() override {
+    watching_.on_tick();
+    if (journal_ != nullptr) journal_->on_tick();
+  }
+
+ private:
+  RunObserver& watching_;
+  Chronicle* chronicle_;
+  RunJournal* journal_;
+};
+
+Control::State state_told(RunEnd end) {
+  return end == RunEnd::finished ? Control::State::finished : Control::State::cancelled;
+}
+
 }  // namespace
 
-std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training) {
+std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training, bool shown) {
   if (training.empty()) return {};
-  const CalibrationData data = calibration_data(job_, training);
-  ProgressDisplay display(stderr, data, options_.quiet);
-  const std::unique_ptr<Fleet> fleet = make_fleet_();
-  fleet->launch(data.run);
-  RunResult result = EvolutionRun(fleet->transport(), data, display).run(interrupt_, options_.worker_patience);
-  display.finish();
+  RunState state = start_of(calibration_data(job_, training, options_.asynchronous));
+  RunResult result = state.all_finished() ? state.result(RunEnd::finished) : evolve(std::move(state), shown);
   std::vector<JointCandidates> candidates = candidates_of(training, result);
-  note(result);
+  note(result, shown);
   return candidates;
 }
 
-void Evolutions::note(RunResult& result) {
+RunState Evolutions::start_of(const CalibrationData& data) {
+  auto recorded = options_.journal == nullptr ? std::nullopt : options_.journal->recorded(data);
+  if (recorded) facts_.resumed = true;
+  return recorded ? std::move(*recorded) : RunState(data);
+}
+
+/// Goes on from the state as a new run: workers may still be at the one that it comes from, which is over.
+RunResult Evolutions::evolve(RunState state, bool shown) {
+  while (true) {
+    const RunId left = state.data().run;
+    state.rename(new_run());
+    RunResult result = attempt(state, left, shown);
+    if (result.end != RunEnd::stuck) return result;
+    state = RunState(state.data());
+  }
+}
+
+RunResult Evolutions::attempt(const RunState& state, RunId left, bool shown) {
+  ProgressDisplay display(stderr, state.data(), options_.quiet || !shown);
+  for (const Progress& progress : state.progress()) display.on_progress(progress);
+  Recorded observer(display, options_.chronicle, options_.journal);
+  const std::unique_ptr<Fleet> fleet = make_fleet_();
+  if (options_.journal != nullptr) options_.journal->begin(state.data());
+  if (left != 0) fleet->transport().publish(Control{left, Control::State::cancelled, state.data().job});
+  if (options_.chronicle != nullptr) options_.chronicle->run_begins(state.data(), state.progress());
+  fleet->launch(state.data().run);
+  RunResult result = EvolutionRun(fleet->transport(), state, observer).run(interrupt_, options_.patience);
+  if (options_.journal != nullptr) options_.journal->finish();
+  display.finish();
+  if (options_.chronicle != nullptr) options_.chronicle->run_ends(state_told(result.end));
+  return result;
+}
+
+void Evolutions::note(RunResult& result, bool shown) {
   end_ = result.end;
   for (Progress& progress : result.history) {
+    if (!shown) break;
     progress.generation += runs_ * static_cast<std::uint32_t>(job_.gp.number_generations);
     history_.push_back(std::move(progress));
   }
@@ -72,7 +143,8 @@ void Evolutions::note(RunResult& result) {
   facts_.generations += result.generations;
   facts_.evaluations += result.evaluations;
   facts_.migrations += result.migrations;
-  ++runs_;
+  facts_.waited_share.merge(result.waited_share);
+  if (shown) ++runs_;
 }
 
 }  // namespace demecal

@@ -11,22 +11,27 @@
 
 namespace demecal {
 
-/// The evolutions of one calibration, each a run of its own on a fleet of its own.
+/// The evolutions of one calibration, each a run of its own on a fleet of its own. One that the journal tells the end
+/// of is not run again; one that it tells the beginning of goes on from there. A run that is stuck is begun anew.
 class Evolutions {
  public:
   Evolutions(const Job& job, const std::function<std::unique_ptr<Fleet>()>& make_fleet,
              const std::atomic<bool>& interrupt, const CalibrateOptions& options)
       : job_(job), make_fleet_(make_fleet), interrupt_(interrupt), options_(options) {}
 
-  /// The candidates that the islands found, or had reached when the run ended; `end` says how it did.
-  std::vector<JointCandidates> run(const std::vector<JointTraining>& training);
+  /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. `shown`: to
+  /// people, in a display and the history.
+  std::vector<JointCandidates> run(const std::vector<JointTraining>& training, bool shown = true);
   RunEnd end() const { return end_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
   const RunFacts& facts() const { return facts_; }
 
  private:
-  void note(RunResult& result);
+  RunState start_of(const CalibrationData& data);
+  RunResult evolve(RunState state, bool shown);
+  RunResult attempt(const RunState& state, RunId left, bool shown);
+  void note(RunResult& result, bool shown);
 
   const Job& job_;
   const std::function<std::unique_ptr<Fleet>()>& make_fleet_;

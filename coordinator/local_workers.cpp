@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kPoll{5};
 /// In the child: becomes the worker, or ends with 127.
 [[noreturn]] void become(const std::string& path, std::vector<char*>& arguments, pid_t parent) {
   ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // not even a worker that hangs or is stopped may outlive its coordinator
   if (::getppid() != parent) ::_exit(127);  // the coordinator died before prctl
   const int nowhere = ::open("/dev/null", O_RDWR);
   ::dup2(nowhere, STDIN_FILENO);

@@ -11,8 +11,8 @@ namespace demecal {
 class LocalWorkers {
  public:
   /// Starts `count` times the program `path` with `arguments`. They share the coordinator's standard error; they get no
-  /// terminal signals (Ctrl-C is the coordinator's to handle) and die with the coordinator. Throws std::runtime_error
-  /// where a process cannot be started.
+  /// terminal signals (Ctrl-C is the coordinator's to handle) and are killed when the coordinator dies. Throws
+  /// std::runtime_error where a process cannot be started.
   LocalWorkers(const std::string& path, const std::vector<std::string>& arguments, int count);
   /// Asks them to end, waits two seconds, and kills those that have not.
   ~LocalWorkers();

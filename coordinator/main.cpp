@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   demecal::add_evaluate(app, exit_code);
   demecal::add_simulate(app, exit_code);
   demecal::add_report(app, exit_code);
+  demecal::add_monitor(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace demecal {
@@ -18,7 +19,8 @@ ProgressDisplay::ProgressDisplay(std::FILE* out, const CalibrationData& data, bo
       quiet_(quiet),
       terminal_(::isatty(::fileno(out)) == 1),
       parameters_(data.parameters),
-      archipelago_(data.archipelago) {}
+      archipelago_(data.archipelago),
+      last_plain_(std::chrono::steady_clock::now()) {}
 
 void ProgressDisplay::on_progress(const Progress& progress) {
   Progress& last = last_[progress.island];
@@ -61,8 +63,9 @@ std::string ProgressDisplay::line(std::uint32_t joint) const {
     best = std::min(best, progress.figures.best);
     speed += progress.evaluations_per_s;
   }
-  return fmt::format("  joint {}  generation {:>5}/{}  best fitness {:>10.4g}  {:>9.0f} evaluations/s", joint + 1,
-                     generation, parameters_.number_generations, best, speed);
+  const std::string fitness = std::isfinite(best) ? fmt::format("{:.4g}", best) : "-";
+  return fmt::format("  joint {}  generation {:>5}/{}  best fitness {:>10}  {:>9.0f} evaluations/s", joint + 1,
+                     generation, parameters_.number_generations, fitness, speed);
 }
 
 void ProgressDisplay::redraw() {

@@ -1,11 +1,20 @@
 #include "worker/inbox.hpp"
 
+#include <algorithm>
+
 namespace demecal {
 
 void Inbox::put(const Migrants& migrants) {
   auto& epochs = by_source_[migrants.island];
   epochs.try_emplace(migrants.epoch, migrants.individuals);
-  if (epochs.size() > kMigrantEpochs) epochs.erase(epochs.begin());
+  if (epochs.size() > kEpochs) epochs.erase(epochs.begin());
+}
+
+bool Inbox::holds(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
+  return std::ranges::all_of(sources, [&](const IslandKey& source) {
+    const auto epochs = by_source_.find(source);
+    return epochs != by_source_.end() && epochs->second.contains(epoch);
+  });
 }
 
 std::optional<Population> Inbox::collect(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
@@ -16,6 +25,19 @@ std::optional<Population> Inbox::collect(const std::vector<IslandKey>& sources, 
     const auto found = epochs->second.find(epoch);
     if (found == epochs->second.end()) return std::nullopt;
     all.insert(all.end(), found->second.begin(), found->second.end());
+  }
+  return all;
+}
+
+Population Inbox::collect_new(const std::vector<IslandKey>& sources, std::map<IslandKey, std::uint32_t>& taken) const {
+  Population all;
+  for (const IslandKey& source : sources) {
+    const auto epochs = by_source_.find(source);
+    if (epochs == by_source_.end()) continue;
+    const auto& [epoch, individuals] = *epochs->second.rbegin();
+    if (epoch <= taken[source]) continue;
+    taken[source] = epoch;
+    all.insert(all.end(), individuals.begin(), individuals.end());
   }
   return all;
 }

@@ -7,15 +7,24 @@
 #include <cstdio>
 #include <string>
 
+#include "errors/input_error.hpp"
 #include "transport/dds.hpp"
 #include "worker/worker.hpp"
 
 namespace {
 
+constexpr unsigned kLongestStop_s = 2;
+
 std::atomic<bool> stop{false};
 
+/// The first asks for an end, which the alarm sees to where the work takes too long to notice; the second does not ask.
 void on_signal(int) {
-  stop = true;
+  if (stop.exchange(true)) ::_exit(130);
+  ::alarm(kLongestStop_s);
+}
+
+void on_alarm(int) {
+  ::_exit(0);
 }
 
 std::string host_name() {
@@ -48,6 +57,9 @@ int main(int argc, char** argv) {
   app.add_option("--interface", dds.interfaces, "addresses of the network interfaces to use");
   app.add_option("--peer", dds.peers, "addresses of other hosts, where there is no multicast");
   app.add_option("--discovery-server", dds.discovery_server, "ADDRESS:PORT of a discovery server");
+  app.add_option("--security", dds.security,
+                 "folder of certificates, from scripts/security; not with a discovery server")
+      ->excludes("--discovery-server");
   app.add_option("--only-run", options.only_run, "serve this run alone and end with it");
   app.set_version_flag("--version", DEMECAL_VERSION);
   try {
@@ -58,12 +70,16 @@ int main(int argc, char** argv) {
   if (network || !dds.peers.empty() || !dds.discovery_server.empty()) dds.reach = demecal::DdsOptions::Reach::network;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGALRM, on_alarm);
   options.host = host_name();
   options.process = static_cast<std::uint32_t>(::getpid());
   options.name = unique_name(options.host);
   try {
     const auto transport = demecal::join_dds(dds, demecal::Role::worker, options.name);
     demecal::Worker(*transport, options).serve(stop);
+  } catch (const demecal::InputError& error) {
+    std::fprintf(stderr, "demecal-worker: %s\n", error.what());
+    return 11;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "demecal-worker: %s\n", error.what());
     return 21;

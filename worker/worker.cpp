@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBeat = kLease / 5;
 constexpr std::chrono::milliseconds kFarewell{1000};
+constexpr std::chrono::milliseconds kAnnouncement{1000};
 constexpr std::size_t kMostEarlyMigrants = 4096;
 
 }  // namespace
@@ -71,6 +72,8 @@ void Worker::begin(const IslandTask& task) {
     inboxes_[task.run].put(migrants);
     transport_.publish(migrants);
   }
+  // Whoever bred its last generation may have died before it could say so.
+  if (tenancy->finished()) transport_.publish(tenancy->outcome(options_.name));
 }
 
 void Worker::take(const Migrants& migrants) {
@@ -92,51 +95,71 @@ void Worker::take(const Control& control) {
 void Worker::start_ready() {
   while (slots_.has_room() && start_one()) {
   }
+  note_waiting();
+}
+
+/// An island waits while its neighbours' migrants are missing, a slot without work while there is an island left to
+/// breed. Returns the time of now.
+WaitedShare::Time Worker::note_waiting() {
+  const WaitedShare::Time now = std::chrono::steady_clock::now();
+  bool any_left = false;
+  for (const auto& [place, tenancy] : tenancies_) {
+    const bool busy = busy_.contains(tenancy);
+    if (!busy && tenancy->finished()) continue;
+    any_left = true;
+    tenancy->set_waiting(now, !busy && !tenancy->is_ready(inboxes_[place.first]));
+  }
+  const double slots = options_.slots;
+  slots_waited_.set(now, any_left ? slots - static_cast<double>(busy_.size()) : 0.0, any_left ? slots : 0.0);
+  return now;
 }
 
 /// Of the islands whose immigrants are all here, the one that is farthest behind.
 bool Worker::start_one() {
   std::shared_ptr<Tenancy> slowest;
-  Population immigrants;
   for (const auto& [place, tenancy] : tenancies_) {
-    const std::uint32_t epoch = tenancy->epoch();
-    if (tenancy->finished() || busy_.contains(tenancy) || (slowest && slowest->epoch() <= epoch)) continue;
-    std::optional<Population> arrived =
-        epoch == 0 ? Population{} : inboxes_[place.first].collect(tenancy->sources(), epoch);
-    if (!arrived) continue;
-    slowest = tenancy;
-    immigrants = std::move(*arrived);
+    if (busy_.contains(tenancy) || tenancy->finished()) continue;  // who is busy must not be looked at
+    if (slowest && slowest->epoch() <= tenancy->epoch()) continue;
+    if (tenancy->is_ready(inboxes_[place.first])) slowest = tenancy;
   }
   if (!slowest) return false;
   busy_.insert(slowest);
-  slots_.start(slowest, [this, slowest, arrived = std::move(immigrants)] {
-    slowest->run_epoch(arrived, [this] { slots_.beat(); });
+  slots_.start(slowest, [this, slowest, arrived = slowest->immigrants(inboxes_[slowest->run()])] {
+    slowest->run_epoch(arrived, [this] {
+      slots_.beat();
+      if (options_.after_generation) options_.after_generation();
+    });
   });
   return true;
 }
 
 void Worker::finish(const std::shared_ptr<Tenancy>& done) {
   busy_.erase(done);
+  slots_waited_.add_waited(note_waiting() - done->epoch_ended());
   const Place place{done->run(), done->island()};
   const auto found = tenancies_.find(place);
   if (found == tenancies_.end() || found->second != done) return;  // given to another worker meanwhile
-  const Tenancy& tenancy = *done;
+  Tenancy& tenancy = *done;
   const Migrants migrants = tenancy.migrants();
   inboxes_[place.first].put(migrants);
   transport_.publish(migrants);
   transport_.publish(tenancy.progress(options_.name));
-  transport_.publish(tenancy.checkpoint());
-  if (tenancy.finished()) transport_.publish(tenancy.outcome(options_.name));
+  if (const auto checkpoint = tenancy.due_checkpoint()) transport_.publish(*checkpoint);
+  if (!tenancy.finished()) return;
+  announce(false);  // the share it waited, before the run can be over
+  transport_.publish(tenancy.outcome(options_.name));
 }
 
 void Worker::announce(bool leaving) {
+  announced_ = std::chrono::steady_clock::now();
   transport_.publish(WorkerStatus{.worker = options_.name,
                                   .host = options_.host,
                                   .process = options_.process,
                                   .slots = options_.slots,
                                   .version = DEMECAL_VERSION,
                                   .leaving = leaving,
-                                  .only_run = options_.only_run});
+                                  .only_run = options_.only_run,
+                                  .waited_share = slots_waited_.at(announced_)});
 }
 
 void Worker::forget_run(RunId run) {
@@ -153,6 +176,7 @@ void Worker::keep_alive() {
   if (!slots_.is_idle() && beats == beats_seen_) return;  // a slot that hangs must not look alive
   beats_seen_ = beats;
   transport_.assert_alive();
+  if (std::chrono::steady_clock::now() - announced_ >= kAnnouncement) announce(false);
 }
 
 }  // namespace demecal

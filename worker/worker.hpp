@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -19,8 +20,9 @@ struct WorkerOptions {
   std::string name;  ///< unique among all workers
   std::string host;
   std::uint32_t process = 0;
-  std::uint32_t slots = 1;  ///< islands computed at once
-  RunId only_run = 0;       ///< 0: serves every run
+  std::uint32_t slots = 1;                   ///< islands computed at once
+  RunId only_run = 0;                        ///< 0: serves every run
+  std::function<void()> after_generation{};  ///< called by the slot that bred it: for work that is only simulated
 };
 
 class Worker {
@@ -40,6 +42,7 @@ class Worker {
   void take(const Control& control);
   void begin(const IslandTask& task);
   void start_ready();
+  WaitedShare::Time note_waiting();
   bool start_one();
   void finish(const std::shared_ptr<Tenancy>& done);
   void announce(bool leaving);
@@ -58,6 +61,8 @@ class Worker {
   std::set<RunId> ended_;
   Slots<std::shared_ptr<Tenancy>> slots_;
   std::uint64_t beats_seen_ = 0;
+  WaitedShare slots_waited_;
+  WaitedShare::Time announced_{};
 };
 
 }  // namespace demecal

@@ -1,6 +1,7 @@
 // A calibration from measured poses to a model: what is done before evolution, and what is done with its results.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "calibration/job.hpp"
@@ -30,12 +31,19 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
 /// prepare().
 Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model);
 
+/// What the validation poses said of a model while they were unseen: before the last fit took them in too. rms, mm.
+struct UnseenValidation {
+  double before_mm = 0.0;  ///< of what the closed loop started from
+  double after_mm = 0.0;
+};
+
 struct Calibration {
   CorrectedRobot robot;                      ///< the model
   std::vector<ParameterEstimate> estimates;  ///< of the last fit
   std::vector<JointSummary> joints;          ///< one per joint of the arm
   double index_before_mm2 = 0.0;             ///< performance index over the calibration poses: declared model
   double index_after_mm2 = 0.0;              ///< the same of `robot`
+  std::optional<UnseenValidation> unseen;    ///< where validation poses had a part in the last fit
 };
 
 /// Chooses among the evolved candidates on the validation poses (calibration poses where there are none), refits the

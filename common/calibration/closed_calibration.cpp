@@ -1,13 +1,17 @@
 #include "calibration/closed_calibration.hpp"
 
 #include "calibration/closing.hpp"
-#include "calibration/formula_candidates.hpp"
+#include "calibration/formula_choice.hpp"
+#include "calibration/formula_search.hpp"
+#include "calibration/last_fit.hpp"
 #include "calibration/loop_passes.hpp"
+#include "diagnosis/evidence.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr int kMostPasses = 3;
+constexpr int kSteps = 12;  ///< of Gauss and Newton
 
 class Passes {
  public:
@@ -22,9 +26,15 @@ class Passes {
   ClosedCalibration run(const Evolve& evolve, const RoundWatcher& watch);
 
  private:
-  bool look(const RoundWatcher& watch, std::vector<Candidate> formulas = {});
-  std::vector<Candidate> evolve_formulas(const Evolve& evolve) const;
+  void keep(DiagnosedModel model);
+  bool look(const RoundWatcher& watch);
+  Fit start_from(const CorrectedRobot& robot) const;
+  LoopResult loop_from(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
+  void look_for_formulas(const Evolve& evolve, const RoundWatcher& watch);
+  void settle(const DiagnosisData& of, DiagnosedModel& model) const;
+  std::vector<Candidate> library() const;
   bool evolve_anew(const Evolve& evolve);
+  void fit_at_last();
   bool is_better(const CorrectedRobot& robot) const;
   bool may_look_again() const {
     const auto held = static_cast<int>(closed_.calibration.robot.effects.size());
@@ -37,7 +47,10 @@ class Passes {
   const Calibration& first_;
   std::vector<std::size_t> deciding_;
   ClosedCalibration closed_;
+  DiagnosedModel before_;               ///< that of closed_.before
+  std::optional<DiagnosedModel> kept_;  ///< that of closed_.calibration, where it is the loop's
   int pass_ = 1;
+  bool stopped_ = false;  ///< by the watcher
 };
 
 /// Whether the robot does better on the deciding poses than the model that is kept.
@@ -46,30 +59,44 @@ bool Passes::is_better(const CorrectedRobot& robot) const {
          performance_index_mm2(closed_.calibration.robot, data_, deciding_);
 }
 
-/// One pass of the loop; whether it added anything and another may follow.
-bool Passes::look(const RoundWatcher& watch, std::vector<Candidate> formulas) {
-  bool stopped = false;
+void Passes::keep(DiagnosedModel model) {
+  closed_.calibration = calibration_of(data_, job_.declared, preparation_, model);
+  kept_ = std::move(model);
+}
+
+Fit Passes::start_from(const CorrectedRobot& robot) const {
+  const Fit& declared = preparation_.declared;
+  return loop_start(data_, declared, best_started(data_, job_.declared, declared, robot));
+}
+
+/// One pass of the loop; `stopped_` is set where the watcher ends it.
+LoopResult Passes::loop_from(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch) {
   const auto watched = [&](const Round& round) {
     Round numbered = round;
     numbered.number += static_cast<int>(closed_.loop.rounds.size());
-    stopped = watch && !watch(numbered);
-    return !stopped;
+    stopped_ = watch && !watch(numbered);
+    return !stopped_;
   };
-  const Fit& declared = preparation_.declared;
-  const CorrectedRobot from = best_started(data_, job_.declared, declared, closed_.calibration.robot);
-  const Fit start = loop_start(data_, declared, from);
   LoopOptions options = loop_options(job_);
-  options.evolved = std::move(formulas);
-  LoopResult found = close_loop(data_, job_.declared, start, options, watched);
+  options.evolved = std::move(evolved.formulas);
+  options.evolved_luck = std::move(evolved.luck_nats);
+  LoopResult found = close_loop(data_, job_.declared, start_from(robot), options, watched);
   tidy(found.before);
   tidy(found.model);
+  return found;
+}
+
+/// One pass from the model that is kept; whether it added anything and another may follow.
+bool Passes::look(const RoundWatcher& watch) {
+  LoopResult found = loop_from(closed_.calibration.robot, {}, watch);
   const bool first = pass_ == 1, added = added_any(found.outcome);
-  if (first) closed_.before = found.before.robot;
-  closed_.loop = first ? std::move(found.outcome) : joined(std::move(closed_.loop), std::move(found.outcome));
-  if ((first && added) || is_better(found.model.robot)) {
-    closed_.calibration = calibration_of(data_, job_.declared, preparation_, found.model);
+  if (first) {
+    closed_.before = found.before.robot;
+    before_ = found.before;
   }
-  return added && !stopped;
+  closed_.loop = first ? std::move(found.outcome) : joined(std::move(closed_.loop), std::move(found.outcome));
+  if ((first && added) || is_better(found.model.robot)) keep(std::move(found.model));
+  return added && !stopped_;
 }
 
 /// Whether the model with the corrections evolved anew is the better one, and kept.
@@ -77,7 +104,7 @@ bool Passes::evolve_anew(const Evolve& evolve) {
   const CorrectedRobot& present = closed_.calibration.robot;
   const Preparation again = prepare_again(data_, preparation_, present);
   if (again.training.empty()) return false;
-  auto candidates = evolve(again.training);
+  auto candidates = evolve(again.training, Sought::corrections);
   if (!candidates) return false;
   for (JointCandidates& joint : *candidates) {
     const std::size_t at = joint.training.joint;
@@ -87,47 +114,73 @@ bool Passes::evolve_anew(const Evolve& evolve) {
   count_from(first_, evolved);
   if (!is_better(evolved.robot)) return false;
   closed_.calibration = std::move(evolved);
+  kept_.reset();
   return true;
 }
 
-/// Formulas outside the catalogue that islands find in what the model leaves of each joint's error.
-std::vector<Candidate> Passes::evolve_formulas(const Evolve& evolve) const {
-  constexpr std::size_t kMostPerJoint = 12;
+/// All choices made, the numbers are fitted to the validation poses as well where accept poses can tell the error.
+void Passes::fit_at_last() {
+  const DeclaredModel& declared = job_.declared;
+  LoopEnds ends;
+  ends.after =
+      kept_ ? *kept_ : with_corrections_kept(data_, declared, preparation_.declared, closed_.calibration.robot);
+  ends.before = added_any(closed_.loop) ? before_ : ends.after;
+  const std::optional<LoopEnds> last = fitted_at_last(data_, declared, ends);
+  if (!last) return;
+  closed_.before = last->before.robot;
+  closed_.calibration = calibration_of(data_, declared, preparation_, last->after);
+  closed_.calibration.unseen = unseen_validation(data_, ends);
+  tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
+}
+
+/// What competes in every pass, at its price.
+std::vector<Candidate> Passes::library() const {
+  Evidence evidence = evidence_of(data_, poses_of(data_, PoseSet::calibration));
+  evidence.highest_ratio = job_.closed_loop.highest_ratio;
+  evidence.stated_ratios = job_.closed_loop.ratios;
+  return candidates_for(data_.robot, evidence, job_.declared,
+                        {.kinds = job_.closed_loop.candidates, .formulas = true, .decoys = false});
+}
+
+/// Corrections that were fitted around a residual which a formula explains since may do better begun anew.
+void Passes::settle(const DiagnosisData& of, DiagnosedModel& model) const {
+  DiagnosedModel again = refined(of, diagnosed_model(of, start_from(model.robot)), kSteps);
+  tidy(again);
+  const double present_mm2 = performance_index_mm2(model.robot, data_, deciding_);
+  if (performance_index_mm2(again.robot, data_, deciding_) < present_mm2) model = std::move(again);
+}
+
+/// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
+/// begins there. Its model is kept where it is the better description.
+void Passes::look_for_formulas(const Evolve& evolve, const RoundWatcher& watch) {
+  constexpr std::uint64_t kPermutations = 31;  // what the random stream is for
   const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration),
                          poses_of(data_, PoseSet::validation)};
-  const Fit start = loop_start(data_, preparation_.declared, closed_.calibration.robot);
-  const std::vector<FormulaTable> tables = formula_tables(of, diagnosed_model(of, start));
-  std::vector<JointTraining> training;
-  for (const FormulaTable& table : tables) {
-    training.push_back({.joint = static_cast<std::uint32_t>(table.joint),
-                        .table = table.table,
-                        .scale_rad = table.scale_rad,
-                        .range_rad = {},
-                        .branch = {}});
+  const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
+  const DiagnosedModel model = refined(of, diagnosed_model(of, start_from(bare)), kSteps);
+  FormulaSearch search =
+      search_formulas(of, model, evolve, job_.closed_loop.family_error, RandomStream{job_.seed, kPermutations});
+  if (search.formulas.empty()) return;
+  std::vector<Candidate> candidates = library();
+  candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());
+  ++pass_;
+  LoopResult found = loop_from(bare, std::move(search), watch);
+  settle(of, found.model);
+  if (!describes_better(found.model.robot, closed_.calibration.robot, data_, candidates)) {
+    note_unkept(found.outcome, closed_.calibration.robot, closed_.loop);
+    return;
   }
-  std::vector<Candidate> formulas;
-  const auto fronts = evolve(training);
-  for (std::size_t i = 0; fronts && i < fronts->size(); ++i) {
-    for (Candidate& formula : formula_candidates(tables[i], (*fronts)[i].front, kMostPerJoint)) {
-      formulas.push_back(std::move(formula));
-    }
-  }
-  return formulas;
+  closed_.loop = joined(std::move(closed_.loop), std::move(found.outcome));
+  keep(std::move(found.model));
 }
 
 ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch) {
   while (look(watch) && job_.declared.joint_corrections && evolve_anew(evolve) && may_look_again()) ++pass_;
-  const bool left = closed_.loop.p_structure_left <= job_.closed_loop.family_error;
-  const bool asked = closed_.loop.stopped == StopReason::no_gain || closed_.loop.stopped == StopReason::no_structure;
-  if (left && asked) {
-    std::vector<Candidate> formulas = evolve_formulas(evolve);
-    if (!formulas.empty()) {
-      ++pass_;
-      look(watch, std::move(formulas));
-    }
-  }
+  const bool asked = asks_for_formulas(closed_.loop, closed_.calibration.robot, job_.closed_loop);
+  if (asked && !stopped_) look_for_formulas(evolve, watch);
   tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
   if (!added_any(closed_.loop)) closed_.before = closed_.calibration.robot;
+  fit_at_last();
   return std::move(closed_);
 }
 

@@ -1,17 +1,11 @@
 // A calibration with the closed loop around it: effects found, corrections evolved anew beside them, and again.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <vector>
-
 #include "calibration/calibration.hpp"
+#include "calibration/evolve.hpp"
 #include "diagnosis/loop.hpp"
 
 namespace demecal {
-
-/// Evolves candidates for every joint of a training; nothing where that could not be done to the end.
-using Evolve = std::function<std::optional<std::vector<JointCandidates>>(const std::vector<JointTraining>&)>;
 
 struct ClosedCalibration {
   CorrectedRobot before;    ///< what the loop started from: everything declared
@@ -23,8 +17,9 @@ struct ClosedCalibration {
 /// evolved anew from what the effects leave of the joints' errors; the evolved ones, the loop's own smooth sums and the
 /// first ones compete on the deciding poses, and the model with the smaller error there is kept. Where that is the one
 /// evolved anew the loop looks at it again, at most three times in all. Where structure is left that no effect
-/// explains, formulas over all that a joint's error may depend on are evolved on it, and compete in one more pass. Ends
-/// early when `watch` returns false.
+/// explains, formulas over all that a joint's error may depend on are evolved on it, and compete in one more pass. At
+/// the end the numbers are fitted once more, to the validation poses as well where there are accept poses to tell the
+/// error by. Ends early when `watch` returns false.
 ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
                                     const Calibration& first, const Evolve& evolve, const RoundWatcher& watch);
 

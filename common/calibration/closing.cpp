@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/final_fit.hpp"
 #include "fitting/scatter.hpp"
 
 namespace demecal {
@@ -14,7 +15,7 @@ constexpr double kSmallestCoefficient = 1e-8;  ///< rad
 /// The declared numbers of the model with their standard errors; effects bring their own.
 std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
                                             const DiagnosedModel& model) {
-  const Linearised at = linearise({data, declared, poses_of(data, PoseSet::calibration), {}}, model);
+  const Linearised at = linearise({data, declared, finally_fitted(data), {}}, model);
   const ParameterSpace space(model.robot, at.ids);
   const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
   const Eigen::MatrixXd covariance =
@@ -86,7 +87,8 @@ void tidy(DiagnosedModel& model) {
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
                            const DiagnosedModel& model) {
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
-  Calibration result{.robot = model.robot, .estimates = estimates_of(data, declared, model), .joints = {}};
+  Calibration result{
+      .robot = model.robot, .estimates = estimates_of(data, declared, model), .joints = {}, .unseen = {}};
   JointTargets now;
   if (has_corrections(model.robot)) now = joint_targets(data, fitted, without_corrections(model.robot));
   result.joints = joint_summaries(preparation.targets, now, model.robot);

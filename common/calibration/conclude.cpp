@@ -49,7 +49,7 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
   const std::vector<std::size_t> deciding = deciding_poses(data);
   const Selection selection = select_corrections(data, fitted, deciding, preparation.declared.robot, candidates);
-  Calibration result{.robot = selection.robot, .estimates = preparation.declared.estimates, .joints = {}};
+  Calibration result{.robot = selection.robot, .estimates = preparation.declared.estimates, .joints = {}, .unseen = {}};
   bool any = false;
   for (const JointChoice& choice : selection.choices) any = any || choice.kept;
   if (any) refit(data, job, deciding, options, result);

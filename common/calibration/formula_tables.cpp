@@ -10,8 +10,24 @@ namespace {
 
 constexpr int kTurnAboutZ = 5;
 
-/// The values that a formula of this joint may speak of.
-std::vector<double> variables_at(const ArmState& state, const Chain& chain, int joint, double reference_celsius) {
+constexpr double kLeastMotion = 0.05;  ///< rad or m: joints that move less say nothing
+
+/// The places in symbolic_variables of what these poses know and what varies.
+std::vector<std::uint8_t> variables_of(const Evidence& evidence, int joints) {
+  std::vector<std::uint8_t> known;
+  const auto add = [&](int variable) { known.push_back(static_cast<std::uint8_t>(variable)); };
+  for (int joint = 0; joint < joints; ++joint) {
+    const Interval& range = evidence.joint_ranges[static_cast<std::size_t>(joint)];
+    if (range.upper - range.lower > kLeastMotion) add(joint);
+  }
+  if (evidence.masses) add(joints);
+  if (evidence.approach) add(joints + 1);
+  if (evidence.temperature) add(joints + 2);
+  return known;
+}
+
+/// The values of symbolic_variables.
+std::vector<double> values_at(const ArmState& state, const Chain& chain, int joint, double reference_celsius) {
   std::vector<double> values(state.joints().begin(), state.joints().end());
   values.push_back(state.torque(chain, joint));
   values.push_back(state.approach(joint));
@@ -33,18 +49,22 @@ std::vector<double> weights_of(const std::vector<double>& squared_levers) {
   return weights;
 }
 
-FormulaTable table_of(const Linearised& at, const Chain& chain, int joint, double reference_celsius) {
-  FormulaTable result{joint, {}, 1.0, reference_celsius};
-  result.table.variables.resize(static_cast<std::size_t>(chain.size()) + 3);
+FormulaTable table_of(const Linearised& at, const Eigen::VectorXd& left, const Chain& chain, int joint,
+                      const Evidence& evidence) {
+  FormulaTable result{joint, variables_of(evidence, chain.size()), {}, 1.0, std::nullopt};
+  if (evidence.temperature) result.reference_celsius = evidence.mean_temperature_celsius;
+  result.table.variables.resize(result.variables.size());
   std::vector<double> squared_levers;
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     const Eigen::Index first = at.fitted.first_row[i], count = at.fitted.rows_of_pose(i);
     const auto lever = at.fitted.motions.block(first, motion_column(joint, kTurnAboutZ), count, 1).col(0);
     const double square = lever.squaredNorm();
     squared_levers.push_back(square);
-    result.table.target.push_back(square > 0 ? lever.dot(at.projection.left().segment(first, count)) / square : 0.0);
-    const auto values = variables_at(at.fitted.states[i], chain, joint, reference_celsius);
-    for (std::size_t k = 0; k < values.size(); ++k) result.table.variables[k].push_back(values[k]);
+    result.table.target.push_back(square > 0 ? lever.dot(left.segment(first, count)) / square : 0.0);
+    const auto values = values_at(at.fitted.states[i], chain, joint, evidence.mean_temperature_celsius);
+    for (std::size_t k = 0; k < result.variables.size(); ++k) {
+      result.table.variables[k].push_back(values[result.variables[k]]);
+    }
   }
   result.table.weight = weights_of(squared_levers);
   double sum = 0.0, weights = 0.0;
@@ -59,16 +79,22 @@ FormulaTable table_of(const Linearised& at, const Chain& chain, int joint, doubl
 
 }  // namespace
 
-std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const DiagnosedModel& model) {
-  const Linearised at = linearise(of, model);
+std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const Linearised& at, const Eigen::VectorXd& left) {
   const Chain& chain = of.data.robot.chain;
-  const double reference = evidence_of(of.data, of.fitted).mean_temperature_celsius;
+  const Evidence evidence = evidence_of(of.data, of.fitted);
   std::vector<FormulaTable> tables;
   for (int joint = 0; joint < chain.size(); ++joint) {
     if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
-    tables.push_back(table_of(at, chain, joint, reference));
+    tables.push_back(table_of(at, left, chain, joint, evidence));
   }
   return tables;
+}
+
+Tree in_symbolic_variables(Tree formula, const FormulaTable& table) {
+  for (Node& node : formula) {
+    if (node.primitive == Primitive::variable) node.variable = table.variables[node.variable];
+  }
+  return formula;
 }
 
 }  // namespace demecal

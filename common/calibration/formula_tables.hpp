@@ -2,6 +2,8 @@
 // everything that it may depend on.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/diagnosed_model.hpp"
@@ -9,16 +11,21 @@
 
 namespace demecal {
 
-/// One joint's table. Variables are those of symbolic_variables: q1 .. qn (rad or m), tau, s, T.
+/// One joint's table. Its variables are those of symbolic_variables that these poses know and that vary: joints that
+/// move (rad or m), gravity's torque where masses are known, approach signs and temperatures where they were recorded.
 struct FormulaTable {
-  int joint = 0;  ///< from 0
+  int joint = 0;                        ///< from 0
+  std::vector<std::uint8_t> variables;  ///< of every column, its place in symbolic_variables
   TrainingTable table;
-  double scale_rad = 1.0;           ///< of the target: its weighted mean absolute value
-  double reference_celsius = 20.0;  ///< that T counts from
+  double scale_rad = 1.0;                     ///< of the target: its weighted mean absolute value
+  std::optional<double> reference_celsius{};  ///< that T counts from, where it is a variable
 };
 
-/// The least-squares residual of the model at every fitted pose, laid at one revolute joint after another: the angle
-/// that explains most of it. Poses at which the joint hardly moves what is measured count less.
-std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const DiagnosedModel& model);
+/// `left`, what a model leaves at its fitted poses (rows of the field), laid at one revolute joint after another: the
+/// angle that explains most of it. Poses at which the joint hardly moves what is measured count less.
+std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const Linearised& at, const Eigen::VectorXd& left);
+
+/// A formula of the table's variables in those of symbolic_variables.
+Tree in_symbolic_variables(Tree formula, const FormulaTable& table);
 
 }  // namespace demecal

@@ -1,7 +1,7 @@
 #include "calibration/polish.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace demecal {
@@ -9,8 +9,7 @@ namespace {
 
 constexpr std::size_t kMostConstants = 8;
 constexpr int kSteps = 30;
-constexpr double kNear = 0.15;         ///< of a round number
-constexpr double kRoundingNats = 1.0;  ///< what a round constant may cost: it is worth more than that
+constexpr double kNear = 0.15;  ///< of a round number
 
 std::vector<std::size_t> constants_of(const Tree& tree) {
   std::vector<std::size_t> places;
@@ -20,40 +19,9 @@ std::vector<std::size_t> constants_of(const Tree& tree) {
   return places;
 }
 
-bool is_round(double value) {
-  return std::abs(2.0 * value - std::round(2.0 * value)) < 1e-12;
-}
-
-/// Weighted residuals of the scaled formula: its best amplitude is taken along, so that constants need not carry it.
-class Problem {
- public:
-  explicit Problem(const TrainingTable& table) : table_(table), evaluate_(table.variables) {}
-
-  /// Root of weight times (target - amplitude * value), with the least-squares amplitude; empty where not finite.
-  Eigen::VectorXd residual(const Tree& tree) {
-    const auto values = evaluate_(tree);
-    const auto rows = static_cast<Eigen::Index>(values.size());
-    Eigen::VectorXd column(rows), target(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      const double root = std::sqrt(table_.weight[row]);
-      column[i] = root * values[row];
-      target[i] = root * table_.target[row];
-    }
-    const double square = column.squaredNorm();
-    if (!std::isfinite(square)) return {};
-    if (square > 0) target -= column * (column.dot(target) / square);
-    return target;
-  }
-
- private:
-  const TrainingTable& table_;
-  ColumnEvaluator evaluate_;
-};
-
 /// Least squares over the constants at `places`.
-Tree fitted(Tree tree, const std::vector<std::size_t>& places, Problem& problem) {
-  Eigen::VectorXd left = problem.residual(tree);
+Tree fitted(Tree tree, const std::vector<std::size_t>& places, FormulaMisfit& misfit) {
+  Eigen::VectorXd left = misfit.residual(tree);
   if (left.size() == 0 || places.empty()) return tree;
   const auto n = static_cast<Eigen::Index>(places.size());
   double damping = 1e-3;
@@ -64,7 +32,7 @@ Tree fitted(Tree tree, const std::vector<std::size_t>& places, Problem& problem)
       double& constant = moved[places[static_cast<std::size_t>(k)]].value;
       const double by = 1e-6 * (1.0 + std::abs(constant));
       constant += by;
-      const Eigen::VectorXd there = problem.residual(moved);
+      const Eigen::VectorXd there = misfit.residual(moved);
       if (there.size() == 0) return tree;
       jacobian.col(k) = (there - left) / by;
     }
@@ -74,7 +42,7 @@ Tree fitted(Tree tree, const std::vector<std::size_t>& places, Problem& problem)
     const Eigen::VectorXd change = -normal.ldlt().solve(jacobian.transpose() * left);
     Tree next = tree;
     for (Eigen::Index k = 0; k < n; ++k) next[places[static_cast<std::size_t>(k)]].value += change[k];
-    const Eigen::VectorXd there = problem.residual(next);
+    const Eigen::VectorXd there = misfit.residual(next);
     if (there.size() == 0 || !(there.squaredNorm() < left.squaredNorm())) {
       damping *= 10.0;
       if (damping > 1e6) break;
@@ -89,16 +57,12 @@ Tree fitted(Tree tree, const std::vector<std::size_t>& places, Problem& problem)
   return tree;
 }
 
-double nats_of(const Eigen::VectorXd& left) {
-  return 0.5 * static_cast<double>(left.size()) * std::log(std::max(left.squaredNorm(), 1e-300));
-}
-
 }  // namespace
 
-Tree polished(const Tree& tree, const TrainingTable& table) {
-  Problem problem(table);
+Tree polished(const Tree& tree, FormulaMisfit& misfit) {
+  const double digits_nats = 0.5 * std::log(static_cast<double>(std::max<std::size_t>(misfit.poses(), 2)));
   std::vector<std::size_t> free = constants_of(tree);
-  Tree best = fitted(tree, free, problem);
+  Tree best = fitted(tree, free, misfit);
   for (std::size_t i = 0; i < free.size();) {
     const double value = best[free[i]].value, round = 0.5 * std::round(2.0 * value);
     if (std::abs(value - round) > kNear) {
@@ -109,9 +73,8 @@ Tree polished(const Tree& tree, const TrainingTable& table) {
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     Tree rounded = best;
     rounded[free[i]].value = round;
-    rounded = fitted(std::move(rounded), others, problem);
-    const Eigen::VectorXd before = problem.residual(best), after = problem.residual(rounded);
-    if (after.size() > 0 && nats_of(after) - nats_of(before) < kRoundingNats) {
+    rounded = fitted(std::move(rounded), others, misfit);
+    if (misfit.nats(rounded) - misfit.nats(best) < digits_nats) {
       best = std::move(rounded);
       free = std::move(others);
     } else {
@@ -119,18 +82,6 @@ Tree polished(const Tree& tree, const TrainingTable& table) {
     }
   }
   return best;
-}
-
-double description_nats(const Tree& tree, int variables, std::size_t rows) {
-  const double word = std::log(static_cast<double>(kPrimitives.size()) - 1.0 + variables);
-  double nats = 0.0;
-  for (const Node& node : tree) {
-    nats += word;
-    if (node.primitive == Primitive::constant && !is_round(node.value)) {
-      nats += 0.5 * std::log(static_cast<double>(std::max<std::size_t>(rows, 2)));
-    }
-  }
-  return nats;
 }
 
 }  // namespace demecal

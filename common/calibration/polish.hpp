@@ -2,18 +2,14 @@
 // data allow it.
 #pragma once
 
-#include "evolution/fitness.hpp"
+#include "calibration/formula_misfit.hpp"
 
 namespace demecal {
 
-/// `tree` with its constants (the first 8) where the weighted sum of squares over the table is least, the formula's
-/// amplitude free: Levenberg and Marquardt's steps from where they are. Then, one after another, a constant within 0.15
-/// of a whole or half number is put there where the others, fitted again, make up for it but for 1 nat of likelihood.
-/// The tree must be finite on the table.
-Tree polished(const Tree& tree, const TrainingTable& table);
-
-/// The length of a formula's description, nats: every node names one of the primitives and variables, every constant
-/// that is not a whole or half number costs half the log of the number of rows.
-double description_nats(const Tree& tree, int variables, std::size_t rows);
+/// `tree` with its constants (the first 8) where the misfit's sum of squares is least, the formula's amplitude free:
+/// Levenberg and Marquardt's steps from where they are. Then, one after another, a constant within 0.15 of a whole or
+/// half number is put there where the others, fitted again, make up for it but for what its digits would cost (see
+/// description_nats). The tree must be finite at all poses.
+Tree polished(const Tree& tree, FormulaMisfit& misfit);
 
 }  // namespace demecal

@@ -11,12 +11,13 @@ struct CountKey {
   std::string_view key;
   int GpParameters::*value;
 };
-constexpr std::array<CountKey, 8> kCounts{{{"population_size", &GpParameters::population_size},
+constexpr std::array<CountKey, 9> kCounts{{{"population_size", &GpParameters::population_size},
                                            {"number_generations", &GpParameters::number_generations},
                                            {"tournament_size", &GpParameters::tournament_size},
                                            {"initial_max_tree_depth1", &GpParameters::initial_max_tree_depth1},
                                            {"initial_max_tree_depth2", &GpParameters::initial_max_tree_depth2},
                                            {"max_tree_depth", &GpParameters::max_tree_depth},
+                                           {"max_tree_nodes", &GpParameters::max_tree_nodes},
                                            {"min_tree_depth", &GpParameters::min_tree_depth},
                                            {"invalid_attempts", &GpParameters::invalid_attempts}}};
 

@@ -35,12 +35,6 @@ double rise_without(const Linearised& at, const Effect& effect, const std::vecto
   return values.dot(covariance.completeOrthogonalDecomposition().solve(values));
 }
 
-double name_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
-  const auto same = std::find_if(candidates.begin(), candidates.end(),
-                                 [&](const Candidate& c) { return c.effect.same_law_as(effect); });
-  return same == candidates.end() ? 0.0 : same->name_nats;
-}
-
 /// The effect whose loss would shorten the description most, if any would.
 std::optional<std::size_t> needless(const Linearised& at, const CorrectedRobot& robot,
                                     const std::vector<Candidate>& candidates) {
@@ -52,7 +46,7 @@ std::optional<std::size_t> needless(const Linearised& at, const CorrectedRobot& 
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
     const double rise = rise_without(at, robot.effects[i], columns[i]) / variance;
     const double fall =
-        0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) - name_nats(robot.effects[i], candidates);
+        0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) - price_nats(robot.effects[i], candidates);
     if (fall < least) {
       least = fall;
       worst = i;

@@ -12,9 +12,6 @@ namespace {
 /// No ratio of integers near it, and beyond the scan.
 constexpr double kImpossibleRatio = 1.7320508;
 
-/// What a formula without a physical name must explain beyond one that has a name.
-constexpr double kOutsideCatalogue_nats = 5.0;
-
 bool is_wanted(const std::vector<std::string>& kinds, std::string_view kind) {
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
@@ -54,6 +51,12 @@ void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, Disgu
 }
 
 }  // namespace
+
+double price_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
+  const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                 [&](const Candidate& candidate) { return candidate.effect.same_law_as(effect); });
+  return same == candidates.end() ? 0.0 : same->name_nats;
+}
 
 void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence) {
   for (const int joint : law_of(effect).ranged_joints(effect, robot)) {

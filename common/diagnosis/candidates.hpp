@@ -17,7 +17,11 @@ struct Candidate {
   Effect effect;
   Disguise disguise = Disguise::none;
   double name_nats = 0.0;  ///< the price of naming it: log of the number of its kind and form
+  bool evolved = false;    ///< a formula that a search found in the very data it is tried on
 };
+
+/// What a formula without a physical name must explain beyond an effect that has a name, nats.
+inline constexpr double kOutsideCatalogue_nats = 5.0;
 
 struct CandidateOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue; empty: all
@@ -30,6 +34,9 @@ struct CandidateOptions {
 /// temperatures.
 std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& evidence, const DeclaredModel& declared,
                                       const CandidateOptions& options);
+
+/// The price of an effect among candidates; 0 where it is none of them.
+double price_nats(const Effect& effect, const std::vector<Candidate>& candidates);
 
 /// The evidence's ranges of the joints on whose values the effect depends: beyond them it is not known.
 void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence);

@@ -50,7 +50,8 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
 }
 
 Eigen::VectorXd smooth_precision(const ModelColumns& columns, const Eigen::VectorXd& residual,
-                                 const Eigen::VectorXd& present) {
+                                 const SmoothCorrections& smooth) {
+  const Eigen::VectorXd& present = smooth.coefficients;
   const Eigen::Index terms = present.size(), n = columns.fitted.cols();
   if (terms == 0) return {};
   TriangularFactor factor(static_cast<int>(n) + 1);
@@ -62,7 +63,7 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const Eigen::Vecto
     beliefs(i, n) = -columns.precision[i] * columns.offset[i];
   }
   factor.add(beliefs);
-  return relevance(factor.factor(), terms, static_cast<double>(residual.size()));
+  return relevance(factor.factor(), smooth.families(), static_cast<double>(residual.size()));
 }
 
 ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
@@ -75,7 +76,7 @@ ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, cons
   columns.offset.setZero(n + terms);
   columns.offset.head(n) = prior.offset;
   columns.offset.tail(terms) = smooth.coefficients;
-  columns.precision.tail(terms) = smooth_precision(columns, fitted.residual, smooth.coefficients);
+  columns.precision.tail(terms) = smooth_precision(columns, fitted.residual, smooth);
   return columns;
 }
 

@@ -40,11 +40,14 @@ class Library {
   }
 
   const std::vector<Tree>& formulas() const { return formulas_; }
+  /// Of waves of any phase.
+  const std::vector<Tree>& angles() const { return angles_; }
 
  private:
   void add_waves(const Tree& angle) {
     formulas_.push_back(apply(Primitive::sine, angle));
     formulas_.push_back(apply(Primitive::cosine, angle));
+    angles_.push_back(angle);
   }
 
   void add_sums() {
@@ -94,8 +97,15 @@ class Library {
 
   int joints_;
   std::vector<int> moving_;
-  std::vector<Tree> formulas_;
+  std::vector<Tree> formulas_, angles_;
 };
+
+Effect symbolic(int joint, const Tree& formula, const char* form, const Evidence& evidence) {
+  Effect effect{.kind = "symbolic", .joint = joint, .form = form};
+  effect.formula = formula;
+  if (evidence.temperature) effect.settings["reference_celsius"] = evidence.mean_temperature_celsius;
+  return effect;
+}
 
 }  // namespace
 
@@ -104,12 +114,8 @@ std::vector<Effect> formula_library(const Robot& robot, const Evidence& evidence
   std::vector<Effect> effects;
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
     if (robot.chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
-    for (const Tree& formula : library.formulas()) {
-      Effect effect{.kind = "symbolic", .joint = joint};
-      effect.formula = formula;
-      if (evidence.temperature) effect.settings["reference_celsius"] = evidence.mean_temperature_celsius;
-      effects.push_back(std::move(effect));
-    }
+    for (const Tree& formula : library.formulas()) effects.push_back(symbolic(joint, formula, "", evidence));
+    for (const Tree& angle : library.angles()) effects.push_back(symbolic(joint, angle, "wave", evidence));
   }
   return effects;
 }

@@ -1,6 +1,7 @@
 #include "diagnosis/group.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -25,9 +26,11 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double family_p_value(const std::vector<double>& null_maxima, double fall_nats) {
-  const auto beyond = null_maxima.end() - std::lower_bound(null_maxima.begin(), null_maxima.end(), fall_nats);
-  return (1.0 + static_cast<double>(beyond)) / (1.0 + static_cast<double>(null_maxima.size()));
+/// A mount is known to a few degrees: gravity that leans more is another effect's disguise.
+bool leans_too_far(const Effect& effect) {
+  constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
+  if (effect.kind != "compliance" || effect.form != "tilted") return false;
+  return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
 }
 
 std::vector<double> prices(const std::vector<Candidate>& candidates) {
@@ -41,6 +44,11 @@ double sum_of_squares(const std::vector<double>& errors) {
 }
 
 }  // namespace
+
+double family_p_value(const std::vector<double>& null_maxima, double fall_nats) {
+  const auto beyond = null_maxima.end() - std::lower_bound(null_maxima.begin(), null_maxima.end(), fall_nats);
+  return (1.0 + static_cast<double>(beyond)) / (1.0 + static_cast<double>(null_maxima.size()));
+}
 
 Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Linearised& at,
              const std::vector<Candidate>& candidates, const EffectColumns& columns, std::vector<bool> out,
@@ -94,8 +102,8 @@ std::size_t Group::simplest_like(std::size_t index) const {
 
 /// The catalogue's effect that a formula is in disguise: as good a description, or all but the same columns.
 std::size_t Group::by_name(std::size_t formula) const {
-  const Projection::Trial trial =
-      projection_.trial(columns_.dense(at_.fitted, formula), RowMatrix::Zero(at_.judging.rows(), 1));
+  const Projection::Trial trial = projection_.trial(
+      columns_.dense(at_.fitted, formula), RowMatrix::Zero(at_.judging.rows(), columns_.spans()[formula].count));
   std::size_t named = formula;
   for (const Rival& rival : rivals_of(formula, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
     if (rival.effect.kind == "symbolic" || (rival.cosine < kSame && rival.nats_behind > kNatsToTell)) continue;
@@ -106,6 +114,11 @@ std::size_t Group::by_name(std::size_t formula) const {
     }
   }
   return named;
+}
+
+/// Whether the candidate came from a search of these data, so that only the same search tells what luck finds.
+bool Group::searched(std::size_t index) const {
+  return candidates_[index].evolved && !rules_.evolved_luck.empty();
 }
 
 void Group::renew_null(std::size_t index) {
@@ -130,7 +143,9 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   round.effect = effect;
   round.effect.values.assign(trial.coefficients.begin(), trial.coefficients.end());
   round.p_structure = rules_.p_structure;
-  round.p_family = family_p_value(null_maxima_, scores_[index].fall_nats);
+  const std::vector<double>& luck = searched(index) ? rules_.evolved_luck : null_maxima_;
+  round.p_family = family_p_value(luck, scores_[index].fall_nats);
+  round.permutations = static_cast<int>(luck.size());
   round.fall_nats = scores_[index].fall_nats;
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
@@ -160,6 +175,7 @@ std::string Group::objection(const Round& round, const Projection::Trial& trial)
   if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
   const LargestMotion largest = largest_motion(round.effect, of_.data.robot, at_.fitted.states);
   if (largest.turn_rad > kLargestTurn_rad || largest.shift_m > kLargestShift_m) return "no arm strays so far by itself";
+  if (leans_too_far(round.effect)) return "no mount leans so far from where its file says";
   return {};
 }
 
@@ -219,13 +235,13 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       break;
     }
     round.reason = objection(round, trial);
-    outcome_.luck = round.p_family > rules_.family_error;
+    outcome_.luck = round.p_family > rules_.family_error && !searched(*index);
     if (round.reason.empty()) {
       take(std::move(round), trial);
       ++added;
     } else {
       round.verdict = outcome_.luck ? Verdict::none : Verdict::rejected;
-      leave_out_alike(round);
+      if (!leans_too_far(round.effect)) leave_out_alike(round);  // what needs no such lean is still to be judged
       outcome_.rounds.push_back(std::move(round));
       ++rejected;
     }

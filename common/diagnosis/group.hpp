@@ -22,7 +22,11 @@ struct GroupRules {
   int group = 1;
   int first_round = 1;  ///< number of the group's first round
   double p_structure = 1.0;
+  std::vector<double> evolved_luck{};  ///< of LoopOptions
 };
+
+/// The share of a null distribution (ascending), the found value counted among it, that explains as much.
+double family_p_value(const std::vector<double>& null_maxima, double fall_nats);
 
 struct GroupOutcome {
   std::vector<Round> rounds;
@@ -51,6 +55,7 @@ class Group {
   std::optional<std::size_t> best() const;
   std::size_t by_name(std::size_t formula) const;
   std::size_t simplest_like(std::size_t index) const;
+  bool searched(std::size_t index) const;
   void renew_null(std::size_t index);
   Round judge(std::size_t index, Projection::Trial& trial);
   std::string objection(const Round& round, const Projection::Trial& trial) const;

@@ -113,7 +113,8 @@ GroupRules ClosedLoop::rules() const {
           .seed = options_.seed,
           .group = group_,
           .first_round = static_cast<int>(outcome_.rounds.size()) + 1,
-          .p_structure = p_structure_};
+          .p_structure = p_structure_,
+          .evolved_luck = options_.evolved_luck};
 }
 
 /// Candidates that the model holds already, or that the backward step took back.

@@ -18,12 +18,14 @@ struct LoopOptions {
   double family_error = 0.05;  ///< chance of adding anything to a model that lacks nothing
   int permutations = 999;
   int resamples = 400;
-  int group_size = 24;                ///< effects that may be added between two joint refits
-  double least_gain = 0.005;          ///< share of the validation error that a group must win for another to follow
-  int highest_ratio = 200;            ///< of the scan over gear harmonics
-  std::vector<double> stated_ratios;  ///< beyond the scan
-  bool formulas = true;               ///< formulas outside the catalogue compete, where there are at most 5000 poses
-  std::vector<Candidate> evolved{};   ///< formulas that evolution found on the residual: they compete too
+  int group_size = 24;                 ///< effects that may be added between two joint refits
+  double least_gain = 0.005;           ///< share of the validation error that a group must win for another to follow
+  int highest_ratio = 200;             ///< of the scan over gear harmonics
+  std::vector<double> stated_ratios;   ///< beyond the scan
+  bool formulas = true;                ///< formulas outside the catalogue compete, where there are at most 5000 poses
+  std::vector<Candidate> evolved{};    ///< formulas that evolution found on the residual: they compete too
+  std::vector<double> evolved_luck{};  ///< best falls (nats, ascending) of the same evolution on permuted residuals:
+                                       ///< what `evolved` candidates are held against; empty: as all others are
   bool decoys = true;
   std::uint64_t seed = 1;
 };

@@ -37,7 +37,8 @@ struct Round {
   std::string reason;           ///< why it was not added; empty where it was
   std::vector<Rival> rivals;    ///< nearest first
   double p_structure = 1.0;     ///< of the omnibus test for dependence before this group
-  double p_family = 1.0;        ///< family-wise, over all candidates
+  double p_family = 1.0;        ///< family-wise, over all candidates or, of an evolved formula, over whole searches
+  int permutations = 0;         ///< behind p_family; of an evolved formula: evolutions on permuted residuals
   double fall_nats = 0.0;       ///< of the description length
   double gain_lower_mm2 = 0.0;  ///< one-sided 95 % bound of the fall of the mean squared error on validation poses
   double sign_stability = 0.0;  ///< share of resamples in which the leading coefficient keeps its sign

@@ -11,6 +11,14 @@ constexpr double kRelated = 0.5;
 constexpr double kNatsToTell = 5.0;
 constexpr std::size_t kMost = 8;
 
+/// Whether `other` is the wave `named` with a phase that is not given: the same formula, no rival.
+bool is_its_wave(const Effect& named, const Effect& other) {
+  if (named.joint != other.joint || other.form != "wave" || named.formula.empty()) return false;
+  const Primitive root = named.formula[0].primitive;
+  return (root == Primitive::sine || root == Primitive::cosine) &&
+         std::equal(named.formula.begin() + 1, named.formula.end(), other.formula.begin(), other.formula.end());
+}
+
 }  // namespace
 
 std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
@@ -24,6 +32,7 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
     const double behind = scores[named].fall_nats - scores[i].fall_nats;
     const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
     if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
+    if (is_its_wave(all[named].effect, all[i].effect)) continue;
     if (cosines[i] > kAlike || (cosines[i] > kRelated && std::abs(behind) < kNatsToTell)) {
       rivals.push_back({all[i].effect, cosines[i], behind});
     }

@@ -3,35 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+
+#include "diagnosis/permutation.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr double kNewShare = 1e-5;
 constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
-
-/// Poses by their number of rows: only equals may change places.
-using Alike = std::map<Eigen::Index, std::vector<std::size_t>>;
-
-Alike alike(const ResidualField& field) {
-  Alike groups;
-  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) groups[field.rows_of_pose(pose)].push_back(pose);
-  return groups;
-}
-
-/// Fills a column with the residual, whole poses' parts in each other's places.
-void permute(const ResidualField& field, const Alike& groups, const Eigen::VectorXd& residual, RandomStream& random,
-             Eigen::Ref<Eigen::VectorXf> to) {
-  for (const auto& [rows, poses] : groups) {
-    std::vector<std::size_t> from = poses;
-    for (std::size_t i = from.size(); i > 1; --i) std::swap(from[i - 1], from[random.index(i)]);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      to.segment(field.first_row[poses[i]], rows) = residual.segment(field.first_row[from[i]], rows).cast<float>();
-    }
-  }
-}
 
 }  // namespace
 
@@ -114,12 +93,11 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
                                       int count, RandomStream random) const {
   const RowMatrixF basis = model.basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
-  const auto groups = alike(field);
   std::vector<double> maxima;
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
     Eigen::MatrixXf shuffled(field.rows(), now);
-    for (Eigen::Index i = 0; i < now; ++i) permute(field, groups, model.left(), random, shuffled.col(i));
+    for (Eigen::Index i = 0; i < now; ++i) shuffled.col(i) = permuted(field, model.left(), random).cast<float>();
     const RowMatrixF rows = shuffled;
     const Eigen::MatrixXf explained = basis.transpose() * rows;
     const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();

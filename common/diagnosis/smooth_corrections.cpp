@@ -46,11 +46,11 @@ Tree legendre(int degree, const Tree& t) {
 void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool offset_declared) {
   const Tree t = unit_variable(range);
   for (int degree = offset_declared ? 1 : 0; degree <= kHighestDegree; ++degree)
-    smooth.terms.push_back({joint, legendre(degree, t)});
+    smooth.terms.push_back({joint, legendre(degree, t), degree});
   for (int n = 1; n <= kHighestHarmonic; ++n) {
     const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
-    smooth.terms.push_back({joint, apply(Primitive::cosine, angle)});
-    smooth.terms.push_back({joint, apply(Primitive::sine, angle)});
+    smooth.terms.push_back({joint, apply(Primitive::cosine, angle), kHighestDegree + n});
+    smooth.terms.push_back({joint, apply(Primitive::sine, angle), kHighestDegree + n});
   }
 }
 
@@ -61,19 +61,50 @@ double value_at(const SmoothCorrections& smooth, const SmoothTerm& term, double 
   return evaluate(term.formula, {&inside, 1});
 }
 
-/// Takes away the least sure quarter of the terms that are less than two standard errors from zero: relevance alone
-/// keeps one in three of those that are not there.
-void prune(Eigen::VectorXd& belief, const Eigen::VectorXd& mean, const Eigen::MatrixXd& inverse, double variance,
-           Eigen::Index fixed) {
-  constexpr double kSure = 2.0;
+/// Sums over the terms of each family.
+std::vector<double> family_sums(std::span<const int> families, const Eigen::VectorXd& of_terms) {
+  std::vector<double> sums(families.empty() ? 0 : static_cast<std::size_t>(std::ranges::max(families)) + 1, 0.0);
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    sums[static_cast<std::size_t>(families[i])] += of_terms[static_cast<Eigen::Index>(i)];
+  }
+  return sums;
+}
+
+/// Takes away the least sure quarter of the terms that are less than three standard errors from zero, and of a family
+/// whose mean square is hardly more than chance makes it: relevance alone keeps one in three of those that are not
+/// there.
+void prune(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, const Eigen::VectorXd& errors) {
+  constexpr double kSureAlone = 3.0;
+  const Eigen::VectorXd present = (belief.array() < kGone).cast<double>();
+  const std::vector<double> squares = family_sums(families, errors.cwiseAbs2().cwiseProduct(present));
+  const std::vector<double> sizes = family_sums(families, present);
   std::vector<std::pair<double, Eigen::Index>> unsure;
-  for (Eigen::Index i = fixed; i < belief.size(); ++i) {
-    const double errors = std::abs(mean[i]) / std::sqrt(variance * inverse(i, i));
-    if (belief[i] < kGone && errors < kSure) unsure.emplace_back(errors, i);
+  for (Eigen::Index i = 0; i < belief.size(); ++i) {
+    if (present[i] == 0.0) continue;
+    const auto family = static_cast<std::size_t>(families[static_cast<std::size_t>(i)]);
+    const double by_chance = sizes[family] + std::sqrt(sizes[family]);  // chi squared's mean and 0.7 of its deviation
+    const double sure = std::max(errors[i] / kSureAlone, std::sqrt(squares[family] / by_chance));
+    if (sure < 1.0) unsure.emplace_back(sure, i);
   }
   std::sort(unsure.begin(), unsure.end());
   const std::size_t taken = (unsure.size() + 3) / 4;
   for (std::size_t i = 0; i < taken; ++i) belief[unsure[i].second] = kGone;
+}
+
+/// MacKay's update of the terms' beliefs, each as if kAlike more terms of its family's mean square had been seen.
+void update(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, const Eigen::VectorXd& known,
+            const Eigen::VectorXd& mean, const Eigen::VectorXd& scale) {
+  constexpr double kAlike = 3.0;
+  const Eigen::VectorXd present = (belief.array() < kGone).cast<double>();
+  const std::vector<double> determined = family_sums(families, known.cwiseProduct(present));
+  const std::vector<double> squares = family_sums(families, mean.cwiseProduct(scale).cwiseAbs2().cwiseProduct(present));
+  for (Eigen::Index i = 0; i < belief.size(); ++i) {
+    if (present[i] == 0.0) continue;
+    const auto family = static_cast<std::size_t>(families[static_cast<std::size_t>(i)]);
+    const double usual = squares[family] / std::max(determined[family], 1e-12) / (scale[i] * scale[i]);
+    const double square = std::max(mean[i] * mean[i] + kAlike * usual, 1e-30);
+    belief[i] = std::clamp((known[i] + kAlike) / square, 1e-10, kGone);
+  }
 }
 
 }  // namespace
@@ -93,6 +124,12 @@ std::vector<JointCorrection> SmoothCorrections::corrections() const {
     result[joint] = JointCorrection(std::move(sum), branches[joint], ranges[joint]);
   }
   return result;
+}
+
+std::vector<int> SmoothCorrections::families() const {
+  std::vector<int> all;
+  for (const SmoothTerm& term : terms) all.push_back(term.family);
+  return all;
 }
 
 RowMatrix SmoothCorrections::columns(const ResidualField& field) const {
@@ -133,10 +170,11 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
   return smooth;
 }
 
-Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, double rows) {
+Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> families, double rows) {
   constexpr int kRounds = 80, kPruneEvery = 8;
   constexpr double kLargest = 300.0;         ///< times what the poses say of a coefficient: one so believed is zero
   constexpr double kLeastPrecision = 100.0;  ///< 1/rad: no joint errs by whole hundredths
+  const auto terms = static_cast<Eigen::Index>(families.size());
   const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
   const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
   const Eigen::VectorXd moment = factor.leftCols(n).transpose() * factor.col(n);
@@ -157,13 +195,14 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, dou
     const Eigen::LDLT<Eigen::MatrixXd> solver(posterior);
     const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(n, n));
     const Eigen::VectorXd mean = inverse * scaled_moment;
-    double determined = static_cast<double>(fixed);
-    for (Eigen::Index i = fixed; i < n; ++i) {
-      const double known = std::clamp(1.0 - variance * belief[i] * inverse(i, i), 1e-12, 1.0);
-      determined += known;
-      if (belief[i] < kGone) belief[i] = std::clamp(known / std::max(mean[i] * mean[i], 1e-30), 1e-10, kGone);
+    const Eigen::VectorXd spread = inverse.diagonal().tail(terms), means = mean.tail(terms);
+    const Eigen::VectorXd known =
+        (1.0 - variance * belief.tail(terms).cwiseProduct(spread).array()).max(1e-12).min(1.0);
+    const double determined = static_cast<double>(fixed) + known.sum();
+    update(belief.tail(terms), families, known, means, scale.tail(terms));
+    if (round % kPruneEvery == kPruneEvery - 1) {
+      prune(belief.tail(terms), families, means.cwiseAbs().cwiseQuotient((variance * spread).cwiseSqrt()));
     }
-    if (round % kPruneEvery == kPruneEvery - 1) prune(belief, mean, inverse, variance, fixed);
     const double squares = whole - 2.0 * mean.dot(scaled_moment) + mean.dot(scaled * mean);
     variance = std::max(squares, 1e-12 * whole) / std::max(rows - determined, 1.0);
   }

@@ -13,6 +13,7 @@ namespace demecal {
 struct SmoothTerm {
   int joint = 0;  ///< from 0
   Tree formula;
+  int family = 0;  ///< the same for terms of one degree, or of one harmonic, of all joints
 };
 
 /// Corrections g_j(theta) = base_j(theta) + sum of coefficient * term over every revolute joint that moves. Terms are
@@ -27,6 +28,7 @@ struct SmoothCorrections {
 
   /// The corrections with their coefficients in place.
   std::vector<JointCorrection> corrections() const;
+  std::vector<int> families() const;
   /// rows x terms: the field's change per unit of every coefficient.
   RowMatrix columns(const ResidualField& field) const;
 };
@@ -37,10 +39,11 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
                                      const CorrectedRobot& robot, bool declared, bool offset_declared = false);
 
 /// How precisely each term's coefficient should be believed to be zero before the poses are seen (one over its standard
-/// deviation, 1/rad), chosen so that the poses are most likely: automatic relevance determination (MacKay, 1992). Terms
-/// that the poses do not call for end at a precision that removes them.
+/// deviation, 1/rad), chosen so that the poses are most likely: automatic relevance determination (MacKay, 1992), in
+/// which the terms of a family are believed to be of like size, for the joints of one arm are made alike. Terms that
+/// the poses do not call for end at a precision that removes them.
 /// `factor`: triangular factor of the columns [model | terms | residual + terms * coefficients], the model's beliefs
-/// included; `terms` of them are terms; `freedom` is the number of rows.
-Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, Eigen::Index terms, double rows);
+/// included; `families`: of each term, small numbers from 0; `rows`: their number.
+Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> families, double rows);
 
 }  // namespace demecal

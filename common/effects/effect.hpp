@@ -23,7 +23,7 @@ struct Effect {
   int joint = -1;                            ///< from 0; -1: of the whole arm or of the instrument
   std::map<std::string, double> settings{};  ///< given numbers by name with unit; "from" is a joint, from 1
   std::string form{};                        ///< which form of the law, where there are several; empty: its first
-  Tree formula{};                            ///< of a symbolic effect, in symbolic_variables(); empty otherwise
+  Tree formula{};                            ///< of a symbolic effect, in symbolic_variables(); of a wave: its angle
   std::vector<double> values{};              ///< coefficients, SI; empty: all zero
   std::vector<double> standard_errors{};     ///< of the coefficients, SI; empty: unknown
   MeasuredRanges ranges{};                   ///< empty: everywhere

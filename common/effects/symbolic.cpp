@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "effects/joint_words.hpp"
 #include "effects/laws.hpp"
@@ -16,11 +17,18 @@ bool mentions(const Tree& formula, int variable) {
       formula, [&](const Node& node) { return node.primitive == Primitive::variable && node.variable == variable; });
 }
 
-/// An error of a joint outside the catalogue, as evolution found it: a formula and its size.
+bool is_wave(const Effect& effect) {
+  return effect.form == "wave";
+}
+
+/// An error of a joint outside the catalogue: a formula and its size or, as a wave, the angle that a formula gives, the
+/// size and the phase.
 class Symbolic final : public EffectLaw {
  public:
   std::string_view kind() const override { return "symbolic"; }
   std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override {
+    if (is_wave(effect))
+      return {motion_label(robot, effect.joint, "cosine"), motion_label(robot, effect.joint, "sine")};
     return {motion_label(robot, effect.joint, "scale")};
   }
   void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
@@ -29,7 +37,9 @@ class Symbolic final : public EffectLaw {
     std::vector<double> values(state.joints().begin(), state.joints().end());
     values.insert(values.end(), {state.torque(robot.chain, effect.joint), state.approach(effect.joint),
                                  warming_kelvin(effect, state.stop)});
-    append_joint_motion(robot, effect.joint, 0, evaluate(effect.formula, values), motions);
+    const double value = evaluate(effect.formula, values);
+    append_joint_motion(robot, effect.joint, 0, is_wave(effect) ? std::cos(value) : value, motions);
+    if (is_wave(effect)) append_joint_motion(robot, effect.joint, 1, std::sin(value), motions);
   }
   std::vector<Effect> proposals(const Robot& /*robot*/, const Evidence& /*evidence*/) const override { return {}; }
   Needs needs(const Effect& effect, const Robot& robot) const override {
@@ -39,13 +49,20 @@ class Symbolic final : public EffectLaw {
             .masses = mentions(effect.formula, n)};
   }
   std::string formula(const Effect& effect, const Robot& robot) const override {
-    return write_joint_equation(effect, robot, {{0, '(' + text_of(effect, robot) + ')'}});
+    const std::string text = '(' + text_of(effect, robot) + ')';
+    if (is_wave(effect)) return write_joint_equation(effect, robot, {{0, "COS" + text}, {1, "SIN" + text}});
+    return write_joint_equation(effect, robot, {{0, text}});
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
-    return joint_name(effect.joint) + " errs as no effect of the catalogue does: by " +
-           motion_words(robot, effect.joint, effect.value(0)) + " times " + text_of(effect, robot) + '.';
+    const std::string start = joint_name(effect.joint) + " errs as no effect of the catalogue does: by ";
+    if (!is_wave(effect))
+      return start + motion_words(robot, effect.joint, effect.value(0)) + " times " + text_of(effect, robot) + '.';
+    const double phase = std::atan2(-effect.value(1), effect.value(0));
+    return start + motion_words(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " times COS(" +
+           text_of(effect, robot) + (phase < 0 ? " - " : " + ") + number_words(std::abs(phase)) + ").";
   }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
+  std::vector<std::string> forms() const override { return {"formula", "wave"}; }
   bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& robot) const override {
     std::vector<int> joints;

@@ -23,6 +23,7 @@ struct Archipelago {
   std::uint32_t migration_interval = 10;  ///< generations per epoch
   std::uint32_t migrants = 3;             ///< elites an island sends per epoch
   bool between_joints = false;            ///< whether deme d of one joint also feeds deme d of the next joint
+  bool asynchronous = false;              ///< whether islands take what migrants are there and wait for none
 
   bool operator==(const Archipelago&) const = default;
 };

@@ -1,56 +1,92 @@
 #include "evolution/breeding.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "errors/check.hpp"
 #include "evolution/selection.hpp"
 
 namespace demecal {
+namespace {
 
-Breeder::Breeder(const GpParameters& parameters, int variables)
-    : parameters_(parameters), variation_(parameters, variables), index_(0) {}
+constexpr std::size_t kFewNodes = 4096;  // below as many, nothing is collected
 
-std::uint64_t Breeder::breed(RandomStream& random, Population& population, Fitness& fitness) {
-  DEMECAL_CHECK(!population.empty(), "no parents");
-  make_offspring(random, population);
-  const std::uint64_t evaluations = evaluate(population, fitness);
+}  // namespace
+
+Breeder::Breeder(const GpParameters& parameters, const TrainingTable& table, std::size_t budget_bytes)
+    : parameters_(parameters),
+      fitness_(table, budget_bytes),
+      variation_(parameters, static_cast<int>(table.variables.size())) {}
+
+SharedPopulation Breeder::enter(const std::vector<Tree>& trees) {
+  SharedPopulation population;
+  for (const Tree& tree : trees) population.roots.push_back(store_.enter(tree));
+  fitness_.bind(store_, population.roots);
+  fitness_.run();
+  for (const NodeId root : population.roots) population.fitness.push_back(fitness_.of(root));
+  return population;
+}
+
+double Breeder::fitness(NodeId root) {
+  fitness_.bind(store_, {&root, 1});
+  fitness_.run();
+  return fitness_.of(root);
+}
+
+std::uint64_t Breeder::breed(RandomStream& random, SharedPopulation& population) {
+  vary(random, population);
+  bind();
+  return evaluate(population);
+}
+
+// Whatever no parent needs any more makes way, once it may be more than half.
+void Breeder::collect(const SharedPopulation& parents) {
+  if (store_.size() < std::max(kFewNodes, 2 * size_after_collection_)) return;
+  fitness_.forget(store_.collect(parents.roots));
+  size_after_collection_ = store_.size();
+}
+
+void Breeder::vary(RandomStream& random, const SharedPopulation& parents) {
+  DEMECAL_CHECK(!parents.roots.empty(), "no parents");
+  collect(parents);
+  offspring_.roots.resize(parents.roots.size());
+  offspring_.roots[0] = parents.roots[fittest(parents.fitness)];
+  NodeId surplus = 0;
+  for (std::size_t i = 1; i < offspring_.roots.size(); i += 2)
+    make_pair(random, parents, offspring_.roots[i],
+              i + 1 < offspring_.roots.size() ? offspring_.roots[i + 1] : surplus);
+}
+
+void Breeder::make_pair(RandomStream& random, const SharedPopulation& parents, NodeId& daughter, NodeId& son) {
+  const NodeId mother = parents.roots[tournament(random, parents.fitness, parameters_.tournament_size)];
+  const NodeId father = parents.roots[tournament(random, parents.fitness, parameters_.tournament_size)];
+  if (!random.chance(parameters_.crossover_rate) || !variation_.cross(random, store_, mother, father, daughter, son)) {
+    daughter = mother;
+    son = father;
+  }
+  if (random.chance(parameters_.mutation_rate)) variation_.mutate(random, store_, daughter);
+  if (random.chance(parameters_.mutation_rate)) variation_.mutate(random, store_, son);
+}
+
+std::uint64_t Breeder::evaluate(SharedPopulation& population) {
+  fitness_.run();
+  offspring_.fitness.resize(offspring_.roots.size());
+  for (std::size_t i = 0; i < offspring_.roots.size(); ++i) offspring_.fitness[i] = fitness_.of(offspring_.roots[i]);
+  const std::uint64_t evaluations = count_new(population);
   std::swap(population, offspring_);
   return evaluations;
 }
 
-void Breeder::make_offspring(RandomStream& random, const Population& parents) {
-  offspring_.resize(parents.size());
-  offspring_[0].tree = parents[fittest(parents)].tree;
-  for (std::size_t i = 1; i < offspring_.size(); i += 2)
-    make_pair(random, parents, offspring_[i].tree, i + 1 < offspring_.size() ? offspring_[i + 1].tree : surplus_);
-}
-
-void Breeder::make_pair(RandomStream& random, const Population& parents, Tree& daughter, Tree& son) {
-  const Tree& mother = parents[tournament(random, parents, parameters_.tournament_size)].tree;
-  const Tree& father = parents[tournament(random, parents, parameters_.tournament_size)].tree;
-  if (!random.chance(parameters_.crossover_rate) || !variation_.cross(random, mother, father, daughter, son)) {
-    daughter = mother;
-    son = father;
+std::uint64_t Breeder::count_new(const SharedPopulation& parents) {
+  ++generation_;
+  seen_.resize(store_.end(), 0);
+  for (const NodeId root : parents.roots) seen_[root] = generation_;
+  std::uint64_t count = 0;
+  for (const NodeId root : offspring_.roots) {
+    count += seen_[root] != generation_ ? 1 : 0;
+    seen_[root] = generation_;
   }
-  if (random.chance(parameters_.mutation_rate)) variation_.mutate(random, daughter);
-  if (random.chance(parameters_.mutation_rate)) variation_.mutate(random, son);
-}
-
-std::uint64_t Breeder::evaluate(const Population& parents, Fitness& fitness) {
-  const std::size_t count = parents.size();
-  std::uint64_t evaluations = 0;
-  index_.clear(2 * count);
-  for (std::size_t i = 0; i < count; ++i) index_.enter(parents[i].tree, i);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t known = index_.enter(offspring_[i].tree, count + i);
-    if (known == count + i) {
-      offspring_[i].fitness = fitness(offspring_[i].tree);
-      ++evaluations;
-    } else {
-      offspring_[i].fitness = known < count ? parents[known].fitness : offspring_[known - count].fitness;
-    }
-  }
-  return evaluations;
+  return count;
 }
 
 }  // namespace demecal

@@ -2,38 +2,63 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "evolution/fitness.hpp"
 #include "evolution/individual.hpp"
 #include "evolution/parameters.hpp"
-#include "evolution/tree_index.hpp"
+#include "evolution/shared_fitness.hpp"
 #include "evolution/variation.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
 
-/// Breeds generations, keeping their memory. Elitism 1: the fittest parent comes first, unchanged. All others are made
-/// in pairs by parents from two tournaments. CROSSOVER_RATE and MUTATION_RATE are independent chances: a pair is
-/// crossed with the one, and then each of the two, crossed or copied, is mutated with the other; what neither touched
-/// is reproduction.
+/// A population whose formulas are in a breeder's store; fitness[i] is that of roots[i].
+struct SharedPopulation {
+  std::vector<NodeId> roots;
+  std::vector<double> fitness;
+};
+
+/// Breeds generations, keeping the formulas, what is known of them and its memory. Elitism 1: the fittest parent comes
+/// first, unchanged. All others are made in pairs by parents from two tournaments. CROSSOVER_RATE and MUTATION_RATE are
+/// independent chances: a pair is crossed with the one, and then each of the two, crossed or copied, is mutated with
+/// the other; what neither touched is reproduction.
 class Breeder {
  public:
-  Breeder(const GpParameters& parameters, int variables);
+  /// `budget_bytes` bounds the memory for columns that are kept; results do not depend on it.
+  Breeder(const GpParameters& parameters, const TrainingTable& table,
+          std::size_t budget_bytes = SharedFitness::kColumnBudgetBytes);
 
-  /// Replaces `population`, whose fitness values must be those of its trees, by the next generation of the same size.
-  /// Returns how many trees were evaluated: one that equals a parent or an earlier offspring takes over its fitness.
-  std::uint64_t breed(RandomStream& random, Population& population, Fitness& fitness);
+  /// Enters formulas in the store and evaluates them.
+  SharedPopulation enter(const std::vector<Tree>& trees);
+  NodeId enter(const Tree& tree) { return store_.enter(tree); }
+  double fitness(NodeId root);
+  const NodeStore& store() const { return store_; }
+  const SharedFitness& known() const { return fitness_; }
+
+  /// Replaces `population` by the next generation of the same size. Returns how many of its trees equal no parent and
+  /// no earlier offspring: what a breeder without a memory has to evaluate.
+  std::uint64_t breed(RandomStream& random, SharedPopulation& population);
+
+  /// The parts of breed(), in turn. First the offspring are made;
+  void vary(RandomStream& random, const SharedPopulation& parents);
+  /// then what their fitness takes is found out;
+  void bind() { fitness_.bind(store_, offspring_.roots); }
+  /// then it is computed, and the offspring take their parents' place.
+  std::uint64_t evaluate(SharedPopulation& population);
 
  private:
-  void make_offspring(RandomStream& random, const Population& parents);
-  void make_pair(RandomStream& random, const Population& parents, Tree& daughter, Tree& son);
-  std::uint64_t evaluate(const Population& parents, Fitness& fitness);
+  void collect(const SharedPopulation& parents);
+  void make_pair(RandomStream& random, const SharedPopulation& parents, NodeId& daughter, NodeId& son);
+  std::uint64_t count_new(const SharedPopulation& parents);
 
   GpParameters parameters_;
+  NodeStore store_;
+  SharedFitness fitness_;
   Variation variation_;
-  Population offspring_;
-  Tree surplus_;
-  TreeIndex index_;
+  SharedPopulation offspring_;
+  std::vector<std::uint64_t> seen_;  ///< by node: the last generation that had it as an individual
+  std::uint64_t generation_ = 0;
+  std::size_t size_after_collection_ = 0;
 };
 
 }  // namespace demecal

@@ -1,13 +1,10 @@
 #include "evolution/fitness.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include "errors/check.hpp"
 
 namespace demecal {
 
-Fitness::Fitness(const TrainingTable& table) : table_(table), evaluate_(table.variables) {
+void check_columns(const TrainingTable& table) {
   DEMECAL_CHECK(!table.variables.empty() && table.weight.size() == table.target.size(),
                 "variables=" << table.variables.size() << " weights=" << table.weight.size()
                              << " targets=" << table.target.size());
@@ -15,13 +12,15 @@ Fitness::Fitness(const TrainingTable& table) : table_(table), evaluate_(table.va
     DEMECAL_CHECK(column.size() == table.target.size(), column.size() << " rows of " << table.target.size());
 }
 
+Fitness::Fitness(const TrainingTable& table) : errors_(table.target, table.weight), evaluate_(table.variables) {
+  check_columns(table);
+}
+
 double Fitness::operator()(const Tree& tree) {
-  const std::span<const double> values = evaluate_(tree);
-  double sum = 0.0;
-  for (std::size_t row = 0; row < values.size(); ++row)
-    sum += table_.weight[row] * std::abs(table_.target[row] - values[row]);
-  // A row that is not finite makes the sum infinite or no number, even where its weight is zero.
-  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  const std::span<const double> values = evaluate_.padded_values(tree);
+  ErrorSum::Lanes sums{};
+  errors_.add(sums, 0, values.data(), values.size());
+  return ErrorSum::total(sums);
 }
 
 }  // namespace demecal

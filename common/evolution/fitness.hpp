@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "expression/evaluate.hpp"
+#include "evolution/error_sum.hpp"
 
 namespace demecal {
 
@@ -17,6 +17,10 @@ struct TrainingTable {
   bool operator==(const TrainingTable&) const = default;
 };
 
+/// A programmer's error where the columns are not of equal length or there is no variable.
+void check_columns(const TrainingTable& table);
+
+/// The fitness of one formula at a time.
 class Fitness {
  public:
   explicit Fitness(const TrainingTable& table);
@@ -24,7 +28,7 @@ class Fitness {
   double operator()(const Tree& tree);
 
  private:
-  const TrainingTable& table_;
+  ErrorSum errors_;
   ColumnEvaluator evaluate_;
 };
 

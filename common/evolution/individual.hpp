@@ -28,6 +28,8 @@ class ParetoFront {
   /// Goes on with the members of an earlier front.
   explicit ParetoFront(Population members) : members_(std::move(members)) {}
 
+  /// Whether offer() would enter an individual of `length` nodes.
+  bool wants(std::size_t length, double fitness) const;
   /// Enters the individual where it belongs and drops what it dominates; at equal fitness the earlier one stays. Not
   /// entered where its fitness is not finite.
   void offer(const Individual& individual);
@@ -35,6 +37,7 @@ class ParetoFront {
   Population release() && { return std::move(members_); }
 
  private:
+  Population::const_iterator first_as_long(std::size_t length) const;
   void drop_least_gain();
 
   Population members_;

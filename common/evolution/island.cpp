@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "errors/check.hpp"
 #include "evolution/selection.hpp"
 #include "evolution/tree_generation.hpp"
+#include "evolution/tree_index.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
@@ -16,8 +18,17 @@ bool stands_in(const Population& population, const Tree& tree) {
   return std::any_of(population.begin(), population.end(), [&](const Individual& one) { return one.tree == tree; });
 }
 
-void offer_all(ParetoFront& front, const Population& population) {
-  for (const Individual& individual : population) front.offer(individual);
+std::vector<double> fitness_of(const Population& population) {
+  std::vector<double> fitness;
+  for (const Individual& individual : population) fitness.push_back(individual.fitness);
+  return fitness;
+}
+
+double share_of_different(const Population& population) {
+  TreeIndex index(population.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < population.size(); ++i) different += index.enter(population[i].tree, i) == i ? 1 : 0;
+  return static_cast<double>(different) / static_cast<double>(population.size());
 }
 
 }  // namespace
@@ -26,9 +37,8 @@ Island::Island(const GpParameters& parameters, const Archipelago& archipelago, c
                IslandKey key, std::uint64_t seed)
     : parameters_(parameters),
       archipelago_(archipelago),
-      fitness_(table),
       variables_(static_cast<int>(table.variables.size())),
-      breeder_(parameters, variables_),
+      breeder_(parameters, table),
       key_(key),
       seed_(seed) {
   const auto fault = find_fault(parameters);
@@ -54,43 +64,69 @@ std::uint32_t Island::generations_of_epoch() const {
 void Island::run_epoch(const Population& immigrants, const std::function<void()>& after_generation) {
   DEMECAL_CHECK(!finished(), "epoch=" << state_.epoch << " of " << epochs_total());
   RandomStream random{seed_, key_.joint, key_.deme, state_.epoch};
-  if (state_.epoch == 0) found_population(random);
+  if (residents_.roots.empty()) enter_population(random);
   take_in(immigrants);
   ParetoFront front(std::move(state_.front));
-  offer_all(front, state_.population);
+  offer_all(front);
   const std::uint32_t generations = generations_of_epoch();
   for (std::uint32_t i = 0; i < generations; ++i) {
-    state_.evaluations += breeder_.breed(random, state_.population, fitness_);
-    offer_all(front, state_.population);
+    state_.evaluations += breeder_.breed(random, residents_);
+    offer_all(front);
     if (after_generation) after_generation();
   }
+  write_population();
   state_.front = std::move(front).release();
   state_.generation += generations;
   ++state_.epoch;
 }
 
-void Island::found_population(RandomStream& random) {
-  state_.population.clear();
-  for (Tree& tree : ramped_half_and_half(random, parameters_, variables_)) {
-    const double fitness = fitness_(tree);
-    state_.population.push_back({std::move(tree), fitness});
+// The first population, or that of a state another worker reached.
+void Island::enter_population(RandomStream& random) {
+  if (state_.epoch == 0) {
+    residents_ = breeder_.enter(ramped_half_and_half(random, parameters_, variables_));
+    state_.evaluations += residents_.roots.size();
+    return;
   }
-  state_.evaluations += state_.population.size();
+  for (const Individual& individual : state_.population) residents_.roots.push_back(breeder_.enter(individual.tree));
+  residents_.fitness = fitness_of(state_.population);
+}
+
+void Island::offer_all(ParetoFront& front) const {
+  for (std::size_t i = 0; i < residents_.roots.size(); ++i) {
+    const NodeId root = residents_.roots[i];
+    const double fitness = residents_.fitness[i];
+    if (front.wants(breeder_.store()[root].whole.nodes, fitness)) front.offer({breeder_.store().tree(root), fitness});
+  }
+}
+
+void Island::write_population() {
+  state_.population.resize(residents_.roots.size());
+  for (std::size_t i = 0; i < residents_.roots.size(); ++i) {
+    Individual& individual = state_.population[i];
+    individual.tree.clear();
+    breeder_.store().append(residents_.roots[i], individual.tree);
+    individual.fitness = residents_.fitness[i];
+  }
 }
 
 bool Island::fits(const Tree& tree) const {
-  return is_valid(tree, variables_) && depth(tree) <= parameters_.max_tree_depth;
+  return is_valid(tree, variables_) && depth(tree) <= parameters_.max_tree_depth &&
+         (parameters_.max_tree_nodes == 0 || tree.size() <= static_cast<std::size_t>(parameters_.max_tree_nodes));
 }
 
 void Island::take_in(const Population& immigrants) {
-  Population& residents = state_.population;
-  const std::vector<std::size_t> ranked = ranking(residents);
+  std::vector<NodeId>& roots = residents_.roots;
+  const std::vector<std::size_t> ranked = ranking(residents_.fitness);
   std::size_t taken = 0;
   for (const Individual& immigrant : immigrants) {
-    if (taken + 1 >= residents.size()) break;
-    if (!fits(immigrant.tree) || stands_in(residents, immigrant.tree)) continue;
+    if (taken + 1 >= roots.size()) break;
+    if (!fits(immigrant.tree)) continue;
+    const NodeId root = breeder_.enter(immigrant.tree);
+    if (std::find(roots.begin(), roots.end(), root) != roots.end()) continue;
     ++taken;
-    residents[ranked[ranked.size() - taken]] = {immigrant.tree, fitness_(immigrant.tree)};
+    const std::size_t worst = ranked[ranked.size() - taken];
+    roots[worst] = root;
+    residents_.fitness[worst] = breeder_.fitness(root);
   }
   state_.evaluations += taken;
   state_.migrants_taken += taken;
@@ -98,7 +134,7 @@ void Island::take_in(const Population& immigrants) {
 
 Population Island::emigrants() const {
   Population chosen;
-  for (const std::size_t i : ranking(state_.population)) {
+  for (const std::size_t i : ranking(fitness_of(state_.population))) {
     const Individual& individual = state_.population[i];
     if (chosen.size() >= archipelago_.migrants || !std::isfinite(individual.fitness)) break;
     if (!stands_in(chosen, individual.tree)) chosen.push_back(individual);
@@ -108,16 +144,18 @@ Population Island::emigrants() const {
 
 IslandFigures Island::figures() const {
   if (state_.population.empty()) return {};
-  const std::vector<std::size_t> ranked = ranking(state_.population);
+  const std::vector<std::size_t> ranked = ranking(fitness_of(state_.population));
   const Individual& best = state_.population[ranked.front()];
   const Individual& median = state_.population[ranked[(ranked.size() - 1) / 2]];
-  return {best.fitness, median.fitness, static_cast<std::uint32_t>(best.tree.size())};
+  return {best.fitness, median.fitness, static_cast<std::uint32_t>(best.tree.size()),
+          share_of_different(state_.population)};
 }
 
 void Island::restore(IslandState state) {
   DEMECAL_CHECK(state.epoch == 0 || state.population.size() == static_cast<std::size_t>(parameters_.population_size),
                 "epoch=" << state.epoch << " population=" << state.population.size());
   state_ = std::move(state);
+  residents_ = {};
 }
 
 }  // namespace demecal

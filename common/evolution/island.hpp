@@ -6,7 +6,6 @@
 
 #include "evolution/archipelago.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/fitness.hpp"
 #include "evolution/individual.hpp"
 #include "evolution/parameters.hpp"
 
@@ -29,12 +28,14 @@ struct IslandFigures {
   double best = 0.0;
   double median = 0.0;            ///< the lower one where the population is even
   std::uint32_t best_length = 0;  ///< nodes
+  double diversity = 0.0;         ///< share of trees that differ from all before them, to the bit; 0 to 1
 
   bool operator==(const IslandFigures&) const = default;
 };
 
-/// The work of one island. Its state after epoch k is a function of (parameters, table, seed, key, the migrants it was
-/// given): epoch k uses the random stream (seed, joint, deme, k), whoever computes it.
+/// The work of one island. Between epochs its formulas are trees; within, they share their subtrees. Its state after
+/// epoch k is a function of (parameters, table, seed, key, the migrants it was given): epoch k uses the random stream
+/// (seed, joint, deme, k), whoever computes it.
 class Island {
  public:
   /// `table` must outlive the island.
@@ -61,16 +62,18 @@ class Island {
   void restore(IslandState state);
 
  private:
-  void found_population(RandomStream& random);
+  void enter_population(RandomStream& random);
   void take_in(const Population& immigrants);
+  void offer_all(ParetoFront& front) const;
+  void write_population();
   bool fits(const Tree& tree) const;
   std::uint32_t generations_of_epoch() const;
 
   GpParameters parameters_;
   Archipelago archipelago_;
-  Fitness fitness_;
   int variables_;
   Breeder breeder_;
+  SharedPopulation residents_;  ///< the population during an epoch, and after it; empty where it is not known yet
   IslandKey key_;
   std::uint64_t seed_;
   IslandState state_;

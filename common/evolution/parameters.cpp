@@ -8,8 +8,6 @@
 namespace demecal {
 namespace {
 
-constexpr int kDeepestTree = 15;
-
 template <class Number>
 std::string text_of(Number number) {
   char buffer[32];
@@ -65,6 +63,15 @@ std::optional<ParameterFault> depth_fault(const GpParameters& p) {
   return std::nullopt;
 }
 
+std::optional<ParameterFault> nodes_fault(const GpParameters& p) {
+  const int largest_first = (2 << p.initial_max_tree_depth2) - 1;
+  if (p.max_tree_nodes != 0 && p.max_tree_nodes < largest_first)
+    return ParameterFault{"max_tree_nodes", text_of(p.max_tree_nodes),
+                          "must be 0 (no limit) or at least " + text_of(largest_first) +
+                              ", the nodes of a full tree of initial_max_tree_depth2"};
+  return std::nullopt;
+}
+
 std::optional<ParameterFault> function_fault(const std::vector<Primitive>& functions) {
   if (functions.empty()) return ParameterFault{"functions", "[]", "must name at least one function"};
   for (auto function = functions.begin(); function != functions.end(); ++function) {
@@ -93,6 +100,7 @@ std::optional<ParameterFault> find_fault(const GpParameters& p) {
   if (auto fault = count_fault(p)) return fault;
   if (auto fault = rate_fault(p)) return fault;
   if (auto fault = depth_fault(p)) return fault;
+  if (auto fault = nodes_fault(p)) return fault;
   if (p.tournament_size > p.population_size)
     return ParameterFault{"tournament_size", text_of(p.tournament_size), "must not exceed population_size"};
   if (auto fault = function_fault(p.functions)) return fault;

@@ -9,6 +9,9 @@
 
 namespace demecal {
 
+/// What max_tree_depth may be at most.
+inline constexpr int kDeepestTree = 15;
+
 struct GpParameters {
   int population_size = 300;
   int number_generations = 200;  ///< thesis 6.3: 200 for direct learning
@@ -17,6 +20,7 @@ struct GpParameters {
   int initial_max_tree_depth2 = 5;  ///< where it ends
   int max_tree_depth = 9;
   int min_tree_depth = 3;     ///< of trees made by GROW and by mutation
+  int max_tree_nodes = 0;     ///< of every tree; 0: no limit but max_tree_depth
   int invalid_attempts = 21;  ///< tries at a valid offspring before the parents are reproduced
   double crossover_rate = 0.8;
   double mutation_rate = 0.2;
@@ -39,7 +43,8 @@ struct ParameterFault {
 };
 
 /// The first broken rule: counts positive, rates within 0 to 1, min_tree_depth <= initial_max_tree_depth1 <=
-/// initial_max_tree_depth2 <= max_tree_depth <= 15, tournament no larger than the population, at least one function, no
+/// initial_max_tree_depth2 <= max_tree_depth <= 15, max_tree_nodes 0 or enough for every tree of
+/// initial_max_tree_depth2, tournament no larger than the population, at least one function, no
 /// function twice, constants_lower < constants_upper and both finite. Nothing where all hold.
 std::optional<ParameterFault> find_fault(const GpParameters& parameters);
 

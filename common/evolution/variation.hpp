@@ -3,34 +3,34 @@
 
 #include "evolution/parameters.hpp"
 #include "evolution/tree_generation.hpp"
-#include "evolution/tree_shape.hpp"
+#include "evolution/tree_point.hpp"
+#include "expression/node_store.hpp"
 
 namespace demecal {
 
-/// Varies trees within the depth limits: an offspring is valid where min_tree_depth <= depth <= max_tree_depth. Points
-/// are drawn up to invalid_attempts times until what they give is valid. Keeps its scratch memory between calls.
+/// Varies formulas of a store within the limits: an offspring is valid where min_tree_depth <= depth <= max_tree_depth
+/// and it has no more than max_tree_nodes. Points are drawn up to invalid_attempts times until what they give is valid.
+/// Only nodes on the way from the root to a point are made anew. Keeps its scratch memory between calls.
 class Variation {
  public:
   Variation(const GpParameters& parameters, int variables);
 
   /// Swaps a subtree of `mother` with one of `father`. Each point is a terminal with terminal_crossover_rate, otherwise
   /// a function; all of the kind are equally likely. False, and the offspring unchanged, where no attempt gave two
-  /// valid offspring. The offspring must not be the parents.
-  bool cross(RandomStream& random, const Tree& mother, const Tree& father, Tree& daughter, Tree& son);
+  /// valid offspring.
+  bool cross(RandomStream& random, NodeStore& store, NodeId mother, NodeId father, NodeId& daughter, NodeId& son) const;
 
   /// Replaces a subtree by a grown one. With shrink_mutation_rate the subtree is rooted at a function and gives way to
   /// one of strictly lower depth; otherwise the point is a terminal with terminal_mutation_rate and the new subtree as
-  /// deep as max_tree_depth allows there. False, and `tree` unchanged, where no attempt was valid.
-  bool mutate(RandomStream& random, Tree& tree);
+  /// deep as max_tree_depth allows there. False, and `formula` unchanged, where no attempt was valid.
+  bool mutate(RandomStream& random, NodeStore& store, NodeId& formula);
 
  private:
-  bool is_valid_depth(int depth) const;
-  std::size_t mutation_point(RandomStream& random, bool shrink) const;
+  bool is_valid(const NodeStore& store, NodeId formula, const TreePoint& point, int nodes, int depth) const;
 
   GpParameters parameters_;
   NodeSet nodes_;
-  TreeShape mother_shape_, father_shape_;
-  Tree grown_, mutated_;
+  Tree grown_;
 };
 
 }  // namespace demecal

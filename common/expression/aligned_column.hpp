@@ -11,7 +11,8 @@ namespace demecal {
 template <class T>
 struct LineAligned {
   using value_type = T;
-  static constexpr std::align_val_t kLine{64};
+  static constexpr std::size_t kBytes = 64;
+  static constexpr std::align_val_t kLine{kBytes};
   LineAligned() = default;
   template <class U>
   explicit LineAligned(const LineAligned<U>&) {}

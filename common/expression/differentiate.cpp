@@ -82,6 +82,8 @@ Piece called(Primitive function, const Piece& x) {
       return {value, product(product(constant_tree(-1.0), call(Primitive::sine, x.value)), x.slope)};
     case Primitive::square_root:
       return {value, slope_of_root(x, value)};
+    case Primitive::absolute:
+      return {value, product(call(Primitive::sign, x.value), x.slope)};
     default:
       return {value, constant_tree(0.0)};
   }

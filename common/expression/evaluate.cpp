@@ -5,126 +5,11 @@
 #include "errors/check.hpp"
 #include "expression/fold.hpp"
 
-// The walk is compiled for several vector units, the widest present is taken at run time. All give the same bits, since
-// no operation is contracted or reordered. Sanitizers are not ready yet when the program's loader makes the choice.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define DEMECAL_FOR_EACH_VECTOR_UNIT __attribute__((target_clones("default", "avx2", "avx512f")))
-#else
-#define DEMECAL_FOR_EACH_VECTOR_UNIT
-#endif
-
 namespace demecal {
 namespace {
 
-constexpr std::size_t kLanes = 8;        // rows are padded to the widest vector there is
 constexpr std::size_t kStripRows = 256;  // so that the columns of a strip stay in the first-level cache
 constexpr std::size_t kStripStride = kStripRows + kLanes;  // not a power of two, so that they share no cache sets
-
-std::size_t padded(std::size_t rows) {
-  return (rows + kLanes - 1) / kLanes * kLanes;
-}
-
-// In the loops below `out` may be an argument's own column: every row depends on itself alone, which ivdep states.
-
-template <class Function>
-[[gnu::always_inline]] inline void unary(Operand& argument, double* out, std::size_t blocks, Function function) {
-  if (argument.column == nullptr) {
-    argument.constant = function(argument.constant);
-    return;
-  }
-  const double* const in = argument.column;
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < blocks * kLanes; ++i) out[i] = function(in[i]);
-  argument.column = out;
-}
-
-template <class Function>
-[[gnu::always_inline]] inline void binary(const Operand& left, Operand& right, double* out, std::size_t blocks,
-                                          Function function) {
-  const double* const a = left.column;
-  const double* const b = right.column;
-  const double constant_a = left.constant;
-  const double constant_b = right.constant;
-  if (a != nullptr && b != nullptr) {
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < blocks * kLanes; ++i) out[i] = function(a[i], b[i]);
-  } else if (a != nullptr) {
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < blocks * kLanes; ++i) out[i] = function(a[i], constant_b);
-  } else if (b != nullptr) {
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < blocks * kLanes; ++i) out[i] = function(constant_a, b[i]);
-  } else {
-    right.constant = function(constant_a, constant_b);
-    return;
-  }
-  right.column = out;
-}
-
-[[gnu::always_inline]] inline bool all_reducible(const double* angles, std::size_t blocks) {
-  std::int64_t beyond = 0;
-  for (std::size_t i = 0; i < blocks * kLanes; ++i) beyond |= std::abs(angles[i]) <= kLargestReducedAngle ? 0 : 1;
-  return beyond == 0;
-}
-
-template <std::uint64_t quarter_turns>
-[[gnu::always_inline]] inline void circular(Operand& argument, double* out, std::size_t blocks) {
-  if (argument.column != nullptr && all_reducible(argument.column, blocks)) {
-    unary(argument, out, blocks, [](double x) { return reduced_sine(x, quarter_turns); });
-  } else {
-    unary(argument, out, blocks, [](double x) { return quarter_turns == 0 ? sine(x) : cosine(x); });
-  }
-}
-
-// Leaves the tree's value in operands[0]. `columns` points at the strip's first row; the i-th operand may keep its
-// column at scratch + i * kStripStride.
-DEMECAL_FOR_EACH_VECTOR_UNIT
-void walk(const Node* tree, std::size_t length, const double* columns, std::size_t column_stride, std::size_t blocks,
-          Operand* operands, double* scratch) {
-  Operand* next = operands;
-  for (std::size_t i = length; i-- > 0;) {
-    const Node& node = tree[i];
-    const int taken = arity(node.primitive);
-    if (taken == 0) {
-      *next++ = node.primitive == Primitive::constant ? Operand{nullptr, node.value}
-                                                      : Operand{columns + node.variable * column_stride, 0.0};
-      continue;
-    }
-    if (taken == 2) --next;
-    const Operand& left = *next;
-    Operand& last = *(next - 1);
-    double* const out = scratch + (next - 1 - operands) * static_cast<std::ptrdiff_t>(kStripStride);
-    switch (node.primitive) {
-      case Primitive::add:
-        binary(left, last, out, blocks, [](double a, double b) { return a + b; });
-        break;
-      case Primitive::subtract:
-        binary(left, last, out, blocks, [](double a, double b) { return a - b; });
-        break;
-      case Primitive::multiply:
-        binary(left, last, out, blocks, [](double a, double b) { return a * b; });
-        break;
-      case Primitive::divide:
-        binary(left, last, out, blocks, protected_divide);
-        break;
-      case Primitive::sine:
-        circular<0>(last, out, blocks);
-        break;
-      case Primitive::cosine:
-        circular<1>(last, out, blocks);
-        break;
-      case Primitive::sign:
-        unary(last, out, blocks, sign_of);
-        break;
-      case Primitive::square_root:
-        unary(last, out, blocks, protected_square_root);
-        break;
-      default:
-        break;
-    }
-  }
-}
 
 }  // namespace
 
@@ -136,35 +21,62 @@ double evaluate(std::span<const Node> tree, std::span<const double> variables) {
       [](Primitive function, double left, double right) { return value_of(function, left, right); });
 }
 
-ColumnEvaluator::ColumnEvaluator(Columns columns)
-    : rows_(columns.empty() ? 0 : columns.front().size()), padded_rows_(padded(rows_)), result_(padded_rows_) {
-  columns_.reserve(columns.size() * padded_rows_);
+PaddedColumns::PaddedColumns(Columns columns)
+    : rows_(columns.empty() ? 0 : columns.front().size()), padded_rows_(padded(rows_)) {
+  values_.reserve(columns.size() * padded_rows_);
   for (const std::vector<double>& column : columns) {
     DEMECAL_CHECK(column.size() == rows_, "rows=" << column.size() << " first column's rows=" << rows_);
-    columns_.insert(columns_.end(), column.begin(), column.end());
-    if (rows_ > 0) columns_.insert(columns_.end(), padded_rows_ - rows_, column.back());
+    values_.insert(values_.end(), column.begin(), column.end());
+    if (rows_ > 0) values_.insert(values_.end(), padded_rows_ - rows_, column.back());
   }
 }
 
-std::span<const double> ColumnEvaluator::operator()(std::span<const Node> tree) {
+// The i-th operand of the stack keeps its column in the i-th strip of the scratch memory.
+Operand ColumnEvaluator::make_steps(std::span<const Node> tree) {
+  steps_.clear();
+  Operand* next = operands_.data();
+  for (std::size_t i = tree.size(); i-- > 0;) {
+    const Node& node = tree[i];
+    const int taken = arity(node.primitive);
+    if (taken == 0) {
+      *next++ = node.primitive == Primitive::constant ? Operand{nullptr, node.value, false}
+                                                      : Operand{columns_.column(node.variable), 0.0, true};
+      continue;
+    }
+    if (taken == 2) --next;
+    const Operand left = *next;
+    Operand& last = *(next - 1);
+    double* const out = scratch_.data() + (next - 1 - operands_.data()) * static_cast<std::ptrdiff_t>(kStripStride);
+    if (last.column == nullptr && (taken == 1 || left.column == nullptr)) {
+      last.constant =
+          taken == 1 ? value_of(node.primitive, last.constant) : value_of(node.primitive, left.constant, last.constant);
+      continue;
+    }
+    steps_.push_back(taken == 1 ? step_of(node.primitive, last, out, false)
+                                : step_of(node.primitive, left, last, out, false));
+    last = {out, 0.0, false};
+  }
+  return operands_.front();
+}
+
+std::span<const double> ColumnEvaluator::padded_values(std::span<const Node> tree) {
   const std::size_t most_leaves = tree.size() / 2 + 1;
   if (operands_.size() < most_leaves) {
     operands_.resize(most_leaves);
     scratch_.resize(most_leaves * kStripStride);
   }
-  for (std::size_t begin = 0; begin < padded_rows_; begin += kStripRows) {
-    const std::size_t rows = std::min(kStripRows, padded_rows_ - begin);
-    walk(tree.data(), tree.size(), columns_.data() + begin, padded_rows_, rows / kLanes, operands_.data(),
-         scratch_.data());
-    const Operand& value = operands_.front();
+  const Operand value = make_steps(tree);
+  for (std::size_t begin = 0; begin < columns_.padded_rows(); begin += kStripRows) {
+    const std::size_t rows = std::min(kStripRows, columns_.padded_rows() - begin);
     double* const out = result_.data() + begin;
+    run(steps_, begin, rows);
     if (value.column == nullptr) {
       std::fill_n(out, rows, value.constant);
     } else {
-      std::copy_n(value.column, rows, out);
+      std::copy_n(value.column + (value.whole ? begin : 0), rows, out);
     }
   }
-  return {result_.data(), rows_};
+  return result_;
 }
 
 }  // namespace demecal

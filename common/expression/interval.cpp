@@ -67,6 +67,11 @@ Interval image_of_wave(const Interval& x, double crest, double at_lower, double 
           holds_phase(x, crest) ? 1.0 : std::min(1.0, greatest + kSlack * std::abs(greatest))};
 }
 
+Interval image_of_size(const Interval& x) {
+  return {holds(x, 0.0) ? 0.0 : std::min(std::abs(x.lower), std::abs(x.upper)),
+          std::max(std::abs(x.lower), std::abs(x.upper))};
+}
+
 Interval image_of_root(const Interval& x) {
   const double at_lower = protected_square_root(x.lower);
   const double at_upper = protected_square_root(x.upper);
@@ -98,6 +103,8 @@ Interval image(Primitive function, const Interval& x) {
       return {sign_of(x.lower), sign_of(x.upper)};
     case Primitive::square_root:
       return image_of_root(x);
+    case Primitive::absolute:
+      return image_of_size(x);
     default:
       return unbounded();
   }
@@ -126,8 +133,7 @@ Interval image_of_twins(Primitive function, const Interval& x) {
     case Primitive::divide:
       return {1.0, 1.0};
     case Primitive::multiply: {
-      const Interval size{holds(x, 0.0) ? 0.0 : std::min(std::abs(x.lower), std::abs(x.upper)),
-                          std::max(std::abs(x.lower), std::abs(x.upper))};
+      const Interval size = image_of_size(x);
       return image(Primitive::multiply, size, size);
     }
     default:

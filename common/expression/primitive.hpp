@@ -10,7 +10,8 @@
 
 namespace demecal {
 
-/// Terminals first, then the functions of thesis section 6.2: {+ - * % SIN COS SIGN SQRTp}.
+/// Terminals first, then the functions of thesis section 6.2: {+ - * % SIN COS SIGN SQRTp}, then later ones. Their
+/// numbers go over the wire: new ones come last.
 enum class Primitive : std::uint8_t {
   constant,
   variable,  // terminals
@@ -21,7 +22,8 @@ enum class Primitive : std::uint8_t {
   sine,
   cosine,
   sign,
-  square_root  // SIN COS SIGN SQRTp
+  square_root,  // SIN COS SIGN SQRTp
+  absolute      // ABS
 };
 
 struct PrimitiveTraits {
@@ -30,7 +32,7 @@ struct PrimitiveTraits {
   std::string_view symbol;  ///< as printed in the thesis's notation; empty for terminals
 };
 
-inline constexpr std::array<PrimitiveTraits, 10> kPrimitives{{
+inline constexpr std::array<PrimitiveTraits, 11> kPrimitives{{
     {Primitive::constant, 0, ""},
     {Primitive::variable, 0, ""},
     {Primitive::add, 2, "+"},
@@ -41,6 +43,7 @@ inline constexpr std::array<PrimitiveTraits, 10> kPrimitives{{
     {Primitive::cosine, 1, "COS"},
     {Primitive::sign, 1, "SIGN"},
     {Primitive::square_root, 1, "SQRTp"},
+    {Primitive::absolute, 1, "ABS"},
 }};
 
 constexpr const PrimitiveTraits& traits(Primitive primitive) {
@@ -75,6 +78,8 @@ inline double value_of(Primitive function, double argument) {
       return sign_of(argument);
     case Primitive::square_root:
       return protected_square_root(argument);
+    case Primitive::absolute:
+      return std::abs(argument);
     default:
       return 0.0;
   }

@@ -7,48 +7,51 @@
 
 namespace demecal {
 
-/// Arguments up to this size (rad) are reduced here; beyond it, sine() and cosine() ask the C library.
+/// Arguments up to this size (rad) are reduced in doubles; beyond it, sine() and cosine() take longer.
 inline constexpr double kLargestReducedAngle = 0x1.0p20;
 
-/// The sine of angle + quarter_turns * pi/2 for |angle| <= kLargestReducedAngle (rad), within two units in the last
-/// place and never beyond 1. Without branches. The angle is reduced by the nearest multiple of pi/2, subtracted in
-/// three parts (Cody and Waite, 1980); what is left is put into one of two polynomials, interpolated at the Chebyshev
-/// nodes of |r| <= pi/4.
-[[gnu::always_inline]] inline double reduced_sine(double angle, std::uint64_t quarter_turns) {
-  constexpr double kToInteger = 0x1.8p52;  // adding it leaves the nearest integer in the low bits
-  const double shifted = angle * 0x1.45f306dc9c883p-1 + kToInteger;
-  const double turns = shifted - kToInteger;
-  const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(shifted) + quarter_turns;
-
-  // The first two parts of pi/2 have 33 bits: their products with 20-bit integers are exact.
-  const double r = ((angle - turns * 0x1.921fb544p+0) - turns * 0x1.0b4611a6p-34) - turns * 0x1.3198a2e037073p-69;
+/// sin(r + rest) for |r| <= pi/2 (rad), never beyond 1: r times a polynomial in r^2, interpolated at Chebyshev nodes,
+/// whose last rounding is made good and whose last coefficient lies a little low, lest values at crests round to more
+/// than 1. What the tiny rest adds is weighed by about cos(r).
+[[gnu::always_inline]] inline double sine_within_quarter(double r, double rest) {
   const double z = r * r;
-  double sine_tail = -0x1.ae600aca92c64p-26 + z * 0x1.5e0b05bff20f2p-33;
-  sine_tail = 0x1.71de379654304p-19 + z * sine_tail;
-  sine_tail = -0x1.a01a019e83816p-13 + z * sine_tail;
-  sine_tail = 0x1.1111111110bb2p-7 + z * sine_tail;
-  sine_tail = -0x1.5555555555555p-3 + z * sine_tail;
-  const double sine_r = r + (z * r) * sine_tail;
-  double cosine_tail = 0x1.1eeb68cd22f56p-29 + z * -0x1.907d8f29fe831p-37;
-  cosine_tail = -0x1.27e4fa17bf139p-22 + z * cosine_tail;
-  cosine_tail = 0x1.a01a019f4e9b4p-16 + z * cosine_tail;
-  cosine_tail = -0x1.6c16c16c16967p-10 + z * cosine_tail;
-  cosine_tail = 0x1.5555555555555p-5 + z * cosine_tail;
-  const double cosine_r = 1.0 - z * (0.5 - z * cosine_tail);
-
-  const std::uint64_t odd = std::uint64_t{0} - (quadrant & 1U);
-  const std::uint64_t even_value = std::bit_cast<std::uint64_t>(sine_r) & ~odd;
-  const std::uint64_t odd_value = std::bit_cast<std::uint64_t>(cosine_r) & odd;
-  return std::bit_cast<double>((even_value | odd_value) ^ ((quadrant & 2U) << 62));
+  double tail = std::fma(z, 0x1.89a3a9f12697bp-49, -0x1.ae51366b753a9p-41);
+  tail = std::fma(z, tail, 0x1.612401540ed0fp-33);
+  tail = std::fma(z, tail, -0x1.ae6455a1c0795p-26);
+  tail = std::fma(z, tail, 0x1.71de3a54564dfp-19);
+  tail = std::fma(z, tail, -0x1.a01a01a018aaap-13);
+  tail = std::fma(z, tail, 0x1.1111111111107p-7);
+  tail = std::fma(z, tail, -0x1.5555555555555p-3);
+  const double ratio = std::fma(z, tail, 1.0);
+  const double ratio_rest = std::fma(z, tail, 1.0 - ratio);
+  const double cosine = std::fma(z, -0x1.9f02f6222c72p-2, 1.0);  // 1 - (2 r / pi)^2
+  return std::fma(r, ratio, std::fma(r, ratio_rest, rest * cosine));
 }
 
-/// The sine of an angle (rad); not a number where the angle is not finite.
-inline double sine(double angle) {
-  return std::abs(angle) <= kLargestReducedAngle ? reduced_sine(angle, 0) : std::sin(angle);
+/// The sine, or where `cosine` the cosine, of |angle| <= kLargestReducedAngle (rad), within 1.6 units in the last place
+/// and never beyond 1. Without branches. Fused multiply-adds are written out where they are meant, so that every host
+/// gives the same bits. The angle is reduced by the nearest multiple of pi (for the cosine, of pi from pi/2 on),
+/// subtracted in three parts of 53 bits (after Cody and Waite, 1980): the first remainder is exact, the second keeps
+/// what it rounds off.
+template <bool cosine>
+[[gnu::always_inline]] inline double reduced_sine(double angle) {
+  constexpr double kToInteger = 0x1.8p52;  // adding it leaves the nearest integer in the low bits
+  constexpr double kOneOverPi = 0x1.45f306dc9c883p-2;
+  const double shifted = std::fma(angle, kOneOverPi, cosine ? -0.5 : 0.0) + kToInteger;
+  const double turns = (shifted - kToInteger) + (cosine ? 0.5 : 0.0);
+  const double first = std::fma(-turns, 0x1.921fb54442d18p+1, angle);
+  const double second = turns * 0x1.1a62633145c07p-53;
+  const double rounded_off = std::fma(turns, 0x1.1a62633145c07p-53, -second);
+  const double r = first - second;
+  const double rest = ((first - r) - second) - std::fma(turns, -0x1.f1976b7ed8fbcp-109, rounded_off);
+  // Odd half turns change the sign; where the cosine's is even, its angle is pi/2 further on.
+  const std::uint64_t sign = (std::bit_cast<std::uint64_t>(shifted) ^ (cosine ? 1U : 0U)) << 63;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sine_within_quarter(r, rest)) ^ sign);
 }
-/// The cosine of an angle (rad); not a number where the angle is not finite.
-inline double cosine(double angle) {
-  return std::abs(angle) <= kLargestReducedAngle ? reduced_sine(angle, 1) : std::cos(angle);
-}
+
+/// The sine of an angle (rad), within 1.6 units in the last place; not a number where the angle is not finite.
+double sine(double angle);
+/// The cosine of an angle (rad), within 1.6 units in the last place; not a number where the angle is not finite.
+double cosine(double angle);
 
 }  // namespace demecal

@@ -66,6 +66,8 @@ struct Progress {
   std::uint64_t evaluations = 0;   ///< since the island began
   double evaluations_per_s = 0.0;  ///< of the last epoch
   std::uint64_t migrants_taken = 0;
+  std::uint64_t migrants_sent = 0;  ///< where its worker took it over: with those of at most kMigrantEpochs before
+  double waited_share = 0.0;        ///< of the time its worker has had it: spent waiting for neighbours
 
   bool operator==(const Progress&) const = default;
 };
@@ -104,7 +106,8 @@ struct WorkerStatus {
   std::uint32_t slots = 1;  ///< islands it computes at once
   std::string version;
   bool leaving = false;
-  RunId only_run = 0;  ///< 0: serves every run
+  RunId only_run = 0;         ///< 0: serves every run
+  double waited_share = 0.0;  ///< of its slots' time while it had islands to breed: without work
 
   bool operator==(const WorkerStatus&) const = default;
 };
@@ -119,6 +122,33 @@ struct Control {
   bool operator==(const Control&) const = default;
 };
 
+/// Coordinator -> watchers: how a calibration stands (round 0), and what became of each round of its closed loop.
+struct LoopNews {
+  enum class Stage { preparing, evolving, closing, finished, interrupted, failed };
+  enum class Verdict { added, rejected, none };
+  std::uint64_t calibration = 0;  ///< a number used once
+  std::uint32_t round = 0;        ///< from 1; 0: none, but the stage
+  RunId run = 0;                  ///< the evolution that goes on, or the last one; 0 before the first
+  Stage stage = Stage::preparing;
+  std::string job;   ///< its name
+  std::string text;  ///< of a stage what is done; of a round the diagnosis, or why the effect was not added
+  Verdict verdict = Verdict::none;
+  std::string kind;                  ///< of the effect, a word of the catalogue; empty where there was none
+  std::uint32_t joint = 0;           ///< of the effect, from 1; 0: of the whole arm or of the instrument
+  std::string label;                 ///< the effect in words: "backlash, joint 2"
+  double validation_before_m = 0.0;  ///< mean tool error on the validation poses; NaN where there are none
+  double validation_after_m = 0.0;
+
+  bool operator==(const LoopNews&) const = default;
+};
+
+/// Made by the transport, never sent: who wrote a calibration's LoopNews is gone.
+struct CalibrationLost {
+  std::uint64_t calibration = 0;
+
+  bool operator==(const CalibrationLost&) const = default;
+};
+
 /// Made by the transport, never sent: a worker's sign of life stopped.
 struct WorkerLost {
   std::string worker;
@@ -127,6 +157,6 @@ struct WorkerLost {
 };
 
 using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus,
-                             Control, WorkerLost>;
+                             Control, LoopNews, WorkerLost, CalibrationLost>;
 
 }  // namespace demecal

@@ -81,6 +81,7 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   report.before = errors_by_set(before, data);
   report.after = errors_by_set(model.robot, data);
   report.noise_floor_mm = loop.noise_m ? millimetres(*loop.noise_m) : noise_floor_mm(data);
+  report.unseen = calibration.unseen;
   report.loop = loop;
   report.described = model.nominal;
   report.index_before_mm2 = calibration.index_before_mm2;

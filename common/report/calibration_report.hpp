@@ -1,6 +1,7 @@
 // What a calibration did to the error, and why: the figures that people and programs read.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ struct RunFacts {
   std::uint64_t evaluations = 0;
   std::uint64_t migrations = 0;
   bool interrupted = false;
+  bool asynchronous = false;  ///< islands waited for no neighbour: the result depends on timing
+  bool resumed = false;       ///< part of it comes from a journal; wall_s and workers are of the last process
+  std::map<std::string, double> waited_share;  ///< of each worker: of its slots' time while it had islands to breed,
+                                               ///< the share without work
 };
 
 struct PoseCounts {
@@ -50,6 +55,7 @@ struct CalibrationReport {
   ErrorBySet before;                       ///< after everything declared
   ErrorBySet after;                        ///< with the effects that the closed loop added
   std::optional<double> noise_floor_mm;    ///< standard deviation of repeats per axis, where there are repeats
+  std::optional<UnseenValidation> unseen;  ///< where validation poses had a part in the last fit
   LoopOutcome loop;
   Robot described;  ///< the arm as its maker describes it, by which the loop's effects stand
   double index_before_mm2 = 0.0, index_after_mm2 = 0.0;

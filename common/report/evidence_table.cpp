@@ -73,10 +73,8 @@ std::string further_list(const JsonValue& report) {
     ++number;
     const std::string sentence = round["further"]["sentence"].text();
     if (sentence.empty()) continue;
-    const std::uint64_t poses = round["further"]["poses"].count().value_or(0);
-    items += fmt::format("<li>Round {}, {}: {}{}</li>\n", round["round"].count().value_or(number),
-                         escaped(effect_entry(round["effect"]).name()), escaped(sentence),
-                         poses > 0 ? fmt::format(" ({} pose{})", poses, poses == 1 ? "" : "s") : "");
+    items += fmt::format("<li>Round {}, {}: {}</li>\n", round["round"].count().value_or(number),
+                         escaped(effect_entry(round["effect"]).name()), escaped(sentence));
   }
   if (items.empty()) return {};
   return "<h3>What to measure next</h3>\n<p class=\"note\">These poses hardly tell the named effects from their "

@@ -59,6 +59,7 @@ Json round_entry(const Round& round, const Robot& robot) {
   entry["rivals"] = list(round.rivals, [&robot](const Rival& one) { return rival(one, robot); });
   entry["p_structure"] = number(round.p_structure);
   entry["p_family"] = number(round.p_family);
+  entry["permutations"] = round.permutations;
   entry["fall_nats"] = number(round.fall_nats);
   entry["gain_lower_mm2"] = number(round.gain_lower_mm2);
   entry["sign_stability"] = number(round.sign_stability);

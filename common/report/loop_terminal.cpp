@@ -61,9 +61,7 @@ std::string rivals_line(const Round& round, const Robot& robot) {
 
 std::string further_line(const Round& round) {
   if (!round.further) return {};
-  const int poses = round.further->poses;
-  const std::string count = poses > 0 ? fmt::format(" ({} pose{})", poses, poses == 1 ? "" : "s") : "";
-  return wrapped(std::string(kIndent, ' ') + "measure next:", round.further->sentence + count, kIndent + 2);
+  return wrapped(std::string(kIndent, ' ') + "measure next:", round.further->sentence, kIndent + 2);
 }
 
 std::string effect_lines(const Round& round, const Robot& robot, bool diagnosed) {

@@ -55,10 +55,17 @@ Json parameter(const ParameterEstimate& estimate) {
           {"standard_error", number(estimate.standard_error * border)}};
 }
 
+Json waited_share(const RunFacts& facts) {
+  Json all = Json::array();
+  for (const auto& [worker, share] : facts.waited_share) all.push_back({{"worker", worker}, {"share", number(share)}});
+  return all;
+}
+
 Json runtime(const RunFacts& facts) {
-  return {{"wall_s", number(facts.wall_s)},   {"workers", facts.workers},         {"islands", facts.islands},
-          {"generations", facts.generations}, {"evaluations", facts.evaluations}, {"migrations", facts.migrations},
-          {"interrupted", facts.interrupted}};
+  return {{"wall_s", number(facts.wall_s)},     {"workers", facts.workers},           {"islands", facts.islands},
+          {"generations", facts.generations},   {"evaluations", facts.evaluations},   {"migrations", facts.migrations},
+          {"interrupted", facts.interrupted},   {"asynchronous", facts.asynchronous}, {"resumed", facts.resumed},
+          {"waited_share", waited_share(facts)}};
 }
 
 Json error_stages(const CalibrationReport& report) {
@@ -67,6 +74,14 @@ Json error_stages(const CalibrationReport& report) {
           {"declared", by_set(report.declared)},
           {"before", by_set(report.before)},
           {"after", by_set(report.after)}};
+}
+
+/// Which poses the numbers of the model come from, and what validation poses said while they were unseen.
+Json last_fit(const CalibrationReport& report) {
+  if (!report.unseen) return {{"poses", {"calibration"}}};
+  return {{"poses", {"calibration", "validation"}},
+          {"unseen_validation_rms_mm",
+           {{"before", number(report.unseen->before_mm)}, {"after", number(report.unseen->after_mm)}}}};
 }
 
 }  // namespace
@@ -81,6 +96,7 @@ std::string to_json(const CalibrationReport& report) {
                    {"outliers", report.outliers},
                    {"near_singular", report.near_singular}};
   json["error_mm"] = error_stages(report);
+  json["last_fit"] = last_fit(report);
   json["noise_floor_mm"] = report.noise_floor_mm ? number(*report.noise_floor_mm) : Json(nullptr);
   add_loop(report.loop, report.described, json);
   json["performance_index_mm2"] = {{"before", number(report.index_before_mm2)},

@@ -28,12 +28,31 @@ std::string code(const std::string& text) {
   return text.empty() ? text : "<code>" + escaped(text) + "</code>";
 }
 
+/// The mean over the workers.
+std::string waiting(const JsonValue& runtime) {
+  double sum = 0.0;
+  int workers = 0;
+  for (const JsonValue& worker : runtime["waited_share"].elements()) {
+    const auto share = worker["share"].number();
+    if (!share) continue;
+    sum += *share;
+    ++workers;
+  }
+  return workers == 0 ? "" : fixed(100.0 * sum / workers, 1) + " %";
+}
+
+std::string schedule(const JsonValue& runtime) {
+  if (!runtime["asynchronous"].truth().value_or(false)) return {};
+  return "asynchronous: another run of this job gives another result";
+}
+
 std::string runtime_facts(const JsonValue& runtime) {
   const auto wall_s = runtime["wall_s"].number();
   return fact("wall time", wall_s ? duration(*wall_s) : "") + fact("workers", count_text(runtime["workers"])) +
          fact("islands", count_text(runtime["islands"])) + fact("generations", count_text(runtime["generations"])) +
          fact("evaluations", count_text(runtime["evaluations"])) + fact("evaluations per second", rate(runtime)) +
-         fact("migrations", count_text(runtime["migrations"]));
+         fact("migrations", count_text(runtime["migrations"])) + fact("workers' time spent waiting", waiting(runtime)) +
+         fact("schedule", schedule(runtime));
 }
 
 std::string provenance(const JsonValue& report) {

@@ -68,6 +68,17 @@ std::string legend(const ErrorStages& errors, bool noise) {
   return text + "</p>\n";
 }
 
+std::string last_fit_line(const JsonValue& report) {
+  const JsonValue unseen = report["last_fit"]["unseen_validation_rms_mm"];
+  const std::optional<double> before = unseen["before"].number(), after = unseen["after"].number();
+  if (!before || !after) return {};
+  return fmt::format(
+      "<p class=\"note\">The numbers come from calibration and validation poses together. While the validation poses "
+      "were unseen, their rms was {} mm at the start of the closed loop and {} mm at its end. Accept poses had no part "
+      "in anything.</p>\n",
+      fixed(before, 3), fixed(after, 3));
+}
+
 std::string index_line(const JsonValue& report) {
   const JsonValue index = report["performance_index_mm2"];
   const std::optional<double> before = index["before"].number(), after = index["after"].number();
@@ -85,7 +96,7 @@ std::string stages_section(const JsonValue& report, const ErrorStages& errors) {
   const std::optional<double> noise_mm = noise_mean_mm(report);
   return section("stages", "Tool error, stage by stage, mm",
                  table(errors) + "<div class=\"panel\">\n" + legend(errors, noise_mm.has_value()) +
-                     stage_chart(errors, noise_mm) + "</div>\n" + index_line(report));
+                     stage_chart(errors, noise_mm) + "</div>\n" + last_fit_line(report) + index_line(report));
 }
 
 }  // namespace demecal

@@ -38,6 +38,17 @@ const char* declared_stage(const CalibrationReport& report) {
                                                                  : "start of the closed loop";
 }
 
+std::string last_fit(const CalibrationReport& report) {
+  const std::string figures = loop_added(report.loop) ? fmt::format("{:.3f} mm without and {:.3f} mm with the effects",
+                                                                    report.unseen->before_mm, report.unseen->after_mm)
+                                                      : fmt::format("{:.3f} mm", report.unseen->after_mm);
+  return wrapped("  ",
+                 "The numbers come from calibration and validation poses together; while the validation poses were "
+                 "unseen, their rms was " +
+                     figures + ". Accept poses had no part in anything.",
+                 2);
+}
+
 std::string stages(const CalibrationReport& report) {
   std::vector<std::pair<const char*, const ErrorBySet*>> rows{{"nominal", &report.nominal},
                                                               {"base fitted", &report.registered},
@@ -50,6 +61,7 @@ std::string stages(const CalibrationReport& report) {
     text += heading(fmt::format("{} poses, tool error in mm", set.name).c_str());
     for (const auto& [name, errors] : rows) text += figures_line(std::string("  ") + name, errors->*set.figures);
   }
+  if (report.unseen) text += last_fit(report);
   return text;
 }
 
@@ -94,6 +106,8 @@ std::string to_terminal(const CalibrationReport& report) {
   for (const std::string& sentence : report.unidentified) text += wrapped("  not seen by these poses:", sentence, 4);
   if (report.noise_floor_mm)
     text += fmt::format("  noise floor from repeats: {:.3f} mm per axis\n", *report.noise_floor_mm);
+  if (report.runtime.asynchronous)
+    text += "  The islands did not wait for each other: another run of this job gives another result.\n";
   return text;
 }
 

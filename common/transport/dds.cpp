@@ -1,17 +1,15 @@
 #include "transport/dds.hpp"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
-#include <set>
-#include <stdexcept>
 #include <utility>
 
-#include "errors/check.hpp"
 #include "transport/dds_participant.hpp"
 #include "transport/dds_qos.hpp"
 #include "transport/dds_receiver.hpp"
+#include "transport/dds_writers.hpp"
 #include "transport/topic.hpp"
-#include "transport/wire_form.hpp"
 
 namespace demecal {
 namespace {
@@ -20,26 +18,13 @@ namespace dds = eprosima::fastdds::dds;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Calls `use(wire form)` with what travels for a message that can be sent.
-template <class Use>
-void with_wire_form(const Message& message, Use use) {
-  std::visit(
-      [&](const auto& plain) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(plain)>, WorkerLost>) {
-          auto sample = encode(plain);
-          use(&sample);
-        }
-      },
-      message);
-}
-
 class DdsTransport final : public Transport {
  public:
   DdsTransport(const DdsOptions& options, Role role, const std::string& name)
-      : role_(role), name_(name), participant_(options, name) {
+      : role_(role), name_(name), participant_(options, role, name) {
     inbox_.is_own = [this](const auto& publication) { return participant_.is_own(publication); };
     for (const Topic topic : kTopics)
-      if (topic != Topic::migrants) join_topic(topic, 0);
+      if (topic != Topic::migrants) join_topic({topic, 0});
   }
 
   void publish(const Message& message) override;
@@ -51,106 +36,65 @@ class DdsTransport final : public Transport {
   std::uint64_t unreadable() const override { return inbox_.unreadable; }
 
  private:
-  using Place = std::pair<Topic, std::uint32_t>;  ///< a topic, and the joint (from 0) where it is migrants, else 0
-
-  static Place place_of(const TopicKey& key) {
-    return {key.topic, key.topic == Topic::migrants ? key.island.joint : 0};
-  }
-  void join_topic(Topic topic, std::uint32_t joint);
-  dds::DataWriter* writer_at(Place place);
-  std::vector<dds::DataWriter*> writers();
-  void note_published(const TopicKey& key, const Message& message);
+  void join_topic(DdsWriters::Place place);
+  bool wait_for_acknowledgments(steady_clock::time_point deadline);
+  void note_status(const WorkerStatus& status);
   std::optional<WorkerStatus> status_due();
-  void withdraw(RunId run);
 
   const Role role_;
   const std::string name_;
   Inbox inbox_;
   std::vector<std::unique_ptr<dds::DataReaderListener>> receivers_;
   DdsParticipant participant_;
+  DdsWriters writers_;
   std::mutex mutex_;  ///< guards what follows
-  std::map<Place, Owned<dds::DataWriter>> writers_;
-  std::map<Place, Owned<dds::DataReader>> readers_;
-  std::set<TopicKey> published_;        ///< keys with a run, to be withdrawn when it is over
+  std::map<DdsWriters::Place, Owned<dds::DataReader>> readers_;
   std::optional<WorkerStatus> status_;  ///< the last one published
   steady_clock::time_point status_published_;
 };
 
-void DdsTransport::join_topic(Topic topic, std::uint32_t joint) {
-  const Place place{topic, joint};
+void DdsTransport::join_topic(DdsWriters::Place place) {
+  const auto [topic, joint] = place;
   if (reads(role_, topic)) {
     receivers_.push_back(make_receiver(topic, inbox_));
-    readers_.emplace(place, participant_.make_reader(topic, joint, receivers_.back().get()));
+    readers_.emplace(place,
+                     participant_.make_reader(topic, joint, receivers_.back().get(), reads_reliably(role_, topic)));
   }
-  if (writes(role_, topic)) writers_.emplace(place, participant_.make_writer(topic, joint));
+  if (writes(role_, topic)) writers_.add(place, participant_.make_writer(topic, joint));
 }
 
 void DdsTransport::follow_migrants(std::uint32_t joint) {
   const std::lock_guard lock(mutex_);
-  const Place place{Topic::migrants, joint};
-  if (!readers_.contains(place)) join_topic(Topic::migrants, joint);
-}
-
-dds::DataWriter* DdsTransport::writer_at(Place place) {
-  const std::lock_guard lock(mutex_);
-  const auto writer = writers_.find(place);
-  DEMECAL_CHECK(writer != writers_.end(), "joint=" << place.second << " is not followed");
-  return writer->second.get();
-}
-
-std::vector<dds::DataWriter*> DdsTransport::writers() {
-  const std::lock_guard lock(mutex_);
-  std::vector<dds::DataWriter*> all;
-  for (const auto& [place, writer] : writers_) all.push_back(writer.get());
-  return all;
+  const DdsWriters::Place place{Topic::migrants, joint};
+  if (!readers_.contains(place)) join_topic(place);
 }
 
 void DdsTransport::publish(const Message& message) {
-  const TopicKey key = key_of(message);
-  check_may_publish(role_, name_, key);
-  dds::DataWriter* writer = writer_at(place_of(key));
-  note_published(key, message);
-  bool written = false;
-  with_wire_form(message, [&](void* sample) { written = writer->write(sample); });
-  if (!written) throw std::runtime_error("DDS: cannot write to " + topic_name(key.topic, key.island.joint));
-  if (const RunId ended = ended_run(message)) withdraw(ended);
+  check_may_publish(role_, name_, key_of(message));
+  if (const auto* status = std::get_if<WorkerStatus>(&message)) note_status(*status);
+  writers_.send(message);
+  if (const RunId ended = ended_run(message)) writers_.withdraw(ended);
 }
 
-void DdsTransport::note_published(const TopicKey& key, const Message& message) {
+void DdsTransport::note_status(const WorkerStatus& status) {
   const std::lock_guard lock(mutex_);
-  if (const auto* status = std::get_if<WorkerStatus>(&message)) {
-    status_ = *status;
-    status_published_ = steady_clock::now();
-  } else if (key.topic != Topic::control) {
-    published_.insert(key);
-  }
+  status_ = status;
+  status_published_ = steady_clock::now();
 }
 
 std::optional<Message> DdsTransport::receive(milliseconds patience) {
+  participant_.tell_unproven();
+  writers_.catch_up();
   auto message = inbox_.mailbox.take(patience);
   if (message)
-    if (const RunId ended = ended_run(*message)) withdraw(ended);
+    if (const RunId ended = ended_run(*message)) writers_.withdraw(ended);
   return message;
-}
-
-void DdsTransport::withdraw(RunId run) {
-  std::set<TopicKey> of_run;
-  {
-    const std::lock_guard lock(mutex_);
-    for (const TopicKey& key : published_)
-      if (key.run == run) of_run.insert(key);
-    for (const TopicKey& key : of_run) published_.erase(key);
-  }
-  for (const TopicKey& key : of_run) {
-    dds::DataWriter* writer = writer_at(place_of(key));
-    // Unregistering disposes as well; disposing alone would keep the memory.
-    with_wire_form(empty_message(key), [&](void* sample) { writer->unregister_instance(sample, dds::HANDLE_NIL); });
-  }
 }
 
 void DdsTransport::assert_alive() {
   if (role_ != Role::worker) return;
-  writer_at({Topic::worker, 0})->assert_liveliness();
+  writers_.catch_up();
+  writers_.at({Topic::worker, 0})->assert_liveliness();
   // An assertion that meets the end of the lease revives the worker in Fast DDS without telling its readers, who go on
   // taking it for lost: they hear it from the status.
   if (const auto due = status_due()) publish(*due);
@@ -163,8 +107,16 @@ std::optional<WorkerStatus> DdsTransport::status_due() {
 
 bool DdsTransport::flush(milliseconds patience) {
   const auto deadline = steady_clock::now() + patience;
+  bool arrived = wait_for_acknowledgments(deadline);
+  while (arrived && writers_.catch_up()) arrived = wait_for_acknowledgments(deadline);
+  return arrived;
+}
+
+/// Of what is awaited; a herald has nothing but news to wait for.
+bool DdsTransport::wait_for_acknowledgments(steady_clock::time_point deadline) {
   bool arrived = true;
-  for (dds::DataWriter* writer : writers()) {
+  for (const auto& [topic, writer] : writers_.all()) {
+    if (!is_awaited(topic) && role_ != Role::herald) continue;
     const auto left = std::chrono::duration_cast<milliseconds>(deadline - steady_clock::now());
     arrived &=
         writer->wait_for_acknowledgments(dds_duration(std::max(left, milliseconds{0}))) == ReturnCode_t::RETCODE_OK;

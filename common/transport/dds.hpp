@@ -16,10 +16,13 @@ struct DdsOptions {
   std::vector<std::string> interfaces;  ///< addresses to bind to; empty: all (network) or 127.0.0.1 (local)
   std::vector<std::string> peers;       ///< "ADDRESS" of other hosts
   std::string discovery_server;         ///< "ADDRESS:PORT", or empty
+  /// Folder of certificates that scripts/security made; empty: none are needed. Not with a discovery server: Fast DDS's
+  /// own shows no certificate.
+  std::string security;
 };
 
 /// Joins the domain. `name` identifies a worker in WorkerLost. Throws std::runtime_error where no participant can be
-/// made.
+/// made, and InputError where an address is none or a certificate is missing or not accepted.
 std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name);
 
 }  // namespace demecal

@@ -9,8 +9,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "errors/input_error.hpp"
 #include "transport/dds_participant_qos.hpp"
 #include "transport/dds_qos.hpp"
+#include "transport/dds_security.hpp"
 
 namespace demecal {
 namespace {
@@ -40,11 +42,17 @@ Owned<Entity> own(Entity* entity, Delete take_back, const std::string& what) {
   return Owned<Entity>(entity, take_back);
 }
 
-Owned<dds::DomainParticipant> join_domain(const DdsOptions& options, const std::string& name) {
+Owned<dds::DomainParticipant> join_domain(const DdsOptions& options, Role role, const std::string& name,
+                                          Refusals* refusals) {
   set_up_library();
   auto* factory = dds::DomainParticipantFactory::get_instance();
-  auto* participant =
-      factory->create_participant(options.domain, participant_qos(options, name), nullptr, dds::StatusMask::none());
+  auto* participant = factory->create_participant(options.domain, participant_qos(options, role, name), refusals,
+                                                  dds::StatusMask::none());
+  if (participant == nullptr && !options.security.empty()) {
+    throw InputError(
+        {options.security, 0}, certificate_name(role),
+        "this certificate, its key or its permissions are not accepted: expired, altered, or of another authority");
+  }
   return own(
       participant, [factory](dds::DomainParticipant* p) { factory->delete_participant(p); },
       "a participant in domain " + std::to_string(options.domain));
@@ -52,8 +60,8 @@ Owned<dds::DomainParticipant> join_domain(const DdsOptions& options, const std::
 
 }  // namespace
 
-DdsParticipant::DdsParticipant(const DdsOptions& options, const std::string& name)
-    : participant_(join_domain(options, name)) {
+DdsParticipant::DdsParticipant(const DdsOptions& options, Role role, const std::string& name)
+    : refusals_(!options.security.empty(), role), participant_(join_domain(options, role, name, &refusals_)) {
   auto* participant = participant_.get();
   publisher_ = own(
       participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
@@ -72,10 +80,10 @@ Owned<dds::DataWriter> DdsParticipant::make_writer(demecal::Topic which, std::ui
 }
 
 Owned<dds::DataReader> DdsParticipant::make_reader(demecal::Topic which, std::uint32_t joint,
-                                                   dds::DataReaderListener* listener) {
+                                                   dds::DataReaderListener* listener, bool reliably) {
   auto* subscriber = subscriber_.get();
   return own(
-      subscriber->create_datareader(topic(which, joint), reader_qos(which), listener),
+      subscriber->create_datareader(topic(which, joint), reader_qos(which, reliably), listener),
       [subscriber](dds::DataReader* reader) {
         reader->set_listener(nullptr);
         subscriber->delete_datareader(reader);

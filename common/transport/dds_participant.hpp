@@ -1,6 +1,7 @@
 // One participant in a DDS domain, and the writers and readers made from it; each is deleted by its owner's end.
 #pragma once
 
+#include <chrono>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
@@ -14,6 +15,7 @@
 #include <string>
 
 #include "transport/dds.hpp"
+#include "transport/dds_refusals.hpp"
 #include "transport/topic.hpp"
 
 namespace demecal {
@@ -24,21 +26,27 @@ using Owned = std::unique_ptr<Entity, std::function<void(Entity*)>>;
 
 class DdsParticipant {
  public:
-  /// Joins the domain. Throws InputError where an address is none, std::runtime_error where Fast DDS refuses.
-  DdsParticipant(const DdsOptions& options, const std::string& name);
+  /// Joins the domain; the role matters where certificates are shown. Throws InputError where an address is none or a
+  /// certificate is missing or not accepted, std::runtime_error where Fast DDS refuses.
+  DdsParticipant(const DdsOptions& options, Role role, const std::string& name);
 
   /// An end of a topic (with `joint` from 0, for migrants); it must not outlive the participant, nor the listener the
   /// reader. Throws std::runtime_error where Fast DDS refuses.
   Owned<eprosima::fastdds::dds::DataWriter> make_writer(Topic which, std::uint32_t joint = 0);
   Owned<eprosima::fastdds::dds::DataReader> make_reader(Topic which, std::uint32_t joint,
-                                                        eprosima::fastdds::dds::DataReaderListener* listener);
+                                                        eprosima::fastdds::dds::DataReaderListener* listener,
+                                                        bool reliably = true);
 
   /// Whether the writer with this handle is one of this participant's.
   bool is_own(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
 
+  /// Says who has had long enough to prove its identity, and has not; to be called now and then.
+  void tell_unproven() { refusals_.tell_unproven(std::chrono::steady_clock::now()); }
+
  private:
   eprosima::fastdds::dds::Topic* topic(Topic which, std::uint32_t joint);
 
+  Refusals refusals_;
   Owned<eprosima::fastdds::dds::DomainParticipant> participant_;
   Owned<eprosima::fastdds::dds::Publisher> publisher_;
   Owned<eprosima::fastdds::dds::Subscriber> subscriber_;

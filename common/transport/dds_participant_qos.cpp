@@ -7,6 +7,7 @@
 
 #include "errors/input_error.hpp"
 #include "transport/dds_qos.hpp"
+#include "transport/dds_security.hpp"
 
 namespace demecal {
 namespace {
@@ -81,7 +82,7 @@ void set_discovery(rtps::BuiltinAttributes& builtin, const DdsOptions& options) 
 
 }  // namespace
 
-dds::DomainParticipantQos participant_qos(const DdsOptions& options, const std::string& name) {
+dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role, const std::string& name) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(name);
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -94,6 +95,7 @@ dds::DomainParticipantQos participant_qos(const DdsOptions& options, const std::
   qos.transport().send_socket_buffer_size = kSocketBuffer_bytes;
   qos.transport().listen_socket_buffer_size = kSocketBuffer_bytes;
   set_discovery(qos.wire_protocol().builtin, options);
+  if (!options.security.empty()) set_security(qos, options.security, role);
   return qos;
 }
 

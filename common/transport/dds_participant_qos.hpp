@@ -8,7 +8,8 @@
 
 namespace demecal {
 
-/// Throws InputError where a peer or the discovery server is no address.
-eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsOptions& options, const std::string& name);
+/// Throws InputError where a peer or the discovery server is no address, or a file of the security folder is missing.
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role,
+                                                             const std::string& name);
 
 }  // namespace demecal

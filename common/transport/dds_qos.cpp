@@ -50,6 +50,11 @@ void set_both_ends(Qos& qos, Topic topic) {
   }
 }
 
+/// Whether bounds on its texts keep every message below a datagram's size.
+bool is_always_small(Topic topic) {
+  return topic == Topic::progress || topic == Topic::control || topic == Topic::worker || topic == Topic::loop;
+}
+
 }  // namespace
 
 eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
@@ -72,6 +77,8 @@ std::string topic_name(Topic topic, std::uint32_t joint) {
       return "demecal/1/checkpoint";
     case Topic::outcome:
       return "demecal/1/outcome";
+    case Topic::loop:
+      return "demecal/1/loop";
     case Topic::worker:
       break;
   }
@@ -94,6 +101,8 @@ dds::TypeSupport topic_type(Topic topic) {
       return lean<wire::CheckpointPubSubType>();
     case Topic::outcome:
       return lean<wire::OutcomePubSubType>();
+    case Topic::loop:
+      return lean<wire::LoopNewsPubSubType>();
     case Topic::worker:
       break;
   }
@@ -105,15 +114,20 @@ dds::DataWriterQos writer_qos(Topic topic) {
   set_both_ends(qos, topic);
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = values_kept(topic);
-  // Messages larger than a datagram need the sending thread.
-  qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
+  // Messages that may be larger than a datagram need the sending thread, which costs more.
+  qos.publish_mode().kind = is_always_small(topic) ? dds::SYNCHRONOUS_PUBLISH_MODE : dds::ASYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kHeartbeat);
   return qos;
 }
 
-dds::DataReaderQos reader_qos(Topic topic) {
+dds::DataReaderQos reader_qos(Topic topic, bool reliably) {
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   set_both_ends(qos, topic);
+  if (!reliably) {
+    qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
+    qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
+    qos.liveliness() = dds::LivelinessQosPolicy();  // told by heartbeats, which only reliable readers take
+  }
   qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
   // How long a newcomer waits before it asks for what it missed; the default is 70 ms.
   qos.reliable_reader_qos().times.initialAcknackDelay = dds_duration(milliseconds{10});

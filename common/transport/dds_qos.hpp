@@ -15,7 +15,8 @@ std::string topic_name(Topic topic, std::uint32_t joint = 0);
 eprosima::fastdds::dds::TypeSupport topic_type(Topic topic);
 
 eprosima::fastdds::dds::DataWriterQos writer_qos(Topic topic);
-eprosima::fastdds::dds::DataReaderQos reader_qos(Topic topic);
+/// As the topic's writers offer it where `reliably`, else BEST_EFFORT: what passes while one looks.
+eprosima::fastdds::dds::DataReaderQos reader_qos(Topic topic, bool reliably = true);
 
 /// A length of time as Fast DDS takes it.
 eprosima::fastrtps::Duration_t dds_duration(std::chrono::milliseconds time);

@@ -42,6 +42,8 @@ class Receiver : public dds::DataReaderListener {
   void deliver(Plain message, const InstanceHandle_t& publication) {
     if constexpr (std::is_same_v<Plain, WorkerStatus>)
       inbox_.presence.heard(writer_id(publication), std::move(message));
+    else if constexpr (std::is_same_v<Plain, LoopNews>)
+      inbox_.heralds.heard(writer_id(publication), std::move(message));
     else
       inbox_.mailbox.put(std::move(message));
   }
@@ -65,6 +67,16 @@ class WorkerReceiver final : public Receiver<wire::WorkerStatus> {
   }
 };
 
+/// Hears also of those whose writer of news goes.
+class LoopReceiver final : public Receiver<wire::LoopNews> {
+ public:
+  using Receiver::Receiver;
+
+  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+    if (status.current_count_change < 0) inbox_.heralds.departed(writer_id(status.last_publication_handle));
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox) {
@@ -83,6 +95,8 @@ std::unique_ptr<dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox
       return std::make_unique<Receiver<wire::Checkpoint>>(inbox);
     case Topic::outcome:
       return std::make_unique<Receiver<wire::Outcome>>(inbox);
+    case Topic::loop:
+      return std::make_unique<LoopReceiver>(inbox);
     case Topic::worker:
       break;
   }

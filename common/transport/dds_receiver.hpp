@@ -16,6 +16,7 @@ namespace demecal {
 struct Inbox {
   Mailbox mailbox;
   Presence presence{mailbox};
+  Heralds heralds{mailbox};
   std::atomic<std::uint64_t> unreadable{0};  ///< messages dropped because they could not be decoded
   /// Whether a publication is this participant's, so that what it says is not heard.
   std::function<bool(const eprosima::fastrtps::rtps::InstanceHandle_t&)> is_own;

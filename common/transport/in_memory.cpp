@@ -49,10 +49,10 @@ class Exchange {
     const std::lock_guard lock(mutex_);
     std::erase(members_, member);
     const bool is_lost = has_announced_itself(*member);
+    const std::set<std::uint64_t> calibrations = calibrations_of(*member);
     kept_.erase(member);
-    if (!is_lost) return;
-    for (Member* other : members_)
-      if (reads(other->role, Topic::worker)) other->mailbox.put(WorkerLost{member->name});
+    for (const std::uint64_t calibration : calibrations) tell(Topic::loop, CalibrationLost{calibration});
+    if (is_lost) tell(Topic::worker, WorkerLost{member->name});
   }
 
   void follow(Member* member, std::uint32_t joint) {
@@ -79,6 +79,19 @@ class Exchange {
 
  private:
   using Values = std::map<TopicKey, std::deque<Kept>>;
+
+  void tell(Topic topic, const Message& message) {
+    for (Member* member : members_)
+      if (reads(member->role, topic)) member->mailbox.put(message);
+  }
+
+  /// Those whose news it has told.
+  std::set<std::uint64_t> calibrations_of(const Member& member) {
+    std::set<std::uint64_t> calibrations;
+    for (const auto& [key, values] : kept_[&member])
+      if (key.topic == Topic::loop) calibrations.insert(key.calibration);
+    return calibrations;
+  }
 
   template <class Predicate>
   void catch_up(Member& newcomer, Predicate wanted) {

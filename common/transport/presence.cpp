@@ -40,4 +40,16 @@ void Presence::lose(Worker& worker) {
   mailbox_.put(WorkerLost{worker.status.worker});
 }
 
+void Heralds::heard(const WriterId& writer, LoopNews news) {
+  const std::lock_guard lock(mutex_);
+  calibrations_[writer] = news.calibration;
+  mailbox_.put(std::move(news));
+}
+
+void Heralds::departed(const WriterId& writer) {
+  const std::lock_guard lock(mutex_);
+  const auto gone = calibrations_.extract(writer);
+  if (gone) mailbox_.put(CalibrationLost{gone.mapped()});
+}
+
 }  // namespace demecal

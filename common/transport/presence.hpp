@@ -39,4 +39,20 @@ class Presence {
   std::map<WriterId, Worker> workers_;
 };
 
+/// Which calibrations' news have a writer. Any thread may call.
+class Heralds {
+ public:
+  explicit Heralds(Mailbox& mailbox) : mailbox_(mailbox) {}
+
+  /// News were read: put as they are.
+  void heard(const WriterId& writer, LoopNews news);
+  /// The writer is gone for good, whether or not it had said all.
+  void departed(const WriterId& writer);
+
+ private:
+  Mailbox& mailbox_;
+  std::mutex mutex_;
+  std::map<WriterId, std::uint64_t> calibrations_;
+};
+
 }  // namespace demecal

@@ -14,8 +14,13 @@ struct KeyOf {
   TopicKey operator()(const Checkpoint& m) const { return {Topic::checkpoint, m.run, m.island, {}}; }
   TopicKey operator()(const Outcome& m) const { return {Topic::outcome, m.run, m.island, {}}; }
   TopicKey operator()(const WorkerStatus& m) const { return {Topic::worker, 0, {}, m.worker}; }
+  TopicKey operator()(const LoopNews& m) const { return {Topic::loop, 0, {}, {}, m.calibration, m.round}; }
   TopicKey operator()(const WorkerLost& m) const {
     DEMECAL_CHECK(false, "WorkerLost is never sent; worker=" << m.worker);
+    return {};
+  }
+  TopicKey operator()(const CalibrationLost& m) const {
+    DEMECAL_CHECK(false, "CalibrationLost is never sent; calibration=" << m.calibration);
     return {};
   }
 };
@@ -54,6 +59,12 @@ Message empty_message(const TopicKey& key) {
       return with_key<Checkpoint>(key);
     case Topic::outcome:
       return with_key<Outcome>(key);
+    case Topic::loop: {
+      LoopNews news;
+      news.calibration = key.calibration;
+      news.round = key.round;
+      return news;
+    }
     case Topic::worker:
       break;
   }
@@ -68,7 +79,9 @@ bool writes(Role role, Topic topic) {
     case Role::coordinator:
       return of_coordinator;
     case Role::worker:
-      return !of_coordinator;
+      return !of_coordinator && topic != Topic::loop;
+    case Role::herald:
+      return topic == Topic::loop || topic == Topic::progress;
     case Role::watcher:
       break;
   }
@@ -76,8 +89,25 @@ bool writes(Role role, Topic topic) {
 }
 
 bool reads(Role role, Topic topic) {
-  if (topic == Topic::migrants) return role != Role::coordinator;
-  return !writes(role, topic);
+  switch (role) {
+    case Role::coordinator:
+      return writes(Role::worker, topic) && topic != Topic::migrants;
+    case Role::worker:
+      return writes(Role::coordinator, topic) || topic == Topic::migrants;
+    case Role::watcher:
+      return topic == Topic::control || topic == Topic::worker || reads_reliably(role, topic);
+    case Role::herald:
+      break;
+  }
+  return false;
+}
+
+bool reads_reliably(Role role, Topic topic) {
+  return role != Role::watcher || !is_awaited(topic);
+}
+
+bool is_awaited(Topic topic) {
+  return topic != Topic::data && topic != Topic::progress && topic != Topic::loop;
 }
 
 int values_kept(Topic topic) {

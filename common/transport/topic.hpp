@@ -9,15 +9,19 @@
 
 namespace demecal {
 
-enum class Topic { data, task, control, migrants, progress, checkpoint, outcome, worker };
-inline constexpr std::array kTopics{Topic::data,     Topic::task,       Topic::control, Topic::migrants,
-                                    Topic::progress, Topic::checkpoint, Topic::outcome, Topic::worker};
+enum class Topic { data, task, control, migrants, progress, checkpoint, outcome, worker, loop };
+inline constexpr std::array kTopics{Topic::data,       Topic::task,    Topic::control, Topic::migrants, Topic::progress,
+                                    Topic::checkpoint, Topic::outcome, Topic::worker,  Topic::loop};
 
 /// The topic of a message; a WorkerLost has none, and asking is a broken promise.
 Topic topic_of(const Message& message);
 
 bool writes(Role role, Topic topic);
 bool reads(Role role, Topic topic);
+/// Whether this role's reader of the topic asks for what it missed, and acknowledges.
+bool reads_reliably(Role role, Topic topic);
+/// Whether a writer that leaves waits until what it wrote is acknowledged. No topic that watchers read reliably is.
+bool is_awaited(Topic topic);
 
 /// What a value is the latest of: its topic with those of the key fields that the topic has.
 struct TopicKey {
@@ -25,6 +29,8 @@ struct TopicKey {
   RunId run = 0;
   IslandKey island;
   std::string worker;
+  std::uint64_t calibration = 0;
+  std::uint32_t round = 0;
   auto operator<=>(const TopicKey&) const = default;
 };
 TopicKey key_of(const Message& message);

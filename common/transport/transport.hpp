@@ -11,15 +11,17 @@
 namespace demecal {
 
 /// What a participant reads and writes: coordinators write data, tasks and control and read the rest but migrants;
-/// workers the reverse, with migrants both ways; watchers read everything and write nothing.
-enum class Role { coordinator, worker, watcher };
+/// workers the reverse, with migrants both ways; a herald writes a calibration's loop news, and progress where no
+/// worker will, and reads nothing; watchers read data, control, progress, worker status and loop news and write
+/// nothing.
+enum class Role { coordinator, worker, herald, watcher };
 
 /// One participant. publish() and receive() may be called from different threads; each of them from one at a time.
 /// Every message is delivered to all participants whose role reads it, never to the sender. Those who come late get the
-/// last value of every key of data, tasks, control, progress, checkpoints, outcomes and worker status, and the last
-/// `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and until a
-/// Control says that the run is over. A slow reader may miss values between, never the last; there is no order between
-/// topics.
+/// last value of every key of data, tasks, control, progress, checkpoints, outcomes, worker status and loop news, and
+/// the last `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and
+/// until a Control says that the run is over. A slow reader may miss values between, never the last; there is no order
+/// between topics. Watchers hold nobody up: they may miss control and worker status, and nobody waits for them.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -34,7 +36,8 @@ class Transport {
   /// A sign of life, due at least every third of kLease from each worker's own work loop. From time to time it repeats
   /// the last WorkerStatus, which others receive only if they took the worker for lost.
   virtual void assert_alive() = 0;
-  /// Whether all that was published has reached those who read it, within `patience`.
+  /// Whether all that was published has reached those who read it, within `patience`; save for data and progress, since
+  /// whoever still reads those only watches.
   virtual bool flush(std::chrono::milliseconds patience) = 0;
   /// Messages dropped so far because they could not be read.
   virtual std::uint64_t unreadable() const { return 0; }

@@ -13,6 +13,7 @@ wire::GpParameters encode(const GpParameters& p) {
   encoded.initial_max_tree_depth1(p.initial_max_tree_depth1);
   encoded.initial_max_tree_depth2(p.initial_max_tree_depth2);
   encoded.max_tree_depth(p.max_tree_depth);
+  encoded.max_tree_nodes(p.max_tree_nodes);
   encoded.min_tree_depth(p.min_tree_depth);
   encoded.invalid_attempts(p.invalid_attempts);
   encoded.crossover_rate(p.crossover_rate);
@@ -34,6 +35,7 @@ std::optional<GpParameters> decode(const wire::GpParameters& p) {
   decoded.initial_max_tree_depth1 = p.initial_max_tree_depth1();
   decoded.initial_max_tree_depth2 = p.initial_max_tree_depth2();
   decoded.max_tree_depth = p.max_tree_depth();
+  decoded.max_tree_nodes = p.max_tree_nodes();
   decoded.min_tree_depth = p.min_tree_depth();
   decoded.invalid_attempts = p.invalid_attempts();
   decoded.crossover_rate = p.crossover_rate();
@@ -83,6 +85,7 @@ wire::Archipelago encode(const Archipelago& a) {
   encoded.migration_interval(a.migration_interval);
   encoded.migrants(a.migrants);
   encoded.between_joints(a.between_joints);
+  encoded.asynchronous(a.asynchronous);
   return encoded;
 }
 
@@ -94,8 +97,8 @@ std::optional<Archipelago> decode(const wire::Archipelago& a) {
     if (joint == 0) return std::nullopt;
     joints.push_back(joint - 1);
   }
-  return Archipelago{std::move(joints),      a.demes_per_joint(), *topology,
-                     a.migration_interval(), a.migrants(),        a.between_joints()};
+  return Archipelago{std::move(joints), a.demes_per_joint(), *topology,       a.migration_interval(),
+                     a.migrants(),      a.between_joints(),  a.asynchronous()};
 }
 
 wire::TrainingTable encode(const TrainingTable& table) {

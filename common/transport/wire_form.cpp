@@ -87,6 +87,9 @@ wire::Progress encode(const Progress& message) {
   encoded.evaluations(message.evaluations);
   encoded.evaluations_per_s(message.evaluations_per_s);
   encoded.migrants_taken(message.migrants_taken);
+  encoded.diversity(message.figures.diversity);
+  encoded.migrants_sent(message.migrants_sent);
+  encoded.waited_share(message.waited_share);
   return encoded;
 }
 
@@ -98,10 +101,12 @@ std::optional<Progress> decode(const wire::Progress& message) {
                   message.worker().to_string(),
                   message.epoch(),
                   message.generation(),
-                  {message.best(), message.median(), message.best_length()},
+                  {message.best(), message.median(), message.best_length(), message.diversity()},
                   message.evaluations(),
                   message.evaluations_per_s(),
-                  message.migrants_taken()};
+                  message.migrants_taken(),
+                  message.migrants_sent(),
+                  message.waited_share()};
 }
 
 wire::Checkpoint encode(const Checkpoint& message) {
@@ -156,12 +161,14 @@ wire::WorkerStatus encode(const WorkerStatus& message) {
   encoded.version(message.version);
   encoded.leaving(message.leaving);
   encoded.only_run(message.only_run);
+  encoded.waited_share(message.waited_share);
   return encoded;
 }
 
 std::optional<WorkerStatus> decode(const wire::WorkerStatus& message) {
-  return WorkerStatus{message.worker().to_string(),  message.host().to_string(), message.process(), message.slots(),
-                      message.version().to_string(), message.leaving(),          message.only_run()};
+  return WorkerStatus{
+      message.worker().to_string(),  message.host().to_string(), message.process(),  message.slots(),
+      message.version().to_string(), message.leaving(),          message.only_run(), message.waited_share()};
 }
 
 wire::Control encode(const Control& message) {

@@ -17,6 +17,7 @@ wire::Checkpoint encode(const Checkpoint& message);
 wire::Outcome encode(const Outcome& message);
 wire::WorkerStatus encode(const WorkerStatus& message);
 wire::Control encode(const Control& message);
+wire::LoopNews encode(const LoopNews& message);
 
 /// The message; nothing where a code is unknown, a number below its first or a count disagrees with another. Whether
 /// the message makes sense in its run is not asked here, but by protocol/faults.hpp.
@@ -28,6 +29,7 @@ std::optional<Checkpoint> decode(const wire::Checkpoint& message);
 std::optional<Outcome> decode(const wire::Outcome& message);
 std::optional<WorkerStatus> decode(const wire::WorkerStatus& message);
 std::optional<Control> decode(const wire::Control& message);
+std::optional<LoopNews> decode(const wire::LoopNews& message);
 
 /// Formulas: codes of primitives in prefix order, with variables and constants in order of occurrence.
 wire::Formula encode(const Tree& tree);

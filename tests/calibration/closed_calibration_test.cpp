@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidth_rad = 6e-4;
 
 /// No evolution: what the islands would find is what the test gives them.
-std::vector<JointCandidates> find_nothing(const std::vector<JointTraining>& training) {
+std::vector<JointCandidates> find_nothing(const std::vector<JointTraining>& training, Sought = {}) {
   std::vector<JointCandidates> candidates;
   for (const JointTraining& joint : training) candidates.push_back({joint, {}});
   return candidates;
@@ -70,7 +70,7 @@ TEST(ClosedCalibration, LeavesAnArmThatLacksNothingAsItIs) {
 TEST(ClosedCalibration, EvolvesAnewBesideTheEffects) {
   const DataSet data = lacking_arm(kWidth_rad, 3);
   int evolutions = 0;
-  const Evolve evolve = [&](const std::vector<JointTraining>& training) {
+  const Evolve evolve = [&](const std::vector<JointTraining>& training, Sought) {
     ++evolutions;
     std::vector<JointCandidates> candidates = find_nothing(training);
     for (JointCandidates& joint : candidates) {
@@ -90,8 +90,8 @@ TEST(ClosedCalibration, EvolvesAnewBesideTheEffects) {
 
 TEST(ClosedCalibration, KeepsTheLoopsModelWhereEvolutionIsCutOff) {
   const DataSet data = lacking_arm(kWidth_rad, 4);
-  const ClosedCalibration closed =
-      closed_for(data, looping_job(), [](const auto&) { return std::optional<std::vector<JointCandidates>>{}; });
+  const ClosedCalibration closed = closed_for(
+      data, looping_job(), [](const auto&, Sought) { return std::optional<std::vector<JointCandidates>>{}; });
   EXPECT_NE(found_backlash(closed.calibration.robot), nullptr);
 }
 
@@ -103,7 +103,7 @@ TEST(ClosedCalibration, StopsWhenToldToAndKeepsWhatItHas) {
   int told = 0, evolutions = 0;
   const ClosedCalibration closed = close_calibration(
       data, job, preparation, first,
-      [&](const auto& training) {
+      [&](const auto& training, Sought) {
         ++evolutions;
         return find_nothing(training);
       },

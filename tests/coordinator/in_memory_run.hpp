@@ -47,7 +47,9 @@ inline CalibrationData small_run(std::uint64_t seed, Topology topology = Topolog
 class WorkerThread {
  public:
   WorkerThread(const std::shared_ptr<Exchange>& exchange, const std::string& name, std::uint32_t slots = 1)
-      : transport_(join(exchange, Role::worker, name)), thread_([this, name, slots] {
+      : WorkerThread(join(exchange, Role::worker, name), name, slots) {}
+  WorkerThread(std::unique_ptr<Transport> transport, const std::string& name, std::uint32_t slots)
+      : transport_(std::move(transport)), thread_([this, name, slots] {
           Worker(*transport_, {.name = name, .host = "here", .process = 1, .slots = slots, .only_run = 0}).serve(stop_);
         }) {}
   ~WorkerThread() { stop(); }
@@ -78,7 +80,7 @@ inline RunResult run_in_memory(const CalibrationData& data, int workers, std::ui
   const auto transport = join(exchange, Role::coordinator, "coordinator");
   RunObserver silent;
   const std::atomic<bool> interrupt{false};
-  return EvolutionRun(*transport, data, silent).run(interrupt, std::chrono::seconds(30));
+  return EvolutionRun(*transport, data, silent).run(interrupt, {});
 }
 
 /// Whether two runs found the same formulas, to the bit.

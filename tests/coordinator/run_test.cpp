@@ -68,7 +68,7 @@ TEST(EvolutionRun, IsTheSameWhenAWorkerLeavesAndAnotherComes) {
     });
     const auto transport = join(exchange, Role::coordinator, "coordinator");
     const std::atomic<bool> interrupt{false};
-    const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, std::chrono::seconds(30));
+    const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, {});
     EXPECT_EQ(result.end, RunEnd::finished);
     EXPECT_TRUE(same_fronts(undisturbed, result)) << "after " << epochs << " epochs";
   }
@@ -90,7 +90,7 @@ TEST(EvolutionRun, WorkersThatComeLateAreGivenIslands) {
     std::function<void()> come_;
   } observer([&] { late = std::make_unique<WorkerThread>(exchange, "late"); });
   const std::atomic<bool> interrupt{false};
-  const RunResult result = EvolutionRun(*transport, data, observer).run(interrupt, std::chrono::seconds(30));
+  const RunResult result = EvolutionRun(*transport, data, observer).run(interrupt, {});
   EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
 }
 
@@ -100,7 +100,7 @@ TEST(EvolutionRun, EndsWithoutWorkersAfterItsPatience) {
   RunObserver silent;
   const std::atomic<bool> interrupt{false};
   const RunResult result =
-      EvolutionRun(*transport, small_run(8), silent).run(interrupt, std::chrono::milliseconds(200));
+      EvolutionRun(*transport, small_run(8), silent).run(interrupt, {.worker = std::chrono::milliseconds(200)});
   EXPECT_EQ(result.end, RunEnd::no_worker);
 }
 
@@ -112,11 +112,34 @@ TEST(EvolutionRun, AnInterruptKeepsWhatWasReached) {
   const auto transport = join(exchange, Role::coordinator, "coordinator");
   std::atomic<bool> interrupt{false};
   AfterSomeEpochs observer(20, [&] { interrupt = true; });
-  const RunResult result = EvolutionRun(*transport, data, observer).run(interrupt, std::chrono::seconds(30));
+  const RunResult result = EvolutionRun(*transport, data, observer).run(interrupt, {});
   EXPECT_EQ(result.end, RunEnd::interrupted);
   EXPECT_TRUE(
       std::any_of(result.fronts.begin(), result.fronts.end(), [](const auto& front) { return !front.second.empty(); }));
   EXPECT_GE(result.history.size(), 20U);
+}
+
+TEST(EvolutionRun, EndsWhereLastCheckpointsCameButTheirWorkersDiedBeforeTheOutcomes) {
+  const CalibrationData data = small_run(11);
+  RunState known(data);
+  class Checkpoints : public RunObserver {
+   public:
+    explicit Checkpoints(RunState& state) : state_(state) {}
+    void on_checkpoint(const Checkpoint& checkpoint) override { state_.take(checkpoint); }
+
+   private:
+    RunState& state_;
+  } observer(known);
+  const auto exchange = make_exchange();
+  WorkerThread worker(exchange, "worker");
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  const std::atomic<bool> interrupt{false};
+  const RunResult first = EvolutionRun(*transport, data, observer).run(interrupt, {});
+  known.rename(data.run + 1);
+  RunObserver silent;
+  const RunResult second = EvolutionRun(*transport, known, silent).run(interrupt, {});
+  EXPECT_TRUE(same_fronts(first, second));
+  EXPECT_EQ(first.evaluations, second.evaluations);
 }
 
 TEST(EvolutionRun, MalformedMessagesOfOthersChangeNothing) {
@@ -137,7 +160,7 @@ TEST(EvolutionRun, MalformedMessagesOfOthersChangeNothing) {
     stranger->publish(Migrants{data.run + 1, {0, 1}, 1, {}});
   });
   const std::atomic<bool> interrupt{false};
-  const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, std::chrono::seconds(30));
+  const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, {});
   EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
 }
 

@@ -10,6 +10,7 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/formula_library.hpp"
+#include "diagnosis/permutation.hpp"
 #include "diagnosis/rivals.hpp"
 #include "measured_arm.hpp"
 
@@ -190,10 +191,11 @@ TEST(FormulaLibrary, HasEachFormulaOnceOfMovingJointsAndKnownCircumstances) {
   for (const Effect& effect : library) {
     const std::string text = to_text(effect.formula, names);
     EXPECT_THAT(text, Not(::testing::HasSubstr("q6")));
-    all.insert(std::to_string(effect.joint) + ": " + text);
+    all.insert(std::to_string(effect.joint) + ": " + effect.form + text);
   }
   EXPECT_EQ(all.size(), library.size());
   EXPECT_THAT(all, Contains("2: " + to_text(parse("SIN(q2+2*q3)", names), names)));
+  EXPECT_THAT(all, Contains("2: wave" + to_text(parse("q2+2*q3", names), names)));
   EXPECT_THAT(all, Contains("0: " + to_text(parse("s*tau", names), names)));
   evidence.approach = evidence.temperature = evidence.masses = false;
   for (const Effect& effect : formula_library(arm.data.robot, evidence)) {
@@ -201,6 +203,51 @@ TEST(FormulaLibrary, HasEachFormulaOnceOfMovingJointsAndKnownCircumstances) {
       EXPECT_LT(node.variable, 6);
     }
   }
+}
+
+TEST(Rivals, AFormulaIsNoRivalOfItselfWithAPhase) {
+  RandomStream stream{88, 9};
+  const KnownArm arm = measured(stream, 40);
+  ResidualField field = field_of(arm, {.registration = true, .joint_offset = true});
+  const VariableNames names = symbolic_variables(arm.data.robot.chain);
+  const auto symbolic = [&](const char* form, const char* text) {
+    Effect effect{.kind = "symbolic", .joint = 2, .form = form};
+    effect.formula = parse(text, names);
+    return effect;
+  };
+  const std::vector<Effect> effects{symbolic("", "SIN(q2-q4)"), symbolic("wave", "q2-q4"),
+                                    symbolic("", "SIN(q2-q4)*1")};
+  const EffectColumns columns = columns_of(effects, arm.data.robot, field);
+  renew_noise(field, stream);
+  field.residual += 3e-4 * columns.dense(field, 0).col(0);
+  const Projection model = projection_of(field);
+  const Scan scan(columns, {0, 0, 0}, field, model);
+  const std::vector<Candidate> candidates{{.effect = effects[0]}, {.effect = effects[1]}, {.effect = effects[2]}};
+  const Projection::Trial trial = model.trial(columns.dense(field, 0), columns.dense(field, 0));
+  const std::vector<Rival> rivals = rivals_of(0, trial, candidates, scan.scores(), scan, columns, field);
+  ASSERT_EQ(rivals.size(), 1u);
+  EXPECT_TRUE(rivals[0].effect.same_law_as(effects[2]));
+  const Projection::Trial wave = model.trial(columns.dense(field, 1), columns.dense(field, 1));
+  EXPECT_FALSE(rivals_of(1, wave, candidates, scan.scores(), scan, columns, field).empty());
+}
+
+TEST(Permuted, DealsWholePosesPartsOutAnew) {
+  RandomStream stream{88, 10};
+  const KnownArm arm = measured(stream, 30);
+  const ResidualField field = field_of(arm, {});
+  const Eigen::VectorXd rows = Eigen::VectorXd::LinSpaced(field.rows(), 0.0, 1.0);
+  RandomStream random{5};
+  const Eigen::VectorXd dealt = permuted(field, rows, random);
+  std::multiset<double> before(rows.begin(), rows.end()), after(dealt.begin(), dealt.end());
+  EXPECT_EQ(before, after);
+  int moved = 0;
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    const auto part = dealt.segment(first, count);
+    moved += part[0] != rows[first];
+    for (Eigen::Index i = 1; i < count; ++i) EXPECT_NEAR(part[i] - part[i - 1], rows[1] - rows[0], 1e-12);
+  }
+  EXPECT_GT(moved, 20);
 }
 
 TEST(Rivals, AreCandidatesThatExplainTheSame) {

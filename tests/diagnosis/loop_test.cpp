@@ -22,13 +22,6 @@ LoopResult run_on(const Scenario& scenario, const DataSet& data) {
   return result;
 }
 
-/// The one effect that was added; the kind of all where there are others.
-Effect only(const LoopResult& result) {
-  const std::vector<Effect> effects = added(result.outcome);
-  EXPECT_EQ(effects.size(), 1u);
-  return effects.empty() ? Effect{} : effects.front();
-}
-
 TEST(ClosedLoop, NamesBacklash) {
   Scenario scenario = perfect_scenario(parallel_arm(), 1);
   scenario.backlash = {{1, 5e-4}};
@@ -102,35 +95,6 @@ TEST(ClosedLoop, NamesTwoEffectsAtOnce) {
   };
   EXPECT_TRUE(std::ranges::any_of(effects, is("backlash", 2)));
   EXPECT_TRUE(std::ranges::any_of(effects, is("thermal_offset", 1)));
-}
-
-/// What the model's effects add to a joint, about its axis.
-double motion_of(const CorrectedRobot& model, const Visit& visit, Eigen::Index joint) {
-  Stop stop(visit.commanded);
-  stop.approach = visit.approach;
-  return (model.actual_joints(stop) - model.corrected_joints(stop.joints))[joint];
-}
-
-TEST(ClosedLoop, RecoversAFormulaThatIsInNoCatalogue) {
-  Scenario scenario = perfect_scenario(parallel_arm(), 6);
-  Tree formula = parse("0.0004*SIN(q2+2*q3)", symbolic_variables(6));
-  scenario.symbolic = {{.joint = 2, .formula = formula}};
-  const DataSet data = simulate(scenario);
-  LoopOptions options = quick();
-  options.formulas = true;
-  const LoopResult result = run_loop(data, kZeroed, options);
-  EXPECT_LT(over_floor(result.model.robot, data), 1.15);
-  EXPECT_GT(over_floor(result.before.robot, data), 1.5);
-  RandomStream stream{91, 1};
-  Eigen::VectorXd found(300), truth(300);
-  for (Eigen::Index i = 0; i < 300; ++i) {
-    Visit visit{.commanded = 0.8 * random_joints(stream, scenario.robot.chain), .approach = ApproachSigns::Zero(6)};
-    found[i] = motion_of(result.model.robot, visit, 2);
-    truth[i] = 4e-4 * std::sin(visit.commanded[1] + 2 * visit.commanded[2]);
-  }
-  found.array() -= found.mean();
-  truth.array() -= truth.mean();
-  EXPECT_GT(found.dot(truth) / (found.norm() * truth.norm()), 0.98);
 }
 
 TEST(ClosedLoop, KeepsSmoothJointErrorsAndBacklashApart) {
@@ -250,22 +214,6 @@ TEST(ClosedLoop, StopsWhereADecoyWins) {
   EXPECT_EQ(result.outcome.rounds.back().verdict, Verdict::rejected);
   options.decoys = false;
   EXPECT_NE(run_loop(data, kZeroed, options).outcome.stopped, StopReason::decoy);
-}
-
-TEST(ClosedLoop, TriesFormulasThatEvolutionFound) {
-  Scenario scenario = perfect_scenario(parallel_arm(), 27);
-  const Tree formula = parse("q1*q4*q2", symbolic_variables(6));
-  Tree truth = apply(Primitive::multiply, constant_tree(3e-4), formula);
-  scenario.symbolic = {{.joint = 1, .formula = truth}};
-  const DataSet data = simulate(scenario);
-  LoopOptions options = quick();
-  options.evolved = {{.effect = {.kind = "symbolic", .joint = 1}}, {.effect = {.kind = "symbolic", .joint = 1}}};
-  options.evolved[0].effect.formula = formula;
-  options.evolved[1].effect.formula = parse("q1*q5", symbolic_variables(6));
-  const Effect found = only(run_loop(data, kZeroed, options));
-  EXPECT_EQ(found.kind, "symbolic");
-  EXPECT_NEAR(found.value(0), 3e-4, 2e-5);
-  EXPECT_THAT(found.ranges, Not(IsEmpty()));
 }
 
 }  // namespace

@@ -65,4 +65,11 @@ inline double over_floor(const CorrectedRobot& model, const DataSet& data) {
   return std::sqrt(squares / (3.0 * static_cast<double>(poses.size()))) / kNoise_m;
 }
 
+/// The one effect that was added; the kind of all where there are others.
+inline Effect only(const LoopResult& result) {
+  const std::vector<Effect> effects = added(result.outcome);
+  EXPECT_EQ(effects.size(), 1u);
+  return effects.empty() ? Effect{} : effects.front();
+}
+
 }  // namespace demecal

@@ -1,7 +1,9 @@
 // Smooth corrections of joints: derivatives, which of their terms are believed, and what they recover.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <Eigen/QR>
+#include <numeric>
 
 #include <cmath>
 
@@ -101,6 +103,8 @@ TEST(SmoothCorrections, ColumnsAreWhatTheirCoefficientsChange) {
 TEST(Relevance, KeepsTermsThatAreThereAndRemovesThoseThatAreNot) {
   RandomStream stream{85, 4};
   constexpr Eigen::Index kRows = 150, kFixed = 5, kTerms = 20;
+  std::vector<int> each_its_own(kTerms);
+  std::iota(each_its_own.begin(), each_its_own.end(), 0);
   for (int trial = 0; trial < 5; ++trial) {
     RowMatrix rows(kRows, kFixed + kTerms + 1);
     rows.leftCols(kFixed + kTerms) = 1e4 * random_matrix(stream, kRows, kFixed + kTerms);
@@ -113,7 +117,7 @@ TEST(Relevance, KeepsTermsThatAreThereAndRemovesThoseThatAreNot) {
                                        .matrixQR()
                                        .topRows(kFixed + kTerms + 1)
                                        .triangularView<Eigen::Upper>();
-    const Eigen::VectorXd precision = relevance(factor, kTerms, kRows);
+    const Eigen::VectorXd precision = relevance(factor, each_its_own, kRows);
     Eigen::MatrixXd gram = (rows.transpose() * rows).topLeftCorner(kFixed + kTerms, kFixed + kTerms);
     gram.diagonal().tail(kTerms) += precision.cwiseAbs2();
     const Eigen::VectorXd found = gram.ldlt().solve(rows.leftCols(kFixed + kTerms).transpose() * rows.rightCols(1));
@@ -128,6 +132,32 @@ TEST(Relevance, KeepsTermsThatAreThereAndRemovesThoseThatAreNot) {
     }
     EXPECT_GE(removed, 10);
   }
+}
+
+TEST(Relevance, BelievesTermsOfAFamilyToBeOfLikeSize) {
+  RandomStream stream{85, 6};
+  constexpr Eigen::Index kRows = 120, kTerms = 12;
+  constexpr double kUsual = 2e-5;  // twice what the rows can tell
+  std::vector<int> alike(kTerms, 0), each_its_own(kTerms);
+  std::iota(each_its_own.begin(), each_its_own.end(), 0);
+  double error_alike = 0.0, error_alone = 0.0;
+  for (int trial = 0; trial < 20; ++trial) {
+    RowMatrix rows(kRows, kTerms + 1);
+    rows.leftCols(kTerms) = 1e4 * random_matrix(stream, kRows, kTerms);
+    const Eigen::VectorXd truth = kUsual * random_matrix(stream, kTerms, 1);
+    rows.rightCols(1) = rows.leftCols(kTerms) * truth + random_matrix(stream, kRows, 1);
+    const Eigen::MatrixXd factor =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(kTerms + 1).triangularView<Eigen::Upper>();
+    const auto error = [&](const std::vector<int>& families) {
+      const Eigen::VectorXd precision = relevance(factor, families, kRows);
+      Eigen::MatrixXd gram = rows.leftCols(kTerms).transpose() * rows.leftCols(kTerms);
+      gram.diagonal() += precision.cwiseAbs2();
+      return (gram.ldlt().solve(rows.leftCols(kTerms).transpose() * rows.rightCols(1)) - truth).squaredNorm();
+    };
+    error_alike += error(alike);
+    error_alone += error(each_its_own);
+  }
+  EXPECT_LT(error_alike, 0.8 * error_alone);
 }
 
 TEST(SmoothCorrections, RecoverSmoothErrorsAtAnglesThatWereNotMeasured) {

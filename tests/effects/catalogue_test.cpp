@@ -30,10 +30,13 @@ std::vector<Effect> all_effects(const Robot& robot) {
     }
   }
   for (const char* formula : {"SIN(q2 + q5)", "tau * q1", "s * 2", "T * T"}) {
-    effects.push_back({.kind = "symbolic",
-                       .joint = 1,
-                       .settings = {{"reference_celsius", 20}},
-                       .formula = parse(formula, symbolic_variables(robot.chain))});
+    for (const char* form : {"formula", "wave"}) {
+      effects.push_back({.kind = "symbolic",
+                         .joint = 1,
+                         .settings = {{"reference_celsius", 20}},
+                         .form = form,
+                         .formula = parse(formula, symbolic_variables(robot.chain))});
+    }
   }
   return effects;
 }

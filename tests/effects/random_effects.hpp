@@ -40,7 +40,7 @@ inline Evidence all_evidence(const Chain& chain, bool masses) {
   return evidence;
 }
 
-/// All that the catalogue proposes for the arm, and one effect outside it.
+/// All that the catalogue proposes for the arm, and effects outside it.
 inline std::vector<Effect> all_proposals(const Robot& robot) {
   std::vector<Effect> effects;
   for (const bool masses : {false, true}) {
@@ -53,6 +53,9 @@ inline std::vector<Effect> all_proposals(const Robot& robot) {
   }
   Effect symbolic{.kind = "symbolic", .joint = 1, .settings = {{"reference_celsius", 21.0}}};
   symbolic.formula = parse("SIN(q2+2*q3)*s+0.01*T", symbolic_variables(robot.chain));
+  effects.push_back(symbolic);
+  symbolic.form = "wave";
+  symbolic.formula = parse("q2-q3", symbolic_variables(robot.chain));
   effects.push_back(symbolic);
   return effects;
 }

@@ -11,6 +11,12 @@
 namespace demecal {
 namespace {
 
+std::vector<double> fitness_of(const Population& population) {
+  std::vector<double> fitness;
+  for (const Individual& one : population) fitness.push_back(one.fitness);
+  return fitness;
+}
+
 bool holds(const Population& population, const Tree& tree) {
   return std::any_of(population.begin(), population.end(), [&](const Individual& one) { return one.tree == tree; });
 }
@@ -108,7 +114,23 @@ TEST_F(IslandTest, ShowsFiguresOfItsPopulation) {
   std::sort(values.begin(), values.end());
   EXPECT_EQ(figures.best, values.front());
   EXPECT_EQ(figures.median, values[29]);
-  EXPECT_EQ(figures.best_length, population[fittest(population)].tree.size());
+  EXPECT_EQ(figures.best_length, population[fittest(fitness_of(population))].tree.size());
+}
+
+TEST_F(IslandTest, DiversityIsTheShareOfDifferentTrees) {
+  Island one = finished({0, 0});
+  IslandState state = one.state();
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < state.population.size(); ++i) {
+    const auto same = [&](const Individual& other) { return other.tree == state.population[i].tree; };
+    different +=
+        std::none_of(state.population.begin(), state.population.begin() + static_cast<std::ptrdiff_t>(i), same);
+  }
+  EXPECT_EQ(one.figures().diversity, static_cast<double>(different) / static_cast<double>(state.population.size()));
+  EXPECT_GT(different, 1u);
+  state.population.assign(state.population.size(), state.population.front());
+  one.restore(state);
+  EXPECT_EQ(one.figures().diversity, 1.0 / static_cast<double>(state.population.size()));
 }
 
 TEST_F(IslandTest, SendsItsBestEachOnce) {
@@ -134,7 +156,7 @@ TEST_F(IslandTest, TakesInWhatWasSentInThePlaceOfTheWorst) {
   EXPECT_EQ(host.state().migrants_taken, sent.size());
   EXPECT_EQ(host.state().evaluations, alone.state().evaluations + sent.size());
   for (const Individual& one : sent) EXPECT_TRUE(holds(host.state().population, one.tree));
-  const std::vector<std::size_t> ranked = ranking(alone.state().population);
+  const std::vector<std::size_t> ranked = ranking(fitness_of(alone.state().population));
   for (std::size_t rank = 0; rank < ranked.size(); ++rank) {
     const std::size_t i = ranked[rank];
     EXPECT_EQ(alone.state().population[i] == host.state().population[i], rank + sent.size() < ranked.size());
@@ -169,6 +191,18 @@ TEST_F(IslandTest, LeavesOutImmigrantsThatDoNotFit) {
   Island host = island({0, 0});
   host.run_epoch({{deep, 0.0}, {foreign, 0.0}, {broken, 0.0}, {{}, 0.0}});
   EXPECT_EQ(host.state().migrants_taken, 0u);
+}
+
+TEST_F(IslandTest, KeepsToItsLimitOfNodes) {
+  Tree large = neutral_tree();
+  for (int i = 0; i < 5; ++i) large = apply(Primitive::add, large, large);
+  parameters.max_tree_nodes = 63;
+  Island one = island({0, 0});
+  while (!one.finished()) {
+    one.run_epoch({{large, 0.0}});
+    for (const Individual& individual : one.state().population) ASSERT_LE(individual.tree.size(), 63u);
+  }
+  EXPECT_EQ(one.state().migrants_taken, 0u);
 }
 
 TEST_F(IslandTest, NeverLosesItsBestToImmigrants) {

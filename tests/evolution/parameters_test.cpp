@@ -29,6 +29,7 @@ TEST(Parameters, AtTheEdgesOfTheRulesAreAllowed) {
   p.crossover_rate = p.terminal_crossover_rate = 0.0;
   p.mutation_rate = p.terminal_mutation_rate = p.shrink_mutation_rate = 1.0;
   p.functions = {Primitive::sine};
+  p.max_tree_nodes = 65535;
   EXPECT_FALSE(find_fault(p));
 }
 
@@ -52,6 +53,8 @@ TEST(Parameters, ThatBreakARuleAreNamedWithKeyAndValue) {
       {"initial_max_tree_depth1", "6", [](GpParameters& p) { p.initial_max_tree_depth1 = 6; }},
       {"initial_max_tree_depth2", "10", [](GpParameters& p) { p.initial_max_tree_depth2 = 10; }},
       {"max_tree_depth", "16", [](GpParameters& p) { p.max_tree_depth = 16; }},
+      {"max_tree_nodes", "62", [](GpParameters& p) { p.max_tree_nodes = 62; }},
+      {"max_tree_nodes", "-1", [](GpParameters& p) { p.max_tree_nodes = -1; }},
       {"functions", "[]", [](GpParameters& p) { p.functions.clear(); }},
       {"functions", "SIN", [](GpParameters& p) { p.functions.push_back(Primitive::sine); }},
       {"functions", "terminal", [](GpParameters& p) { p.functions.push_back(Primitive::variable); }},

@@ -8,9 +8,34 @@
 #include <tuple>
 
 #include "lessons.hpp"
+#include "prefix_variation.hpp"
 
 namespace demecal {
 namespace {
+
+/// Variation of whole trees by way of a store.
+class TreeVariation {
+ public:
+  TreeVariation(const GpParameters& parameters, int variables) : variation_(parameters, variables) {}
+
+  bool cross(RandomStream& random, const Tree& mother, const Tree& father, Tree& daughter, Tree& son) {
+    NodeId one = store_.enter(daughter), other = store_.enter(son);
+    const bool crossed = variation_.cross(random, store_, store_.enter(mother), store_.enter(father), one, other);
+    daughter = store_.tree(one);
+    son = store_.tree(other);
+    return crossed;
+  }
+  bool mutate(RandomStream& random, Tree& tree) {
+    NodeId formula = store_.enter(tree);
+    const bool mutated = variation_.mutate(random, store_, formula);
+    tree = store_.tree(formula);
+    return mutated;
+  }
+
+ private:
+  NodeStore store_;
+  Variation variation_;
+};
 
 Tree tree_within(RandomStream& random, const NodeSet& nodes, int least, int most) {
   Tree tree;
@@ -63,12 +88,12 @@ class OverDepthLimits : public testing::TestWithParam<std::pair<int, int>> {
 };
 
 TEST_P(OverDepthLimits, CrossoverGivesValidOffspringOfTheParentsNodes) {
-  Variation variation(parameters, 2);
+  TreeVariation variation(parameters, 2);
   int crossed = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     const Tree mother = tree_within(random, nodes, least(), most());
     const Tree father = tree_within(random, nodes, least(), most());
-    Tree daughter, son;
+    Tree daughter = neutral_tree(), son = neutral_tree();
     if (!variation.cross(random, mother, father, daughter, son)) continue;
     ++crossed;
     expect_within(daughter);
@@ -80,7 +105,7 @@ TEST_P(OverDepthLimits, CrossoverGivesValidOffspringOfTheParentsNodes) {
 }
 
 TEST_P(OverDepthLimits, MutationGivesValidOffspring) {
-  Variation variation(parameters, 2);
+  TreeVariation variation(parameters, 2);
   Tree tree = tree_within(random, nodes, least(), most());
   int mutated = 0;
   for (int trial = 0; trial < 6000; ++trial) {
@@ -93,17 +118,61 @@ TEST_P(OverDepthLimits, MutationGivesValidOffspring) {
   EXPECT_GT(mutated, 5500);
 }
 
+TEST_P(OverDepthLimits, OffspringAreThoseOfTheSamePointsInWholeTrees) {
+  for (const int most_nodes : {0, 40}) {
+    parameters.max_tree_nodes = most_nodes;
+    TreeVariation variation(parameters, 2);
+    const PrefixVariation plain(parameters, 2);
+    for (std::uint64_t trial = 0; trial < 600; ++trial) {
+      const Tree mother = tree_within(random, nodes, least(), most());
+      const Tree father = tree_within(random, nodes, least(), most());
+      Tree daughter = mother, son = father, plain_daughter = mother, plain_son = father;
+      RandomStream draws{67, trial}, same_draws{67, trial};
+      const bool crossed = variation.cross(draws, mother, father, daughter, son);
+      ASSERT_EQ(crossed, plain.cross(same_draws, mother, father, plain_daughter, plain_son));
+      ASSERT_TRUE(daughter == plain_daughter && son == plain_son);
+      const bool mutated = variation.mutate(draws, daughter);
+      ASSERT_EQ(mutated, plain.mutate(same_draws, plain_daughter));
+      ASSERT_TRUE(daughter == plain_daughter);
+      ASSERT_EQ(draws.index(1U << 30), same_draws.index(1U << 30));
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Depths, OverDepthLimits,
                          testing::Values(std::pair{3, 9}, std::pair{1, 4}, std::pair{2, 3}, std::pair{5, 12}));
 
+TEST(Variation, KeepsToTheLimitOfNodes) {
+  GpParameters parameters;
+  parameters.max_tree_nodes = 63;
+  TreeVariation variation(parameters, 1);
+  RandomStream random{68};
+  std::vector<Tree> trees;
+  for (int i = 0; i < 20; ++i) trees.push_back(tree_within(random, node_set(parameters, 1), 3, 5));
+  std::size_t largest = 0;
+  for (int trial = 0; trial < 6000; ++trial) {
+    Tree &mother = trees[random.index(trees.size())], &father = trees[random.index(trees.size())];
+    Tree daughter = mother, son = father;
+    variation.cross(random, mother, father, daughter, son);
+    variation.mutate(random, daughter);
+    for (const Tree* offspring : {&daughter, &son}) {
+      ASSERT_LE(offspring->size(), 63u);
+      largest = std::max(largest, offspring->size());
+    }
+    mother = daughter;
+    father = son;
+  }
+  EXPECT_GE(largest, 60u);
+}
+
 TEST(Crossover, OfTheNeutralModelGivesNothingTooShallow) {
   const GpParameters parameters;
-  Variation variation(parameters, 1);
+  TreeVariation variation(parameters, 1);
   RandomStream random{62};
   int crossed = 0;
   for (int trial = 0; trial < 500; ++trial) {
     const Tree father = tree_within(random, node_set(parameters, 1), 3, 9);
-    Tree daughter, son;
+    Tree daughter = neutral_tree(), son = neutral_tree();
     if (!variation.cross(random, neutral_tree(), father, daughter, son)) continue;
     ++crossed;
     ASSERT_GE(std::min(depth(daughter), depth(son)), 3);
@@ -112,7 +181,7 @@ TEST(Crossover, OfTheNeutralModelGivesNothingTooShallow) {
 }
 
 TEST(Crossover, OfParentsThatCannotGiveValidOffspringLeavesThemOut) {
-  Variation variation(GpParameters{}, 1);
+  TreeVariation variation(GpParameters{}, 1);
   RandomStream random{63};
   Tree daughter = constant_tree(1.0), son = constant_tree(2.0);
   EXPECT_FALSE(variation.cross(random, neutral_tree(), neutral_tree(), daughter, son));
@@ -128,11 +197,11 @@ TEST(Crossover, SwapsTerminalsAtItsRate) {
   for (const double rate : {0.0, 0.2, 1.0}) {
     GpParameters parameters;
     parameters.terminal_crossover_rate = rate;
-    Variation variation(parameters, 1);
+    TreeVariation variation(parameters, 1);
     constexpr int kTrials = 4000;
     int terminals = 0;
     for (int trial = 0; trial < kTrials; ++trial) {
-      Tree mother, father, daughter, son;
+      Tree mother, father, daughter = neutral_tree(), son = neutral_tree();
       append_full(random, hers, 5, mother);
       append_full(random, his, 4, father);
       ASSERT_TRUE(variation.cross(random, mother, father, daughter, son));
@@ -146,7 +215,7 @@ TEST(ShrinkMutation, NeverDeepensATree) {
   GpParameters parameters;
   parameters.min_tree_depth = parameters.initial_max_tree_depth1 = 1;
   parameters.shrink_mutation_rate = 1.0;
-  Variation variation(parameters, 1);
+  TreeVariation variation(parameters, 1);
   RandomStream random{65};
   int shallower = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -164,7 +233,7 @@ TEST(TerminalMutation, ReplacesOneTerminal) {
   GpParameters parameters;
   parameters.shrink_mutation_rate = 0.0;
   parameters.terminal_mutation_rate = 1.0;
-  Variation variation(parameters, 1);
+  TreeVariation variation(parameters, 1);
   RandomStream random{66};
   for (int trial = 0; trial < 2000; ++trial) {
     Tree tree = tree_within(random, node_set(parameters, 1), 3, 7);

@@ -55,6 +55,8 @@ TEST(Evaluate, ComputesThePrimitives) {
   EXPECT_EQ(value("SIGN(theta)", 0.0), 0.0);
   EXPECT_EQ(value("SIGN(theta)", 0.25), 1.0);
   EXPECT_EQ(value("SQRTp(theta)", 0.25), 0.5);
+  EXPECT_EQ(value("ABS(theta)", -0.25), 0.25);
+  EXPECT_EQ(value("ABS(theta)", 0.25), 0.25);
 }
 
 TEST(Evaluate, ProtectsQuotientAndRoot) {
@@ -84,7 +86,7 @@ TEST(ColumnEvaluator, GivesTheBitsOfEvaluateForSeveralVariables) {
   expect_rows_like_points(random, random_columns(random, 3, 33, 3.0), 300);
 }
 
-TEST(ColumnEvaluator, GivesTheBitsOfEvaluateForAnglesThatNeedTheLibrary) {
+TEST(ColumnEvaluator, GivesTheBitsOfEvaluateForAnglesTooLargeForVectors) {
   RandomStream random{3, 3};
   expect_rows_like_points(random, random_columns(random, 1, 17, 1e8), 300);
 }

@@ -1,6 +1,7 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,8 +27,12 @@ std::string scratch_file() {
   return name;
 }
 
-[[noreturn]] void become(const std::string& path, std::vector<char*>& arguments, const std::string& out,
+[[noreturn]] void become(const std::string& path, std::vector<char*>& arguments, pid_t network, const std::string& out,
                          const std::string& err) {
+  if (network != 0) {
+    const std::string space = "/proc/" + std::to_string(network) + "/ns/net";
+    if (::setns(::open(space.c_str(), O_RDONLY | O_CLOEXEC), CLONE_NEWNET) != 0) ::_exit(126);
+  }
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(::open(out.c_str(), O_WRONLY), STDOUT_FILENO);
   ::dup2(::open(err.c_str(), O_WRONLY), STDERR_FILENO);
@@ -37,16 +42,17 @@ std::string scratch_file() {
 
 }  // namespace
 
-Program::Program(const std::string& name, const std::vector<std::string>& arguments)
+Program::Program(const std::string& name, const std::vector<std::string>& arguments, pid_t network)
     : out_path_(scratch_file()), err_path_(scratch_file()) {
-  const std::string path = std::string(DEMECAL_BINARY_DIR) + "/bin/" + name;
+  const bool is_path = name.find('/') != std::string::npos;
+  const std::string path = is_path ? name : std::string(DEMECAL_BINARY_DIR) + "/bin/" + name;
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   process_ = ::fork();
-  if (process_ == 0) become(path, pointers, out_path_, err_path_);
+  if (process_ == 0) become(path, pointers, network, out_path_, err_path_);
 }
 
 Program::~Program() {
@@ -67,9 +73,20 @@ bool Program::has_ended() {
   return ended_;
 }
 
-Ended Program::wait(std::chrono::seconds patience) {
+bool Program::ends_within(std::chrono::milliseconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (!has_ended() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(kPoll);
+  return ended_;
+}
+
+std::vector<pid_t> Program::children() const {
+  const std::string process = std::to_string(process_);
+  std::ifstream list("/proc/" + process + "/task/" + process + "/children");
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+Ended Program::wait(std::chrono::seconds patience) {
+  ends_within(patience);
   Ended ended{-1, contents(out_path_), contents(err_path_)};
   if (ended_) ended.code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
   return ended;
@@ -79,11 +96,23 @@ std::string Program::err_so_far() const {
   return contents(err_path_);
 }
 
+std::string Program::out_so_far() const {
+  return contents(out_path_);
+}
+
+bool Program::wait_for_out(const std::string& text, std::chrono::seconds patience) {
+  return wait_for(out_path_, text, patience);
+}
+
 bool Program::wait_for_err(const std::string& text, std::chrono::seconds patience) {
+  return wait_for(err_path_, text, patience);
+}
+
+bool Program::wait_for(const std::string& path, const std::string& text, std::chrono::seconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < deadline) {
     const bool over = has_ended();
-    if (err_so_far().find(text) != std::string::npos) return true;
+    if (contents(path).find(text) != std::string::npos) return true;
     if (over) return false;
     std::this_thread::sleep_for(kPoll);
   }
@@ -94,8 +123,8 @@ Ended run(const std::string& name, const std::vector<std::string>& arguments) {
   return Program(name, arguments).wait();
 }
 
-std::string private_domain() {
-  return std::to_string(1 + ::getpid() % 200);
+std::string private_domain(int which) {
+  return std::to_string(1 + (::getpid() + 29 * which) % 200);
 }
 
 }  // namespace demecal

@@ -52,8 +52,8 @@ TEST(LoopTerminal, HasALineForEveryEffectAddedWithItsFigures) {
 TEST(LoopTerminal, NamesRivalsAndTheMeasurementThatWouldSplitThem) {
   const std::string text = unbroken(shown(made_up_loop(5)));
   EXPECT_THAT(text, HasSubstr("hardly told from: hysteresis, joint 2 (cosine 0.93)"));
-  EXPECT_THAT(text,
-              HasSubstr("measure next: Measure the same poses from both sides with and without a payload. (14 poses)"));
+  EXPECT_THAT(
+      text, HasSubstr("measure next: 14 poses from both sides, with and without a payload, would tell the two apart."));
   LoopOutcome many = made_up_loop(1);
   many.rounds[0].rivals.assign(7, many.rounds[0].rivals[0]);
   EXPECT_THAT(unbroken(shown(many)), HasSubstr("; 4 more"));

@@ -95,7 +95,8 @@ inline LoopOutcome made_up_loop(int harmonics) {
   Round first = made_up_round(loop, made_up_backlash(), 0.771, 0.642);
   Effect hysteresis{.kind = "hysteresis", .joint = 1, .settings = {}};
   first.rivals = {{hysteresis, 0.931, 3.2}};
-  first.further = FurtherMeasurement{"Measure the same poses from both sides with and without a payload.", 14};
+  first.further =
+      FurtherMeasurement{"14 poses from both sides, with and without a payload, would tell the two apart.", 14};
   loop.rounds.push_back(first);
   add_harmonics(loop, harmonics, random);
   Effect gain{.kind = "gain", .joint = 3, .settings = {}};

@@ -117,8 +117,12 @@ inline CalibrationReport made_up_report() {
   report.joints = made_up_joints();
   report.estimates = made_up_estimates(random);
   report.unidentified = {"joint 1 d_mm and base_z_mm cannot be told apart by these poses (1 : -1 by effect)"};
-  report.runtime = {
-      .wall_s = 754.3, .workers = 4, .islands = 24, .generations = 6000, .evaluations = 48123456, .migrations = 2304};
+  report.runtime.wall_s = 754.3;
+  report.runtime.workers = 4;
+  report.runtime.islands = 24;
+  report.runtime.generations = 6000;
+  report.runtime.evaluations = 48123456;
+  report.runtime.migrations = 2304;
   return report;
 }
 

@@ -5,8 +5,11 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <csignal>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 
 #include "errors/input_error.hpp"
@@ -44,7 +47,7 @@ TEST(Dds, MalformedSamplesAreCountedAndDropped) {
   DdsNetwork network;
   const auto worker = network.join(Role::worker, "worker");
   worker->follow_migrants(kJoint);
-  DdsParticipant stranger(local_options(), "stranger");
+  DdsParticipant stranger(local_options(), Role::worker, "stranger");
   const auto writer = stranger.make_writer(Topic::migrants, kJoint);
   const Migrants sound{1, {kJoint, 0}, 1, {{variable_tree(0), 0.5}}};
   wire::Migrants unknown_code = encode(sound), no_deme = encode(sound), sample = encode(sound);
@@ -53,6 +56,62 @@ TEST(Dds, MalformedSamplesAreCountedAndDropped) {
   for (wire::Migrants* one : {&unknown_code, &no_deme, &sample}) ASSERT_TRUE(writer->write(one));
   receive_until(*worker, [](const auto& messages) { return !messages.empty(); });
   receive_until(*worker, [&](const auto&) { return worker->unreadable() == 2; });
+}
+
+/// Hears of checkpoints, but keeps Fast DDS's thread, and with it the acknowledgment, until it is let go.
+class Dawdler final : public eprosima::fastdds::dds::DataReaderListener {
+ public:
+  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override {
+    wire::Checkpoint sample;
+    eprosima::fastdds::dds::SampleInfo info;
+    while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+      const std::lock_guard lock(mutex_);
+      if (info.valid_data) epochs_.push_back(sample.state().epoch());
+    }
+    arrived_ = true;
+    arrived_.notify_all();
+    let_go_.wait(false);
+  }
+  void wait_for_first() { arrived_.wait(false); }
+  void let_go() {
+    let_go_ = true;
+    let_go_.notify_all();
+  }
+  std::vector<std::uint32_t> epochs() {
+    const std::lock_guard lock(mutex_);
+    return epochs_;
+  }
+
+ private:
+  std::atomic<bool> arrived_{false}, let_go_{false};
+  std::mutex mutex_;
+  std::vector<std::uint32_t> epochs_;
+};
+
+/// One that does not fit into a datagram.
+Checkpoint checkpoint_of(std::uint32_t epoch) {
+  constexpr int kIndividuals = 5000;
+  Checkpoint checkpoint;
+  checkpoint.state.population.assign(kIndividuals, {variable_tree(0), 0.5});
+  checkpoint.run = 1;
+  checkpoint.state.epoch = epoch;
+  return checkpoint;
+}
+
+TEST(Dds, ALargeCheckpointIsNotReplacedBeforeItHasArrivedAndTheLastOneGetsThere) {
+  Dawdler dawdler;
+  DdsParticipant slow(local_options(), Role::coordinator, "slow");
+  const auto reader = slow.make_reader(Topic::checkpoint, 0, &dawdler);
+  DdsNetwork network;
+  const auto worker = network.join(Role::worker, "worker");
+  worker->publish(checkpoint_of(1));
+  dawdler.wait_for_first();
+  for (const std::uint32_t epoch : {2, 3, 4}) worker->publish(checkpoint_of(epoch));
+  dawdler.let_go();
+  const auto deadline = std::chrono::steady_clock::now() + kDeadline;
+  while (dawdler.epochs().size() < 2 && std::chrono::steady_clock::now() < deadline)
+    worker->receive(std::chrono::milliseconds{10});
+  EXPECT_EQ(dawdler.epochs(), (std::vector<std::uint32_t>{1, 4}));
 }
 
 TEST(Dds, AddressesThatAreNoneAreTheUsersError) {

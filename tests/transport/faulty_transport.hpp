@@ -19,6 +19,8 @@ struct Faults {
   std::function<bool(const Message&)> may_drop = [](const Message& message) {
     return std::holds_alternative<Progress>(message) || std::holds_alternative<Checkpoint>(message);
   };
+  /// Which messages may come again or late: all by default.
+  std::function<bool(const Message&)> may_stray = [](const Message&) { return true; };
 };
 
 /// Spoils what is received; what is published goes out as it is. The same seed spoils the same sequence alike.
@@ -40,6 +42,7 @@ class FaultyTransport final : public Transport {
     auto message = sound_->receive(held_.empty() ? patience : std::chrono::milliseconds{0});
     if (!message) return held_.empty() ? std::nullopt : release();
     if (faults_.may_drop(*message) && random_.chance(faults_.drop)) return receive(patience);
+    if (!faults_.may_stray(*message)) return message;
     if (random_.chance(faults_.duplicate)) held_.push_back(*message);
     if (!random_.chance(faults_.delay)) return message;
     held_.push_back(std::move(*message));

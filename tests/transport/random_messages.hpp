@@ -60,12 +60,24 @@ class RandomMessages {
 
   IslandTask task() { return {number(), island(), number(), text(), state(), recent()}; }
   Progress progress() {
-    return {number(), island(),       text(),  number(), number(), {random_.real(), random_.real(), number()},
-            number(), random_.real(), number()};
+    return {number(), island(),       text(),
+            number(), number(),       {random_.real(), random_.real(), number(), random_.real()},
+            number(), random_.real(), number(),
+            number(), random_.real()};
   }
   Checkpoint checkpoint() { return {number(), number(), island(), state(), recent()}; }
   Outcome outcome() { return {number(), number(), island(), text(), number(), number(), number(), population()}; }
-  WorkerStatus status() { return {text(), text(), number(), number(), text(), random_.chance(0.5), number()}; }
+  WorkerStatus status() {
+    return {text(), text(), number(), number(), text(), random_.chance(0.5), number(), random_.real()};
+  }
+  LoopNews news() {
+    using enum LoopNews::Stage;
+    using enum LoopNews::Verdict;
+    const LoopNews::Stage stages[]{preparing, evolving, closing, finished, interrupted, failed};
+    const LoopNews::Verdict verdicts[]{added, rejected, none};
+    return {number(), number(), number(), stages[random_.index(6)], text(),        text(), verdicts[random_.index(3)],
+            text(),   number(), text(),   random_.real(),           random_.real()};
+  }
   /// Of a run that goes on.
   Control control() { return {number(), Control::State::running, text()}; }
 
@@ -80,7 +92,7 @@ class RandomMessages {
   int count() { return static_cast<int>(number()); }
 
   GpParameters parameters() {
-    GpParameters p{count(), count(), count(), count(), count(), count(), count(), count(),
+    GpParameters p{count(), count(), count(), count(), count(), count(), count(), count(), count(),
                    real(),  real(),  real(),  real(),  real(),  {},      real(),  real()};
     p.functions.assign(random_.index(8), Primitive::cosine);
     return p;

@@ -3,23 +3,42 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "random_messages.hpp"
 
 namespace demecal {
 namespace {
 
+constexpr Role kRoles[]{Role::coordinator, Role::worker, Role::herald, Role::watcher};
+
 TEST(Topics, EveryTopicIsWrittenByOneRoleAndReadByAnother) {
   for (const Topic topic : kTopics) {
-    EXPECT_NE(writes(Role::coordinator, topic), writes(Role::worker, topic));
-    EXPECT_TRUE(reads(Role::coordinator, topic) || reads(Role::worker, topic));
+    if (topic == Topic::progress) continue;
+    EXPECT_EQ(std::ranges::count_if(kRoles, [&](Role role) { return writes(role, topic); }), 1);
+    EXPECT_TRUE(std::ranges::any_of(kRoles, [&](Role role) { return reads(role, topic); }));
   }
 }
 
-TEST(Topics, WatchersReadAllAndWriteNothing) {
+TEST(Topics, ProgressIsWrittenByHeraldsToo) {
+  EXPECT_TRUE(writes(Role::worker, Topic::progress));
+  EXPECT_TRUE(writes(Role::herald, Topic::progress));
+}
+
+TEST(Topics, HeraldsReadNothingAndWatchersWriteNothing) {
   for (const Topic topic : kTopics) {
-    EXPECT_TRUE(reads(Role::watcher, topic));
+    EXPECT_FALSE(reads(Role::herald, topic));
     EXPECT_FALSE(writes(Role::watcher, topic));
   }
+}
+
+TEST(Topics, NobodyWaitsForAWatcher) {
+  for (const Topic topic : kTopics) {
+    const bool acknowledges = reads(Role::watcher, topic) && reads_reliably(Role::watcher, topic);
+    EXPECT_FALSE(acknowledges && is_awaited(topic));
+    for (const Role role : {Role::coordinator, Role::worker}) EXPECT_TRUE(reads_reliably(role, topic));
+  }
+  EXPECT_FALSE(reads(Role::watcher, Topic::checkpoint));
 }
 
 TEST(Topics, OnlyMigrantsAreReadByTheRoleThatWritesThem) {
@@ -31,8 +50,9 @@ TEST(Topics, OnlyMigrantsAreReadByTheRoleThatWritesThem) {
 
 TEST(Topics, AnEmptyMessageHasTheKeyItWasMadeFor) {
   RandomMessages random(29);
-  const std::vector<Message> messages{random.data(),       random.task(),    random.migrants(), random.progress(),
-                                      random.checkpoint(), random.outcome(), random.status(),   random.control()};
+  const std::vector<Message> messages{random.data(),     random.task(),       random.migrants(),
+                                      random.progress(), random.checkpoint(), random.outcome(),
+                                      random.status(),   random.control(),    random.news()};
   for (const Message& message : messages) EXPECT_EQ(key_of(empty_message(key_of(message))), key_of(message));
 }
 
@@ -56,6 +76,7 @@ TEST(TopicsDeathTest, WorkersCannotSpeakForOthers) {
 
 TEST(TopicsDeathTest, LossesAreNotPublished) {
   EXPECT_DEATH(key_of(WorkerLost{"one"}), "never sent");
+  EXPECT_DEATH(key_of(CalibrationLost{1}), "never sent");
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ TEST(WireForm, EveryMessageRoundTrips) {
   expect_round_trips(&RandomMessages::checkpoint);
   expect_round_trips(&RandomMessages::outcome);
   expect_round_trips(&RandomMessages::status);
+  expect_round_trips(&RandomMessages::news);
   expect_round_trips(&RandomMessages::tree);
 }
 
@@ -55,7 +56,7 @@ TEST(WireForm, FormulasWithUnknownCodesOrWrongCountsAreRefused) {
   const wire::Formula sound = encode(apply(Primitive::add, variable_tree(0), constant_tree(0.5)));
   ASSERT_TRUE(decode(sound).has_value());
   wire::Formula unknown = sound;
-  unknown.primitives()[1] = 10;
+  unknown.primitives()[1] = static_cast<std::uint8_t>(kPrimitives.size());
   EXPECT_FALSE(decode(unknown).has_value());
   wire::Formula variable_missing = sound, variable_left = sound, constant_missing = sound, constant_left = sound;
   variable_missing.variables().clear();
@@ -107,10 +108,20 @@ TEST(WireForm, UnknownCodesInARunsDataAreRefused) {
   wire::CalibrationData topology = sound, function = sound, joint = sound;
   topology.archipelago().topology(static_cast<wire::Topology>(3));
   EXPECT_FALSE(decode(topology).has_value());
-  function.parameters().functions().push_back(10);
+  function.parameters().functions().push_back(static_cast<std::uint8_t>(kPrimitives.size()));
   EXPECT_FALSE(decode(function).has_value());
   joint.archipelago().joints().push_back(0);
   EXPECT_FALSE(decode(joint).has_value());
+}
+
+TEST(WireForm, AnUnknownStageOrVerdictIsRefused) {
+  const wire::LoopNews sound = encode(RandomMessages(3).news());
+  ASSERT_TRUE(decode(sound).has_value());
+  wire::LoopNews stage = sound, verdict = sound;
+  stage.stage(static_cast<wire::Stage>(6));
+  EXPECT_FALSE(decode(stage).has_value());
+  verdict.verdict(static_cast<wire::RoundVerdict>(3));
+  EXPECT_FALSE(decode(verdict).has_value());
 }
 
 TEST(WireForm, AnUnknownStateOfARunIsRefused) {

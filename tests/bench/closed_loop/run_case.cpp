@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "diagnosis/final_fit.hpp"
 #include "diagnosis/loop.hpp"
 #include "draw_truth.hpp"
 #include "fitting/fit.hpp"
@@ -32,8 +33,11 @@ RunFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::vec
   figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
   const double floor_mm = noise_floor_mm(scenario, data);
-  figures.before_over_floor = error_figures(result.before.robot, data, accept).rms_mm / floor_mm;
-  figures.after_over_floor = error_figures(result.model.robot, data, accept).rms_mm / floor_mm;
+  const DeclaredModel& declared = row_of(plan.kind).declared;
+  const DiagnosedModel before = final_fit(data, declared, result.before),
+                       after = final_fit(data, declared, result.model);
+  figures.before_over_floor = error_figures(before.robot, data, accept).rms_mm / floor_mm;
+  figures.after_over_floor = error_figures(after.robot, data, accept).rms_mm / floor_mm;
   figures.final_effects = result.model.robot.effects;
   figures.rounds = result.outcome.rounds;
   figures.score =

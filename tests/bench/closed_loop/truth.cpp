@@ -113,7 +113,7 @@ bool is_truth(const Effect& found, const Effect& truth, const Robot& robot, cons
   if (truth.kind == "gear_harmonic") return found.setting("ratio") == truth.setting("ratio");
   if (truth.kind != "symbolic") return true;
   Effect unit = found;
-  unit.values = {1.0};
+  if (unit.values.empty()) unit.values.assign(law_of(found).coefficients(found, robot).size(), 1.0);
   const Eigen::VectorXd ours = joint_motion(truth, robot, states), theirs = joint_motion(unit, robot, states);
   const Eigen::VectorXd a = ours.array() - ours.mean(), b = theirs.array() - theirs.mean();
   return std::abs(a.dot(b)) > kGoTogether * a.norm() * b.norm();

@@ -1,0 +1,33 @@
+// Whether a model with evolved formulas takes the place of one without.
+#pragma once
+
+#include <vector>
+
+#include "calibration/job.hpp"
+#include "data/data_set.hpp"
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/outcome.hpp"
+
+namespace demecal {
+
+/// The robot without formulas from outside the catalogue.
+CorrectedRobot without_formulas(const CorrectedRobot& robot);
+
+/// Whether evolution may find what the loop did not: formulas are wanted, and structure is left or a formula of the
+/// library is in the model for want of a name.
+bool asks_for_formulas(const LoopOutcome& loop, const CorrectedRobot& robot, const ClosedLoopOptions& options);
+
+/// The length of a robot's description of poses, nats: squared tool errors, their scatter free, and its effects at
+/// their prices among `candidates`. The corrections are taken to cost nothing.
+double description_nats(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses,
+                        const std::vector<Candidate>& candidates);
+
+/// Whether `robot` describes the calibration poses more shortly than `present` and its mean squared tool error on the
+/// validation poses is not beyond that of `present` by more than two standard errors (paired, pose by pose).
+bool describes_better(const CorrectedRobot& robot, const CorrectedRobot& present, const DataSet& data,
+                      const std::vector<Candidate>& candidates);
+
+/// Appends to `outcome` the rounds of a pass that added what `kept`, the model that was kept after all, does without.
+void note_unkept(const LoopOutcome& pass, const CorrectedRobot& kept, LoopOutcome& outcome);
+
+}  // namespace demecal

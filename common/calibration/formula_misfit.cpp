@@ -1,0 +1,106 @@
+#include "calibration/formula_misfit.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace demecal {
+namespace {
+
+constexpr int kTurnAboutZ = 5;
+constexpr double kNewShare = 1e-5;  ///< of a column's square: less of it beyond the model is rounding
+
+bool is_round(double value) {
+  return std::abs(2.0 * value - std::round(2.0 * value)) < 1e-12;
+}
+
+}  // namespace
+
+FormulaMisfit::FormulaMisfit(const TrainingTable& table)
+    : evaluate_(table.variables),
+      variables_(static_cast<int>(table.variables.size())),
+      poses_(table.target.size()),
+      lever_(table.target.size()),
+      left_(table.target.size()),
+      basis_(table.target.size(), 0) {
+  for (std::size_t row = 0; row < poses_; ++row) {
+    const auto at = static_cast<Eigen::Index>(row);
+    pose_of_row_.push_back(row);
+    lever_[at] = std::sqrt(table.weight[row]);
+    left_[at] = lever_[at] * table.target[row];
+  }
+  sum_up_poses();
+}
+
+FormulaMisfit::FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearised& at, int joint,
+                             Eigen::VectorXd left)
+    : evaluate_(variables),
+      variables_(static_cast<int>(variables.size())),
+      poses_(at.fitted.poses.size()),
+      lever_(at.fitted.motions.col(motion_column(joint, kTurnAboutZ))),
+      left_(std::move(left)),
+      basis_(at.projection.basis()) {
+  for (std::size_t pose = 0; pose < poses_; ++pose) {
+    pose_of_row_.insert(pose_of_row_.end(), static_cast<std::size_t>(at.fitted.rows_of_pose(pose)), pose);
+  }
+  sum_up_poses();
+}
+
+void FormulaMisfit::sum_up_poses() {
+  const auto poses = static_cast<Eigen::Index>(poses_);
+  squares_ = moments_ = Eigen::VectorXd::Zero(poses);
+  along_ = Eigen::MatrixXd::Zero(poses, basis_.cols());
+  for (Eigen::Index row = 0; row < lever_.size(); ++row) {
+    const auto pose = static_cast<Eigen::Index>(pose_of_row_[static_cast<std::size_t>(row)]);
+    squares_[pose] += lever_[row] * lever_[row];
+    moments_[pose] += lever_[row] * left_[row];
+    along_.row(pose) += lever_[row] * basis_.row(row);
+  }
+}
+
+double FormulaMisfit::nats_of(double squares) const {
+  return 0.5 * static_cast<double>(left_.size()) * std::log(std::max(squares, 1e-300));
+}
+
+Eigen::VectorXd FormulaMisfit::residual(const Tree& tree) {
+  const auto values = evaluate_(tree);
+  Eigen::VectorXd column(lever_.size());
+  for (Eigen::Index row = 0; row < column.size(); ++row) {
+    column[row] = lever_[row] * values[pose_of_row_[static_cast<std::size_t>(row)]];
+  }
+  const double whole = column.squaredNorm();
+  if (!std::isfinite(whole)) return {};
+  const Eigen::VectorXd along = basis_.transpose() * column;
+  const double square = whole - along.squaredNorm();  // with its rows among those of beliefs
+  if (!(square > kNewShare * whole)) return left_;
+  const double amplitude = column.dot(left_) / square;
+  return left_ - amplitude * (column - basis_ * along);
+}
+
+double FormulaMisfit::nats(const Tree& tree) {
+  const auto evaluated = evaluate_(tree);
+  const Eigen::Map<const Eigen::VectorXd> values(evaluated.data(), std::ssize(evaluated));
+  const double whole = values.cwiseAbs2().dot(squares_);
+  if (!std::isfinite(whole)) return std::numeric_limits<double>::infinity();
+  const double square = whole - (along_.transpose() * values).squaredNorm();
+  const double left = left_.squaredNorm();
+  if (!(square > kNewShare * whole)) return nats_of(left);
+  return nats_of(left - std::pow(values.dot(moments_), 2) / square);
+}
+
+double FormulaMisfit::gain_nats(const Tree& tree) {
+  return nats_of(left_.squaredNorm()) - nats(tree);
+}
+
+double description_nats(const Tree& tree, int variables, std::size_t poses) {
+  const double word = std::log(static_cast<double>(kPrimitives.size()) - 1.0 + variables);
+  double nats = 0.0;
+  for (const Node& node : tree) {
+    nats += word;
+    if (node.primitive == Primitive::constant && !is_round(node.value)) {
+      nats += 0.5 * std::log(static_cast<double>(std::max<std::size_t>(poses, 2)));
+    }
+  }
+  return nats;
+}
+
+}  // namespace demecal

@@ -1,0 +1,30 @@
+#include "calibration/last_fit.hpp"
+
+#include "effects/measurement.hpp"
+
+namespace demecal {
+
+DiagnosedModel with_corrections_kept(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
+                                     const CorrectedRobot& robot) {
+  DeclaredModel without_terms = declared;
+  without_terms.joint_corrections = false;
+  const DiagnosisData of{data, without_terms, poses_of(data, PoseSet::calibration), {}};
+  return diagnosed_model(of, loop_start(data, fit, robot));
+}
+
+std::optional<LoopEnds> fitted_at_last(const DataSet& data, const DeclaredModel& declared, LoopEnds ends) {
+  if (finally_fitted(data) == poses_of(data, PoseSet::calibration)) return std::nullopt;
+  for (DiagnosedModel* model : {&ends.before, &ends.after}) {
+    *model = final_fit(data, declared, std::move(*model));
+    tidy(*model);
+  }
+  return ends;
+}
+
+UnseenValidation unseen_validation(const DataSet& data, const LoopEnds& ends) {
+  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+  return {error_figures(ends.before.robot, data, validation).rms_mm,
+          error_figures(ends.after.robot, data, validation).rms_mm};
+}
+
+}  // namespace demecal

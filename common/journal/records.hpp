@@ -1,0 +1,36 @@
+// A journal's records as bytes: each with its length and checksum, so that a tail that was not written whole shows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace demecal {
+
+/// Integers of a journal: four bytes, the lowest first.
+std::string bytes_of(std::uint32_t number);
+/// The number that the first four of the bytes are; there must be as many.
+std::uint32_t number_of(std::string_view bytes);
+
+/// What a journal begins with; the number is the version of its format.
+inline constexpr std::string_view kJournalHead = "demecal journal 1\n";
+
+/// The record as it stands in a journal: the length of `content`, a checksum of length and content, the content.
+/// `content` must be shorter than 4 GiB.
+std::string record_of(std::string_view content);
+
+/// How a journal ends: as written, amid a record, or with a record whose checksum is wrong.
+enum class JournalEnd { clean, torn, corrupt };
+
+struct JournalRecords {
+  std::vector<std::string_view> contents;  ///< of the sound records, in order; views into the bytes that were read
+  std::size_t sound_bytes = 0;             ///< how much of the journal they are, its head included; 0 without a head
+  JournalEnd end = JournalEnd::clean;
+};
+
+/// The records up to the first that is torn or corrupt: nothing after it is believed. Bytes that are the beginning of a
+/// head (none among them) are a torn journal without records; other bytes that do not begin with a head a corrupt one.
+JournalRecords read_records(std::string_view journal);
+
+}  // namespace demecal

@@ -1,0 +1,23 @@
+// All that a watcher has seen as one page of text for a terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "monitor/watched.hpp"
+
+namespace demecal {
+
+struct PageOptions {
+  std::size_t columns = 100;  ///< of the terminal; fewer than 40 count as 40
+  std::size_t lines = 0;      ///< to stay within, where that can be; 0: as many as it takes
+  bool colours = false;
+  double now_s = 0.0;  ///< in the time of what was taken
+  std::string place;   ///< where one watches: "domain 3"
+};
+
+/// The page's lines, without ends, none wider than `columns`: the calibration and how long its evolution still takes,
+/// the islands, the workers, what the closed loop found, and what happened last. One sentence where nothing was seen.
+std::vector<std::string> monitor_page(const Watched& watched, const PageOptions& options);
+
+}  // namespace demecal

@@ -1,0 +1,62 @@
+#include "monitor/short_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace demecal {
+namespace {
+
+std::string repeated(const char* letter, std::size_t times) {
+  std::string text;
+  for (std::size_t i = 0; i < times; ++i) text += letter;
+  return text;
+}
+
+}  // namespace
+
+std::string short_real(double value) {
+  constexpr std::size_t kMost = 7;
+  if (std::isnan(value)) return "–";
+  for (int digits = 5; digits > 2; --digits) {
+    std::string text = fmt::format("{:#.{}g}", value, digits);
+    if (text.back() == '.') text.pop_back();
+    if (text.size() <= kMost) return text;
+  }
+  const std::string text = fmt::format("{:.2g}", value);
+  return text.size() <= kMost ? text : fmt::format("{:.0e}", value);
+}
+
+std::string short_count(double value) {
+  if (!(value >= 0.0) || std::isinf(value)) return "–";
+  if (value < 999.5) return fmt::format("{:.0f}", value);
+  constexpr const char* kSuffixes[] = {"k", "M", "G", "T"};
+  for (const char* const suffix : kSuffixes) {
+    value /= 1e3;
+    if (value < 9.995) return fmt::format("{:.2f}{}", value, suffix);
+    if (value < 99.95) return fmt::format("{:.1f}{}", value, suffix);
+    if (value < 999.5) return fmt::format("{:.0f}{}", value, suffix);
+  }
+  return "many";
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.0f}%", 100.0 * std::clamp(share, 0.0, 1.0)) : "–";
+}
+
+std::string short_time(double time_s) {
+  if (!std::isfinite(time_s)) return "–";
+  const auto s = static_cast<std::int64_t>(std::clamp(time_s, 0.0, 1e9) + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+BarParts bar_parts(double share, std::size_t columns) {
+  const double full = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * static_cast<double>(columns) : 0.0;
+  const auto letters = static_cast<std::size_t>(full + 0.5);
+  return {repeated("━", letters), repeated("─", columns - letters)};
+}
+
+}  // namespace demecal

@@ -1,0 +1,103 @@
+// What one who watches has seen so far: calibrations, their evolutions, the islands and the workers.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "protocol/messages.hpp"
+
+namespace demecal {
+
+/// Whether nothing follows this stage.
+bool is_over(LoopNews::Stage stage);
+
+/// How many evaluations a run's islands had done when.
+struct WorkMark {
+  double time_s = 0.0;
+  std::uint64_t evaluations = 0;
+};
+
+struct WatchedRun {
+  std::uint64_t order = 0;  ///< of appearance
+  double seen_s = 0.0;      ///< when it was first heard of
+  CalibrationData data;     ///< without tables; run is 0 until it has come
+  Control::State state = Control::State::running;
+  std::map<IslandKey, Progress> islands;  ///< the last figures of those that have given any
+  std::uint64_t evaluations = 0;          ///< of these together
+  std::deque<WorkMark> marks;             ///< of the last ten seconds or so, a second apart; none of what came at once
+
+  bool has_data() const { return data.run != 0; }
+  /// All generations of the island are bred.
+  bool has_finished(const Progress& island) const;
+};
+
+struct WatchedWorker {
+  enum class Presence { here, left, lost };
+  std::uint64_t order = 0;
+  WorkerStatus status;
+  Presence presence = Presence::here;
+  double gone_s = 0.0;  ///< when it left or was lost
+};
+
+struct WatchedCalibration {
+  std::uint64_t order = 0;
+  double seen_s = 0.0;
+  bool lost = false;                         ///< its coordinator is dead
+  LoopNews stage;                            ///< round 0
+  std::map<std::uint32_t, LoopNews> rounds;  ///< by number
+  std::vector<RunId> runs;                   ///< its evolutions that were seen, in order
+
+  bool is_live() const { return !lost && !is_over(stage.stage); }
+};
+
+/// Something that people are told in a sentence.
+struct Happening {
+  double time_s = 0.0;
+  std::string text;
+};
+
+/// The fold of messages into a present state; whatever it is given, it keeps no more than a few runs of believable
+/// size. Times are seconds since whenever the caller began to count, and do not fall.
+class Watched {
+ public:
+  void take(const Message& message, double now_s);
+
+  /// What deserves to be shown: the calibration that began last among those that go on, or else among all. Null where
+  /// none was seen.
+  const WatchedCalibration* calibration() const;
+  /// Its present or last evolution; without any calibration the run seen last. Null where none was seen.
+  const WatchedRun* run() const;
+  /// Calibrations beside the shown one that go on.
+  std::size_t other_calibrations() const;
+  /// Workers that are here, or that have to do with the shown run: bred an island of it, or were lost since it began.
+  /// In the order of their appearance.
+  std::vector<const WatchedWorker*> workers() const;
+  /// Null where it was never heard of.
+  const WatchedWorker* worker(const std::string& name) const;
+  /// The last few, oldest first.
+  const std::deque<Happening>& happenings() const { return happenings_; }
+  bool has_seen_anything() const { return !calibrations_.empty() || !runs_.empty() || !workers_.empty(); }
+
+ private:
+  void note(const CalibrationData& data, double now_s);
+  void note(const Progress& progress, double now_s);
+  void note(const Control& control, double now_s);
+  void note(const WorkerStatus& status, double now_s);
+  void note(const WorkerLost& lost, double now_s);
+  void note(const LoopNews& news, double now_s);
+  void note(const CalibrationLost& lost, double now_s);
+  WatchedRun& run_of(RunId run, double now_s);
+  WatchedCalibration& calibration_of(std::uint64_t calibration, double now_s);
+  void tell(double now_s, std::string text);
+
+  std::uint64_t order_ = 0;
+  std::map<RunId, WatchedRun> runs_;
+  std::map<std::uint64_t, WatchedCalibration> calibrations_;
+  std::map<std::string, WatchedWorker> workers_;
+  std::deque<Happening> happenings_;
+};
+
+}  // namespace demecal

@@ -1,0 +1,136 @@
+#include "transport/dds_writers.hpp"
+
+#include <stdexcept>
+
+#include "errors/check.hpp"
+#include "transport/dds_qos.hpp"
+#include "transport/wire_form.hpp"
+
+namespace demecal {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+
+/// What is larger travels in parts.
+constexpr std::size_t kDatagram_bytes = 60'000;
+
+/// Calls `use(wire form)` with what travels for a message that can be sent.
+template <class Use>
+void with_wire_form(const Message& message, Use use) {
+  std::visit(
+      [&](const auto& plain) {
+        if constexpr (requires { encode(plain); }) {
+          auto sample = encode(plain);
+          use(&sample);
+        }
+      },
+      message);
+}
+
+DdsWriters::Place place_of(const TopicKey& key) {
+  return {key.topic, key.topic == Topic::migrants ? key.island.joint : 0};
+}
+
+}  // namespace
+
+void DdsWriters::add(Place place, Owned<dds::DataWriter> writer) {
+  const std::lock_guard lock(mutex_);
+  writers_.emplace(place, std::move(writer));
+}
+
+dds::DataWriter* DdsWriters::at(Place place) {
+  const std::lock_guard lock(mutex_);
+  const auto writer = writers_.find(place);
+  DEMECAL_CHECK(writer != writers_.end(), "joint=" << place.second << " is not followed");
+  return writer->second.get();
+}
+
+std::vector<std::pair<Topic, dds::DataWriter*>> DdsWriters::all() {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::pair<Topic, dds::DataWriter*>> all;
+  for (const auto& [place, writer] : writers_) all.emplace_back(place.first, writer.get());
+  return all;
+}
+
+void DdsWriters::send(const Message& message) {
+  const TopicKey key = key_of(message);
+  if (!hold(key, message)) write(key, message);
+}
+
+bool DdsWriters::hold(const TopicKey& key, const Message& message) {
+  if (key.topic != Topic::checkpoint) return false;
+  std::unique_lock lock(mutex_);
+  const auto last = published_.find(key);
+  const bool in_parts = last != published_.end() && last->second;
+  lock.unlock();
+  const bool must_wait = in_parts && !have_arrived(place_of(key));
+  lock.lock();
+  held_.erase(key);
+  if (must_wait) held_.emplace(key, message);
+  return must_wait;
+}
+
+void DdsWriters::write(const TopicKey& key, const Message& message) {
+  dds::DataWriter* writer = at(place_of(key));
+  bool written = false, in_parts = false;
+  with_wire_form(message, [&](auto* sample) {
+    in_parts = sample->getCdrSerializedSize(*sample) > kDatagram_bytes;
+    written = writer->write(sample);
+  });
+  if (!written) throw std::runtime_error("DDS: cannot write to " + topic_name(key.topic, key.island.joint));
+  if (key.run == 0 || key.topic == Topic::control) return;
+  const std::lock_guard lock(mutex_);
+  published_[key] = in_parts;
+}
+
+/// Whether all this place's values have reached all who read them. To ask for one key alone would not do, since Fast
+/// DDS forgets those who came late there.
+bool DdsWriters::have_arrived(Place place) {
+  return at(place)->wait_for_acknowledgments({0, 0}) == ReturnCode_t::RETCODE_OK;
+}
+
+void DdsWriters::withdraw(RunId run) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(published_, [&](const auto& value) {
+      if (value.first.run != run) return false;
+      ended_.insert(value);
+      return true;
+    });
+    std::erase_if(held_, [run](const auto& held) { return held.first.run == run; });
+  }
+  catch_up();
+}
+
+bool DdsWriters::catch_up() {
+  std::unique_lock lock(mutex_);
+  std::map<TopicKey, Message> held = std::exchange(held_, {});
+  Values ended = std::exchange(ended_, {});
+  lock.unlock();
+  const bool ready = !held.empty() && have_arrived({Topic::checkpoint, 0});
+  if (ready)
+    for (const auto& [key, message] : held) write(key, message);
+  Values waiting = withdraw_arrived(std::move(ended));
+  lock.lock();
+  if (!ready) held_.merge(held);
+  ended_.merge(waiting);
+  return ready;
+}
+
+/// Returns those that have to wait.
+DdsWriters::Values DdsWriters::withdraw_arrived(Values ended) {
+  std::map<Place, bool> arrived;
+  for (const auto& [key, in_parts] : ended)
+    if (in_parts) arrived.try_emplace(place_of(key), have_arrived(place_of(key)));
+  std::erase_if(ended, [&](const auto& value) {
+    const auto& [key, in_parts] = value;
+    if (in_parts && !arrived.at(place_of(key))) return false;
+    dds::DataWriter* writer = at(place_of(key));
+    // Unregistering disposes as well; disposing alone would keep the memory.
+    with_wire_form(empty_message(key), [&](auto* sample) { writer->unregister_instance(sample, dds::HANDLE_NIL); });
+    return true;
+  });
+  return ended;
+}
+
+}  // namespace demecal

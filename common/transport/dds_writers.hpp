@@ -1,0 +1,50 @@
+// A participant's writers, and what they have said of runs that go on.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "transport/dds_participant.hpp"
+#include "transport/topic.hpp"
+
+namespace demecal {
+
+/// What does not fit into a datagram travels in parts, and is not replaced or withdrawn before it has arrived: a reader
+/// that has some of the parts may take them for the whole then, and abort (Fast DDS 2.9,
+/// StatefulReader::processGapMsg). Any thread may call.
+class DdsWriters {
+ public:
+  /// A topic, and the joint (from 0) where it is migrants, else 0.
+  using Place = std::pair<Topic, std::uint32_t>;
+
+  void add(Place place, Owned<eprosima::fastdds::dds::DataWriter> writer);
+  /// The writer of a place for which one was added.
+  eprosima::fastdds::dds::DataWriter* at(Place place);
+  std::vector<std::pair<Topic, eprosima::fastdds::dds::DataWriter*>> all();
+
+  /// Publishes, or has a checkpoint wait for catch_up(), in place of an older one that does. Throws std::runtime_error
+  /// where Fast DDS refuses.
+  void send(const Message& message);
+  /// Takes back what was said of this run, the Control apart: now, or in catch_up() as soon as that may be.
+  void withdraw(RunId run);
+  /// Sends and withdraws what had to wait and no longer has to; whether anything was sent. To be called now and then.
+  bool catch_up();
+
+ private:
+  using Values = std::map<TopicKey, bool>;  ///< a key's last value, and whether it travels in parts
+
+  bool hold(const TopicKey& key, const Message& message);
+  void write(const TopicKey& key, const Message& message);
+  bool have_arrived(Place place);
+  Values withdraw_arrived(Values ended);
+
+  std::mutex mutex_;
+  std::map<Place, Owned<eprosima::fastdds::dds::DataWriter>> writers_;
+  Values published_;                  ///< those of runs that go on
+  Values ended_;                      ///< those of runs that are over
+  std::map<TopicKey, Message> held_;  ///< checkpoints that wait
+};
+
+}  // namespace demecal

@@ -1,0 +1,26 @@
+#include "coordinator/dds_arguments.hpp"
+
+namespace demecal {
+
+std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
+  const auto dds = std::make_shared<DdsOptions>();
+  const auto reach_out = [dds](std::int64_t) { dds->reach = DdsOptions::Reach::network; };
+  command.add_option("--domain", dds->domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command.add_flag("--network", reach_out, "see other machines too, found by multicast");
+  command.add_option("--interface", dds->interfaces, "addresses of the network interfaces to use");
+  command.add_option("--peer", dds->peers, "addresses of other hosts, where there is no multicast");
+  command.add_option("--discovery-server", dds->discovery_server, "ADDRESS:PORT of a discovery server");
+  command
+      .add_option("--security", dds->security,
+                  "folder of certificates, from scripts/security; not with a discovery server")
+      ->excludes("--discovery-server");
+  command.parse_complete_callback([dds] {
+    if (!dds->peers.empty() || !dds->discovery_server.empty()) dds->reach = DdsOptions::Reach::network;
+  });
+  return dds;
+}
+
+}  // namespace demecal

@@ -1,0 +1,105 @@
+#include "figures.hpp"
+
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace demecal::bench {
+namespace {
+
+constexpr double kMany = 1000.0;
+
+double per_island_and_epoch(std::size_t count, const RunFigures& run) {
+  return static_cast<double>(count) / static_cast<double>(run.islands * run.epochs);
+}
+
+void write_bound(std::ostream& out, const char* name, double value, bool kept, const char* bound) {
+  fmt::print(out, "{:<52}{:>9.3f}   {:<8} {}\n", name, value, bound, kept ? "kept" : "MISSED");
+}
+
+}  // namespace
+
+SpeedUp speed_up(std::vector<RunFigures> one, std::vector<RunFigures> two) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < one.size(); ++i) ratios.push_back(one[i].wall_s / two[i].wall_s);
+  std::ranges::sort(ratios);
+  return {ratios[ratios.size() / 2], ratios.front(), ratios.back(), std::move(one), std::move(two)};
+}
+
+double middleware_share(const std::vector<RunFigures>& runs) {
+  double total_s = 0.0, breeding_s = 0.0;
+  for (const RunFigures& run : runs) {
+    total_s += run.worker_s + run.coordinator_s;
+    breeding_s += run.breeding_s;
+  }
+  return 1.0 - breeding_s / total_s;
+}
+
+double Sleeping::coordinator_s_per_checkpoint() const {
+  return run.coordinator_s / static_cast<double>(run.islands * run.epochs);
+}
+
+CostModel Distribution::model() const {
+  std::vector<EpochTime> times;
+  for (const Sleeping& one : sleeping) {
+    times.push_back({static_cast<double>(one.run.islands), one.epoch_s() - one.work_s});
+  }
+  return fit(times);
+}
+
+void write_table(std::ostream& out, const Distribution& all) {
+  const SpeedUp& pairs = all.speed_up;
+  const RunFigures& last = pairs.two.back();
+  fmt::print(out, "Table 6-1's run, {} islands, {} pairs of one and two workers\n", last.islands, pairs.one.size());
+  write_bound(out, "speed-up of two workers, median of pairs", pairs.median, pairs.median >= 1.9, ">= 1.9");
+  fmt::print(out, "{:<52}{:>9.3f} to {:.3f}\n", "  of the pairs", pairs.least, pairs.greatest);
+  const double share = middleware_share(pairs.two);
+  write_bound(out, "share of processor time that does not breed", share, share < 0.01, "< 0.01");
+  fmt::print(out, "{:<52}{:>9.1f}\n", "messages per island and epoch",
+             per_island_and_epoch(last.traffic.messages, last));
+  fmt::print(out, "{:<52}{:>9.0f}\n", "bytes per island and epoch", per_island_and_epoch(last.traffic.bytes, last));
+  fmt::print(out, "{:<52}{:>9.4f}\n", "share of a core that an idle worker takes", last.idle_worker_share);
+  if (all.sleeping.empty()) return;
+  fmt::print(out, "\nislands that sleep for {:.2f} s an epoch, and say as much as others\n", all.sleeping[0].work_s);
+  fmt::print(out, "{:>8}{:>14}{:>10}{:>26}\n", "islands", "s per epoch", "ideal", "coordinator ms/checkpoint");
+  for (const Sleeping& one : all.sleeping) {
+    fmt::print(out, "{:>8}{:>14.3f}{:>10.3f}{:>26.3f}\n", one.run.islands, one.epoch_s(), one.work_s,
+               1e3 * one.coordinator_s_per_checkpoint());
+  }
+  const CostModel model = all.model();
+  fmt::print(out, "an epoch takes {:.1f} ms + {:.3f} ms per island beyond its work; {:.0f} islands: {:.0f} ms\n",
+             1e3 * model.fixed_s, 1e3 * model.per_island_s, kMany, 1e3 * model.at(kMany));
+}
+
+void write_json(std::ostream& out, const Distribution& all) {
+  using Json = nlohmann::ordered_json;
+  const SpeedUp& pairs = all.speed_up;
+  const RunFigures& last = pairs.two.back();
+  out << Json{{"workers", 2},
+              {"speed_up", pairs.median},
+              {"middleware_cpu_share", middleware_share(pairs.two)},
+              {"messages_per_island_epoch", per_island_and_epoch(last.traffic.messages, last)},
+              {"bytes_per_island_epoch", per_island_and_epoch(last.traffic.bytes, last)},
+              {"idle_worker_cpu_share", last.idle_worker_share}}
+             .dump()
+      << '\n';
+  for (const Sleeping& one : all.sleeping) {
+    out << Json{{"islands", one.run.islands},
+                {"epoch_s", one.epoch_s()},
+                {"ideal_epoch_s", one.work_s},
+                {"coordinator_ms_per_checkpoint", 1e3 * one.coordinator_s_per_checkpoint()}}
+               .dump()
+        << '\n';
+  }
+  if (all.sleeping.size() < 2) return;
+  const CostModel model = all.model();
+  out << Json{{"islands", kMany},
+              {"fixed_ms", 1e3 * model.fixed_s},
+              {"per_island_ms", 1e3 * model.per_island_s},
+              {"extrapolated_epoch_beyond_work_s", model.at(kMany)}}
+             .dump()
+      << '\n';
+}
+
+}  // namespace demecal::bench

@@ -1,0 +1,40 @@
+// The benchmark's figures, as a table for people and as JSON lines.
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "cost_model.hpp"
+#include "measure.hpp"
+
+namespace demecal::bench {
+
+struct SpeedUp {
+  double median = 0.0;                 ///< over pairs of runs, one worker's time over two workers'
+  double least = 0.0, greatest = 0.0;  ///< of the pairs
+  std::vector<RunFigures> one, two;    ///< parallel
+};
+SpeedUp speed_up(std::vector<RunFigures> one, std::vector<RunFigures> two);
+
+/// Of all workers' processor time, what did not breed.
+double middleware_share(const std::vector<RunFigures>& runs);
+
+struct Sleeping {
+  double work_s = 0.0;  ///< that an epoch of every island sleeps
+  RunFigures run;
+
+  double epoch_s() const { return run.wall_s / static_cast<double>(run.epochs - 1); }  ///< the first breeds nothing
+  /// Of the coordinator's processor time, for what one island says in one epoch, s.
+  double coordinator_s_per_checkpoint() const;
+};
+
+struct Distribution {
+  SpeedUp speed_up;
+  std::vector<Sleeping> sleeping;
+  CostModel model() const;
+};
+
+void write_table(std::ostream& out, const Distribution& all);
+void write_json(std::ostream& out, const Distribution& all);
+
+}  // namespace demecal::bench

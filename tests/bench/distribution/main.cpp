@@ -1,0 +1,111 @@
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <thread>
+
+#include "coordinator/local_workers.hpp"
+#include "figures.hpp"
+#include "load.hpp"
+#include "worker/worker.hpp"
+
+namespace {
+
+using namespace demecal;
+using namespace demecal::bench;
+
+constexpr std::uint64_t kSeed = 20261121;
+constexpr int kSlots = 8;  ///< of a worker of sleeping islands
+
+struct Options {
+  DdsOptions dds;
+  int pairs = 7;
+  std::uint32_t epochs = 12;
+  double sleep_s = 0.5;
+  bool json = false;
+};
+
+std::atomic<bool> stop{false};
+
+/// A worker whose generations last longer than breeding takes.
+void serve(const Options& options) {
+  std::signal(SIGTERM, [](int) { stop = true; });
+  WorkerOptions worker;
+  worker.slots = kSlots;
+  worker.host = "here";
+  worker.process = static_cast<std::uint32_t>(::getpid());
+  worker.name = "sleeper-" + std::to_string(worker.process);
+  worker.after_generation = [&] { std::this_thread::sleep_for(std::chrono::duration<double>(options.sleep_s)); };
+  const auto transport = join_dds(options.dds, Role::worker, worker.name);
+  Worker(*transport, worker).serve(stop);
+}
+
+void say(const std::string& text) {
+  std::cerr << text << std::endl;
+}
+
+SpeedUp pairs_of(const Options& options) {
+  const bench::Fleet one{beside_this_program("demecal-worker"), {}, 1, 1};
+  bench::Fleet two = one;
+  two.processes = 2;
+  std::vector<RunFigures> ones, twos;
+  for (int pair = 0; pair < options.pairs; ++pair) {
+    say("pair " + std::to_string(pair + 1) + " of " + std::to_string(options.pairs));
+    ones.push_back(measure(options.dds, one, thesis_run(2, kSeed)));
+    const std::chrono::seconds idle(pair + 1 == options.pairs ? 4 : 0);
+    twos.push_back(measure(options.dds, two, thesis_run(2, kSeed), idle));
+  }
+  return speed_up(std::move(ones), std::move(twos));
+}
+
+std::vector<Sleeping> sleepers(const Options& options) {
+  std::vector<Sleeping> all;
+  for (const int islands : {8, 32, 64, 128}) {
+    say(std::to_string(islands) + " sleeping islands");
+    const bench::Fleet fleet{
+        "/proc/self/exe", {"--serve", "--sleep-s", std::to_string(options.sleep_s)}, islands / kSlots, kSlots};
+    const CalibrationData run = sleeping_run(static_cast<std::uint32_t>(islands), options.epochs, kSeed);
+    all.push_back({options.sleep_s, measure(options.dds, fleet, run)});
+  }
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "What distribution costs on this machine: two workers against one, the middleware's share, and up to 128 islands "
+      "that sleep instead of working. Speeds are ratios within a run; run it on an idle machine."};
+  Options options;
+  options.dds.domain = 97;
+  bool worker = false;
+  int slots = kSlots;
+  app.add_flag("--json", options.json, "one JSON object a line instead of the table");
+  app.add_option("--pairs", options.pairs, "pairs of runs with one and two workers")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--epochs", options.epochs, "of sleeping islands")->capture_default_str()->check(CLI::Range(2, 10000));
+  app.add_option("--sleep-s", options.sleep_s, "per epoch")->capture_default_str()->check(CLI::Range(0.001, 1.0));
+  app.add_option("--domain", options.dds.domain, "DDS domain")->capture_default_str()->check(CLI::Range(0, 230));
+  app.add_flag("--serve", worker, "be a worker of sleeping islands")->group("");
+  app.add_option("--slots", slots, "")->group("");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 10;
+  }
+  try {
+    if (worker) {
+      serve(options);
+      return 0;
+    }
+    Distribution all{pairs_of(options), {}};
+    all.sleeping = sleepers(options);
+    options.json ? write_json(std::cout, all) : write_table(std::cout, all);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 21;
+  }
+  return 0;
+}

@@ -1,0 +1,80 @@
+#include "measure.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "coordinator/evolution_run.hpp"
+#include "coordinator/local_workers.hpp"
+#include "processor_time.hpp"
+
+namespace demecal::bench {
+namespace {
+
+constexpr std::chrono::seconds kPatience{60};
+
+using Reading = std::map<std::string, std::map<pid_t, double>>;
+
+Reading read(const std::map<std::string, WorkerStatus>& workers) {
+  Reading reading;
+  for (const auto& [name, status] : workers) reading[name] = thread_seconds(static_cast<pid_t>(status.process));
+  return reading;
+}
+
+Split used(const Reading& before, const Reading& after) {
+  Split all;
+  for (const auto& [name, threads] : after) {
+    const Split one = used_between(before.at(name), threads);
+    all.total_s += one.total_s;
+    all.busiest_thread_s += one.busiest_thread_s;
+  }
+  return all;
+}
+
+LocalWorkers started(const DdsOptions& dds, const Fleet& fleet) {
+  std::vector<std::string> arguments = fleet.arguments;
+  for (const std::string& word :
+       {std::string("--domain"), std::to_string(dds.domain), std::string("--slots"), std::to_string(fleet.slots)})
+    arguments.push_back(word);
+  return {fleet.program, arguments, fleet.processes};
+}
+
+double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chrono::seconds idle) {
+  if (idle.count() == 0) return std::numeric_limits<double>::quiet_NaN();
+  const Reading before = read(workers);
+  std::this_thread::sleep_for(idle);
+  const double seconds = used(before, read(workers)).total_s;
+  return seconds / static_cast<double>(idle.count()) / static_cast<double>(workers.size());
+}
+
+}  // namespace
+
+RunFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data, std::chrono::seconds idle) {
+  const std::unique_ptr<Transport> carrier = join_dds(dds, Role::coordinator, "");
+  const LocalWorkers workers = started(dds, fleet);
+  CountedTransport transport(*carrier);
+  if (!transport.await_workers(static_cast<std::size_t>(fleet.processes), kPatience))
+    throw std::runtime_error("not all workers came within a minute");
+  RunFigures figures;
+  figures.idle_worker_share = idle_share(transport.workers(), idle);
+  figures.islands = islands(data.archipelago).size();
+  figures.epochs = Island(data.parameters, data.archipelago, data.tables.front(), {}, data.seed).epochs_total();
+  RunObserver nobody;
+  EvolutionRun run(transport, data, nobody);
+  const std::atomic<bool> interrupt{false};
+  const Reading before = read(transport.workers());
+  const double own_before = own_seconds();
+  const auto begin = std::chrono::steady_clock::now();
+  const RunResult result = run.run(interrupt, {.worker = kPatience});
+  figures.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  figures.coordinator_s = own_seconds() - own_before;
+  if (result.end != RunEnd::finished) throw std::runtime_error("the run did not finish");
+  const Split split = used(before, read(transport.workers()));
+  figures.worker_s = split.total_s;
+  figures.breeding_s = split.busiest_thread_s;
+  figures.traffic = transport.traffic();
+  return figures;
+}
+
+}  // namespace demecal::bench

@@ -1,0 +1,88 @@
+// Islands of an asynchronous run take what migrants have come, and wait for none.
+#include <gtest/gtest.h>
+
+#include "in_memory_run.hpp"
+#include "mortal_transport.hpp"
+#include "worker/inbox.hpp"
+
+namespace demecal {
+namespace {
+
+CalibrationData asynchronous_run() {
+  CalibrationData data = small_run(12, Topology::full);
+  data.archipelago.asynchronous = true;
+  data.parameters.number_generations = 1500;
+  data.archipelago.migration_interval = 1;
+  return data;
+}
+
+/// One worker stops, unnoticed, when it has told of its first epoch, and goes on when all islands but its own are
+/// finished. Where that does not come about the run is given up after a while.
+class OneStops : public RunObserver {
+ public:
+  OneStops(std::string name, MortalTransport& network, std::size_t islands)
+      : name_(std::move(name)), network_(network), left_(islands), held_(islands / 2) {}
+  void on_progress(const Progress& progress) override {
+    if (progress.worker == name_ && !stopped_) {
+      stopped_ = true;
+      network_.stop();
+    }
+  }
+  void on_outcome(const Outcome&) override {
+    if (--left_ <= held_) network_.go_on();
+  }
+  void on_tick() override { give_up = give_up || ++ticks_ > 100; }
+
+  std::atomic<bool> give_up{false};
+
+ private:
+  std::string name_;
+  MortalTransport& network_;
+  std::size_t left_, held_;
+  bool stopped_ = false;
+  int ticks_ = 0;
+};
+
+/// Two workers hold half of the islands each.
+RunEnd run_with_one_that_stops(const CalibrationData& data) {
+  const auto exchange = make_exchange();
+  auto mortal = std::make_unique<MortalTransport>(join(exchange, Role::worker, "stops"));
+  MortalTransport& network = *mortal;
+  WorkerThread stops(std::move(mortal), "stops", 1);
+  WorkerThread goes_on(exchange, "goes on");
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  OneStops observer("stops", network, islands(data.archipelago).size());
+  const RunEnd end = EvolutionRun(*transport, data, observer).run(observer.give_up, {}).end;
+  network.go_on();
+  return end;
+}
+
+TEST(AsynchronousRun, GoesOnWithoutAWorkerThatHangs) {
+  EXPECT_EQ(run_with_one_that_stops(asynchronous_run()), RunEnd::finished);
+}
+
+TEST(AsynchronousRun, TakesMigrantsIn) {
+  const RunResult result = run_in_memory(asynchronous_run(), 2);
+  EXPECT_EQ(result.end, RunEnd::finished);
+  EXPECT_GT(result.migrations, 0U);
+}
+
+TEST(Inbox, GivesTheNewestOfEachSourceOnce) {
+  const auto individual = [](double value) { return Individual{constant_tree(value), value}; };
+  Inbox inbox;
+  std::map<IslandKey, std::uint32_t> taken;
+  const std::vector<IslandKey> sources{{0, 1}, {0, 2}};
+  EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
+  inbox.put({1, {0, 1}, 1, {individual(1)}});
+  inbox.put({1, {0, 1}, 3, {individual(3)}});
+  inbox.put({1, {0, 2}, 2, {individual(2)}});
+  EXPECT_EQ(inbox.collect_new(sources, taken), (Population{individual(3), individual(2)}));
+  EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
+  inbox.put({1, {0, 1}, 2, {individual(7)}});
+  EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
+  inbox.put({1, {0, 2}, 4, {individual(4)}});
+  EXPECT_EQ(inbox.collect_new(sources, taken), Population{individual(4)});
+}
+
+}  // namespace
+}  // namespace demecal

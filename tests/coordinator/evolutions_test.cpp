@@ -1,0 +1,147 @@
+// The evolutions of a calibration come to their end whatever becomes of their runs, and are not run twice.
+#include "coordinator/evolutions.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../config/temporary_folder.hpp"
+#include "faulty_transport.hpp"
+#include "in_memory_fleet.hpp"
+
+namespace demecal {
+namespace {
+
+Job small_job() {
+  Job job;
+  job.seed = 8;
+  job.gp.population_size = 20;
+  job.gp.number_generations = 100;
+  job.islands = {.per_joint = 3, .topology = Topology::ring, .migration_interval = 1, .migrants = 2};
+  return job;
+}
+
+std::vector<JointTraining> small_training() {
+  std::vector<JointTraining> training;
+  const CalibrationData data = small_run(8);
+  for (std::size_t i = 0; i < data.tables.size(); ++i) {
+    training.push_back({.joint = data.archipelago.joints[i],
+                        .table = data.tables[i],
+                        .scale_rad = 1.0,
+                        .range_rad = {},
+                        .branch = {}});
+  }
+  return training;
+}
+
+CalibrateOptions quiet_options() {
+  CalibrateOptions options;
+  options.quiet = true;
+  return options;
+}
+
+bool same_candidates(const std::vector<JointCandidates>& a, const std::vector<JointCandidates>& b) {
+  return std::ranges::equal(a, b,
+                            [](const JointCandidates& x, const JointCandidates& y) { return x.front == y.front; });
+}
+
+/// How often a fleet was asked for, and who made it.
+struct Fleets {
+  int made = 0;
+  std::function<std::unique_ptr<Fleet>()> sound = [this]() -> std::unique_ptr<Fleet> {
+    ++made;
+    return std::make_unique<InMemoryFleet>(2);
+  };
+};
+
+std::vector<JointCandidates> evolve(const CalibrateOptions& options,
+                                    const std::function<std::unique_ptr<Fleet>()>& make_fleet) {
+  const std::atomic<bool> interrupt{false};
+  const Job job = small_job();
+  Evolutions evolutions(job, make_fleet, interrupt, options);
+  auto candidates = evolutions.run(small_training());
+  EXPECT_EQ(evolutions.end(), RunEnd::finished);
+  return candidates;
+}
+
+/// What a coordinator receives: no checkpoint of the first island, and after many epochs its worker is lost, so that it
+/// is taken up from its very beginning, long after its neighbours have forgotten theirs.
+class Forgetful : public Transport {
+ public:
+  Forgetful(std::unique_ptr<Transport> sound, std::function<void()> lose_worker)
+      : sound_(std::move(sound)), lose_worker_(std::move(lose_worker)) {}
+  void publish(const Message& message) override { sound_->publish(message); }
+  std::optional<Message> receive(std::chrono::milliseconds patience) override {
+    auto message = sound_->receive(patience);
+    if (!message) return message;
+    const auto* checkpoint = std::get_if<Checkpoint>(&*message);
+    if (checkpoint != nullptr && checkpoint->island == IslandKey{0, 0}) return std::nullopt;
+    const auto* progress = std::get_if<Progress>(&*message);
+    if (progress != nullptr && progress->epoch == 60 && lose_worker_) std::exchange(lose_worker_, nullptr)();
+    return message;
+  }
+  void wake() override { sound_->wake(); }
+  void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
+  void assert_alive() override {}
+  bool flush(std::chrono::milliseconds) override { return true; }
+
+ private:
+  std::unique_ptr<Transport> sound_;
+  std::function<void()> lose_worker_;
+};
+
+class ForgetfulFleet : public Fleet {
+ public:
+  ForgetfulFleet()
+      : transport_(join(exchange_, Role::coordinator, "coordinator"), [this] {
+          first_.reset();
+          second_.emplace(exchange_, "second");
+        }) {}
+  Transport& transport() override { return transport_; }
+  void launch(RunId) override { first_.emplace(exchange_, "first"); }
+
+ private:
+  std::shared_ptr<Exchange> exchange_ = make_exchange();
+  Forgetful transport_;
+  std::optional<WorkerThread> first_, second_;
+};
+
+TEST(Evolutions, BeginARunAnewWhoseIslandsWaitForWhatNobodyKeeps) {
+  Fleets fleets;
+  const auto calm = evolve(quiet_options(), fleets.sound);
+  CalibrateOptions options = quiet_options();
+  options.patience.news = std::chrono::milliseconds(300);
+  int made = 0;
+  const auto found = evolve(options, [&]() -> std::unique_ptr<Fleet> {
+    if (++made == 1) return std::make_unique<ForgetfulFleet>();
+    return fleets.sound();
+  });
+  EXPECT_EQ(made, 2);
+  EXPECT_TRUE(same_candidates(calm, found));
+}
+
+TEST(Evolutions, ThatTheJournalHoldsAreNotRunAgain) {
+  const TemporaryFolder folder;
+  const JobIdentity identity{.data_sha256 = "d", .job_sha256 = "j", .seed = 8, .version = "v"};
+  Fleets fleets;
+  CalibrateOptions options = quiet_options();
+  std::vector<JointCandidates> first;
+  {
+    RunJournal journal(folder.path().string(), identity, RunJournal::Start::anew);
+    options.journal = &journal;
+    first = evolve(options, fleets.sound);
+  }
+  EXPECT_EQ(fleets.made, 1);
+  RunJournal journal(folder.path().string(), identity, RunJournal::Start::resume);
+  options.journal = &journal;
+  EXPECT_TRUE(same_candidates(first, evolve(options, fleets.sound)));
+  EXPECT_EQ(fleets.made, 1);
+}
+
+TEST(Evolutions, ThatDoNotWaitEndAsWell) {
+  Fleets fleets;
+  CalibrateOptions options = quiet_options();
+  options.asynchronous = true;
+  for (const JointCandidates& joint : evolve(options, fleets.sound)) EXPECT_FALSE(joint.front.empty());
+}
+
+}  // namespace
+}  // namespace demecal
