@@ -42,7 +42,7 @@ std::string last_fit(const CalibrationReport& report) {
   const std::string figures = loop_added(report.loop) ? fmt::format("{:.3f} mm without and {:.3f} mm with the effects",
                                                                     report.unseen->before_mm, report.unseen->after_mm)
                                                       : fmt::format("{:.3f} mm", report.unseen->after_mm);
-  return wrapped("  ",
+  return wrapped(" ",
                  "The numbers come from calibration and validation poses together; while the validation poses were "
                  "unseen, their rms was " +
                      figures + ". Accept poses had no part in anything.",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -78,12 +79,6 @@ TEST_F(Workers, StartHereWithASlotPerCoreAreListedAndStop) {
   EXPECT_TRUE(processes_in(workers("status").out).empty());
 }
 
-TEST_F(Workers, StartOnePerCoreWhereAsked) {
-  const Ended started = workers("start --per-core" + kHere);
-  EXPECT_EQ(static_cast<long>(processes_in(started.out).size()), std::strtol(shell("nproc").out.c_str(), nullptr, 10))
-      << started.out << started.err;
-}
-
 TEST_F(Workers, StartOnEveryHostOfAListServeACoordinatorAndStop) {
   list_hosts("# those in the hall\nalpha --slots 3\n\nuser@beta --slots 4\n");
   const auto calibration = coordinator();
@@ -106,14 +101,15 @@ TEST_F(Workers, GoOnWithTheOtherHostsWhereOneFailsAndNameIt) {
   EXPECT_EQ(processes_in(started.out).size(), 1u) << started.out;
 }
 
-TEST_F(Workers, ADryRunPrintsCommandsAndDoesNothing) {
+TEST_F(Workers, ADryRunPrintsCommandsOnePerCoreWhereAskedAndDoesNothing) {
   list_hosts("alpha --slots 3\n");
   const Ended remote = workers("start --dry-run --network --hosts " + job_.path("hosts"));
   EXPECT_EQ(remote.code, 0) << remote.err;
   EXPECT_NE(remote.out.find("ssh -o BatchMode=yes alpha "), std::string::npos) << remote.out;
   EXPECT_TRUE(job_.text("calls").empty());
-  const Ended local = workers("start --dry-run" + kHere);
-  EXPECT_NE(local.out.find(kPrograms + "/demecal-worker"), std::string::npos) << local.out;
+  const Ended local = workers("start --dry-run --per-core" + kHere);
+  EXPECT_NE(local.out.find(kPrograms + "/demecal-worker --slots 1"), std::string::npos) << local.out;
+  EXPECT_EQ(std::count(local.out.begin(), local.out.end(), '\n'), std::strtol(shell("nproc").out.c_str(), nullptr, 10));
   EXPECT_TRUE(processes_in(workers("status").out).empty());
 }
 
