@@ -104,7 +104,7 @@ class Network : public testing::Test {
     EXPECT_EQ(calibration.model(), calm) << calibration.err();
   }
 
-  static constexpr int kGenerations = 1500;
+  static constexpr int kGenerations = 4500;
   std::optional<Hosts> hosts_;
 };
 
