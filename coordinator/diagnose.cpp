@@ -53,11 +53,10 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   tidy(found.before);
   tidy(found.model);
   LoopEnds ends{std::move(found.before), std::move(found.model)};
-  const std::optional<LoopEnds> last = fitted_at_last(data, job.declared, ends);
-  const UnseenValidation unseen = unseen_validation(data, ends);
-  if (last) ends = *last;
+  std::optional<LastFit> last = last_fit(data, job.declared, ends);
+  if (last) ends = std::move(last->ends);
   result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
-  if (last) result.calibration.unseen = unseen;
+  if (last) result.calibration.unseen = last->unseen;
   result.before = std::move(ends.before.robot);
   result.loop = std::move(found.outcome);
   tell_of(result.loop, ends.after.robot, data.robot);

@@ -125,11 +125,11 @@ void Passes::fit_at_last() {
   ends.after =
       kept_ ? *kept_ : with_corrections_kept(data_, declared, preparation_.declared, closed_.calibration.robot);
   ends.before = added_any(closed_.loop) ? before_ : ends.after;
-  const std::optional<LoopEnds> last = fitted_at_last(data_, declared, ends);
+  std::optional<LastFit> last = last_fit(data_, declared, std::move(ends));
   if (!last) return;
-  closed_.before = last->before.robot;
-  closed_.calibration = calibration_of(data_, declared, preparation_, last->after);
-  closed_.calibration.unseen = unseen_validation(data_, ends);
+  closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);
+  closed_.calibration.unseen = last->unseen;
+  closed_.before = std::move(last->ends.before.robot);
   tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
 }
 

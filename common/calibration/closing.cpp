@@ -15,7 +15,7 @@ constexpr double kSmallestCoefficient = 1e-8;  ///< rad
 /// The declared numbers of the model with their standard errors; effects bring their own.
 std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
                                             const DiagnosedModel& model) {
-  const Linearised at = linearise({data, declared, finally_fitted(data), {}}, model);
+  const Linearised at = linearise({data, declared, poses_of_last_fit(data), {}}, model);
   const ParameterSpace space(model.robot, at.ids);
   const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
   const Eigen::MatrixXd covariance =

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence.hpp"
+#include "fitting/median.hpp"
 
 namespace demecal {
 namespace {
@@ -33,12 +34,6 @@ std::vector<double> values_at(const ArmState& state, const Chain& chain, int joi
   values.push_back(state.approach(joint));
   values.push_back(state.stop.temperature_celsius.value_or(reference_celsius) - reference_celsius);
   return values;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Weights from 0 to 1 of squared levers: the variance of an angle grows as its lever's square falls.

@@ -12,19 +12,16 @@ DiagnosedModel with_corrections_kept(const DataSet& data, const DeclaredModel& d
   return diagnosed_model(of, loop_start(data, fit, robot));
 }
 
-std::optional<LoopEnds> fitted_at_last(const DataSet& data, const DeclaredModel& declared, LoopEnds ends) {
-  if (finally_fitted(data) == poses_of(data, PoseSet::calibration)) return std::nullopt;
+std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopEnds ends) {
+  if (poses_of_last_fit(data) == poses_of(data, PoseSet::calibration)) return std::nullopt;
+  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+  const UnseenValidation unseen{error_figures(ends.before.robot, data, validation).rms_mm,
+                                error_figures(ends.after.robot, data, validation).rms_mm};
   for (DiagnosedModel* model : {&ends.before, &ends.after}) {
     *model = final_fit(data, declared, std::move(*model));
     tidy(*model);
   }
-  return ends;
-}
-
-UnseenValidation unseen_validation(const DataSet& data, const LoopEnds& ends) {
-  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
-  return {error_figures(ends.before.robot, data, validation).rms_mm,
-          error_figures(ends.after.robot, data, validation).rms_mm};
+  return LastFit{std::move(ends), unseen};
 }
 
 }  // namespace demecal

@@ -15,10 +15,12 @@ struct LoopEnds {
   DiagnosedModel before, after;
 };
 
-/// Both fitted once more as final_fit() says, tidied; nothing where that would change neither.
-std::optional<LoopEnds> fitted_at_last(const DataSet& data, const DeclaredModel& declared, LoopEnds ends);
+struct LastFit {
+  LoopEnds ends;            ///< fitted once more as final_fit() says, tidied
+  UnseenValidation unseen;  ///< of the ends before that
+};
 
-/// rms of both over the validation poses, mm.
-UnseenValidation unseen_validation(const DataSet& data, const LoopEnds& ends);
+/// Nothing where it would change neither end.
+std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopEnds ends);
 
 }  // namespace demecal

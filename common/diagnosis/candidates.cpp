@@ -120,4 +120,10 @@ std::string decoy_name(const Candidate& candidate) {
   return name;
 }
 
+std::vector<double> prices_nats(const std::vector<Candidate>& candidates) {
+  std::vector<double> nats;
+  for (const Candidate& candidate : candidates) nats.push_back(candidate.name_nats);
+  return nats;
+}
+
 }  // namespace demecal

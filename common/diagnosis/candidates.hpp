@@ -47,4 +47,7 @@ std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise di
 /// "gear_harmonic of joint 2 at ratio 347.3", for people.
 std::string decoy_name(const Candidate& candidate);
 
+/// What it costs to name each of them.
+std::vector<double> prices_nats(const std::vector<Candidate>& candidates);
+
 }  // namespace demecal

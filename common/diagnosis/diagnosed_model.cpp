@@ -16,12 +16,6 @@ std::vector<ParameterId> free_ids(const DiagnosisData& of, const CorrectedRobot&
   return ids;
 }
 
-RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
-  RowMatrix both(left.rows(), left.cols() + right.cols());
-  both << left, right;
-  return both;
-}
-
 /// Effects are believed to move the arm by a few thousandths: it keeps those apart from running away that these poses
 /// hardly tell from one another, and vanishes beside what the poses do show.
 void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedRobot& robot, const Robot& described,

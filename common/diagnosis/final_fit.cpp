@@ -7,7 +7,7 @@
 
 namespace demecal {
 
-std::vector<std::size_t> finally_fitted(const DataSet& data) {
+std::vector<std::size_t> poses_of_last_fit(const DataSet& data) {
   std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   if (poses_of(data, PoseSet::accept).empty()) return poses;
   std::ranges::copy(poses_of(data, PoseSet::validation), std::back_inserter(poses));
@@ -17,7 +17,7 @@ std::vector<std::size_t> finally_fitted(const DataSet& data) {
 
 DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, DiagnosedModel model) {
   constexpr int kSteps = 12;
-  const std::vector<std::size_t> poses = finally_fitted(data);
+  const std::vector<std::size_t> poses = poses_of_last_fit(data);
   if (poses == poses_of(data, PoseSet::calibration)) return model;
   const Evidence evidence = evidence_of(data, poses);
   for (Effect& effect : model.robot.effects) set_measured_ranges(effect, data.robot, evidence);

@@ -108,12 +108,6 @@ class Question {
     return beside(effects.leftCols(signal_), effects.rightCols(values_.size()) * values_);
   }
 
-  static RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
-    RowMatrix both(left.rows(), left.cols() + right.cols());
-    both << left, right;
-    return both;
-  }
-
   bool declared_corrections_;
   Eigen::VectorXd values_;
   Knowledge knowledge_;

@@ -33,12 +33,6 @@ bool leans_too_far(const Effect& effect) {
   return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
 }
 
-std::vector<double> prices(const std::vector<Candidate>& candidates) {
-  std::vector<double> nats;
-  for (const Candidate& candidate : candidates) nats.push_back(candidate.name_nats);
-  return nats;
-}
-
 double sum_of_squares(const std::vector<double>& errors) {
   return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
 }
@@ -62,7 +56,7 @@ Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Lineari
       null_maxima_(null_maxima),
       rules_(rules),
       projection_(at.projection),
-      scan_(columns, prices(candidates), at.fitted, projection_),
+      scan_(columns, prices_nats(candidates), at.fitted, projection_),
       scores_(scan_.scores()),
       start_errors_mm_(whole_errors_mm(at.judging, projection_.judging_left(), model.scales)) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -228,10 +222,10 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
     Round round = judge(*index, trial);
     out_[*index] = true;
     if (candidates_[*index].disguise != Disguise::none && round.p_family <= rules_.family_error) {
+      outcome_.winning_decoy = decoy_name(candidates_[*index]);
       round.verdict = Verdict::rejected;
-      round.reason = "a decoy, " + decoy_name(candidates_[*index]) + ", explains more than any real effect";
+      round.reason = "a decoy, " + *outcome_.winning_decoy + ", explains more than any real effect";
       outcome_.rounds.push_back(std::move(round));
-      outcome_.decoy_won = true;
       break;
     }
     round.reason = objection(round, trial);

@@ -6,16 +6,12 @@
 #include <map>
 #include <numeric>
 
+#include "fitting/median.hpp"
+
 namespace demecal {
 namespace {
 
 constexpr int kGainDraws = 1000;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double huber_square(double error, double threshold) {
   return error <= threshold ? error * error : threshold * (2.0 * error - threshold);

@@ -132,12 +132,12 @@ void ClosedLoop::note_decoys(const Group& group, const GroupOutcome& outcome) {
   for (std::size_t i = 0; i < outcome_.decoys.size(); ++i) {
     Decoy& decoy = outcome_.decoys[i];
     decoy.best_fall_nats = std::max(decoy.best_fall_nats, group.decoy_falls()[i]);
-    decoy.won = decoy.won || (outcome.decoy_won && outcome.rounds.back().reason.find(decoy.name) != std::string::npos);
+    decoy.won = decoy.won || outcome.winning_decoy == decoy.name;
   }
 }
 
 StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
-  if (last.decoy_won) return StopReason::decoy;
+  if (last.winning_decoy) return StopReason::decoy;
   return last.luck ? StopReason::no_structure : StopReason::no_gain;
 }
 
@@ -162,7 +162,7 @@ bool ClosedLoop::run_group(const Linearised& at) {
     std::fill(effect.values.begin(), effect.values.end(), 0.0);
     model_.robot.effects.push_back(std::move(effect));
   }
-  const bool more = added && !outcome.decoy_won && !outcome.stopped && gained_enough(outcome);
+  const bool more = added && !outcome.winning_decoy && !outcome.stopped && gained_enough(outcome);
   if (!more) outcome_.stopped = reason_to_stop(outcome);
   std::ranges::move(outcome.rounds, std::back_inserter(outcome_.rounds));
   return more;
@@ -231,9 +231,7 @@ void ClosedLoop::finish(const Linearised& at) {
   outcome_.p_structure_left = p_structure_;
   describe_added();
   look_further();
-  std::vector<double> name_nats;
-  for (const Candidate& candidate : candidates_) name_nats.push_back(candidate.name_nats);
-  const Scan scan(columns_, name_nats, at.fitted, at.projection);
+  const Scan scan(columns_, prices_nats(candidates_), at.fitted, at.projection);
   outcome_.not_found = smallest_detectable(candidates_, scan.scores(), model_.robot, of_.data.robot,
                                            {.null_maxima = null_maxima_,
                                             .family_error = options_.family_error,

@@ -120,12 +120,6 @@ RowMatrix asked_rows(const Knowledge& knowledge, const std::vector<Effect>& aske
   return root.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(rows);
 }
 
-RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
-  RowMatrix both(left.rows(), left.cols() + right.cols());
-  both << left, right;
-  return both;
-}
-
 }  // namespace
 
 std::vector<Stop> propose_poses(const DiagnosisData& of, const DiagnosedModel& model, const std::vector<Round>& rounds,

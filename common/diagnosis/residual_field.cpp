@@ -62,6 +62,12 @@ std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const St
 
 }  // namespace
 
+RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
+  RowMatrix both(left.rows(), left.cols() + right.cols());
+  both << left, right;
+  return both;
+}
+
 ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
                              const RowScales& scales, bool robust) {
   const CorrectedRobot& robot = space.reference();

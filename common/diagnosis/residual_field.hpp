@@ -14,6 +14,9 @@ namespace demecal {
 /// Matrices whose rows are the measured numbers, pose by pose.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Two matrices of equally many rows as one.
+RowMatrix beside(const RowMatrix& left, const RowMatrix& right);
+
 /// Rows are in units of what their kind scatters, and those of poses far out are scaled down by the root of their Huber
 /// weight. A model change `c` changes the residual to residual - columns * c.
 struct ResidualField {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fitting/information.hpp"
+#include "fitting/median.hpp"
 
 namespace demecal {
 namespace {
@@ -13,12 +14,6 @@ namespace {
 constexpr double kSmallest = 1e-9;
 /// Of a normal distribution: the standard deviation over the median of absolute values.
 constexpr double kMedianToDeviation = 1.4826;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Inverse of a symmetric matrix in the directions it does not send to nothing.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& symmetric) {

@@ -72,7 +72,7 @@ struct Progress {
   bool operator==(const Progress&) const = default;
 };
 
-/// Worker -> coordinator, after each epoch: where another worker can go on, with the emigrants that slower neighbours
+/// Worker -> coordinator, from time to time: where another worker can go on, with the emigrants that slower neighbours
 /// may still need.
 struct Checkpoint {
   RunId run = 0;

@@ -56,7 +56,7 @@ TEST(FinalFit, LeavesTheModelWhereNoAcceptPosesTellItsError) {
   const DiagnosedModel model = fitted(data);
   const DiagnosedModel last = final_fit(data, kDeclared, model);
   for (const MeasuredPose& pose : data.poses) EXPECT_EQ(reached(model, pose), reached(last, pose));
-  EXPECT_EQ(finally_fitted(data), poses_of(data, PoseSet::calibration));
+  EXPECT_EQ(poses_of_last_fit(data), poses_of(data, PoseSet::calibration));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct Options {
   int pairs = 7;
   std::uint32_t epochs = 12;
   double sleep_s = 0.5;
+  std::uint32_t slots = kSlots;  ///< of a worker that is served
   bool json = false;
 };
 
@@ -32,7 +33,7 @@ std::atomic<bool> stop{false};
 void serve(const Options& options) {
   std::signal(SIGTERM, [](int) { stop = true; });
   WorkerOptions worker;
-  worker.slots = kSlots;
+  worker.slots = options.slots;
   worker.host = "here";
   worker.process = static_cast<std::uint32_t>(::getpid());
   worker.name = "sleeper-" + std::to_string(worker.process);
@@ -80,7 +81,6 @@ int main(int argc, char** argv) {
   Options options;
   options.dds.domain = 97;
   bool worker = false;
-  int slots = kSlots;
   app.add_flag("--json", options.json, "one JSON object a line instead of the table");
   app.add_option("--pairs", options.pairs, "pairs of runs with one and two workers")
       ->capture_default_str()
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   app.add_option("--sleep-s", options.sleep_s, "per epoch")->capture_default_str()->check(CLI::Range(0.001, 1.0));
   app.add_option("--domain", options.dds.domain, "DDS domain")->capture_default_str()->check(CLI::Range(0, 230));
   app.add_flag("--serve", worker, "be a worker of sleeping islands")->group("");
-  app.add_option("--slots", slots, "")->group("");
+  app.add_option("--slots", options.slots, "islands computed at once")->group("");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
