@@ -52,7 +52,8 @@ void Worker::take(const IslandTask& task) {
   if (ended_.contains(task.run)) return;
   const auto run = runs_.find(task.run);
   if (run == runs_.end()) {
-    waiting_[task.run].insert_or_assign(task.island, task);
+    const auto [waiting, is_first] = waiting_[task.run].try_emplace(task.island, task);
+    if (!is_first && waiting->second.attempt < task.attempt) waiting->second = task;
     return;
   }
   if (find_fault(task, run->second->data)) return;

@@ -142,6 +142,25 @@ TEST(EvolutionRun, EndsWhereLastCheckpointsCameButTheirWorkersDiedBeforeTheOutco
   EXPECT_EQ(first.evaluations, second.evaluations);
 }
 
+TEST(Worker, BeginsTheNewestOfTheTasksThatCameBeforeTheirData) {
+  const CalibrationData data = small_run(12, Topology::none);
+  const IslandKey island = islands(data.archipelago).front();
+  const auto exchange = make_exchange();
+  WorkerThread worker(exchange, "worker");
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  const RunState fresh(data);
+  transport->publish(fresh.task(island, 2, "worker"));
+  transport->publish(fresh.task(island, 1, "another"));
+  transport->publish(data);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  bool answered = false;
+  while (!answered && std::chrono::steady_clock::now() < deadline) {
+    const auto message = transport->receive(std::chrono::milliseconds(100));
+    answered = message && std::holds_alternative<Outcome>(*message);
+  }
+  EXPECT_TRUE(answered);
+}
+
 TEST(EvolutionRun, MalformedMessagesOfOthersChangeNothing) {
   const CalibrationData data = small_run(10);
   const auto exchange = make_exchange();
