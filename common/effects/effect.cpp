@@ -1,6 +1,7 @@
 #include "effects/effect.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
@@ -37,11 +38,38 @@ bool is_within(const Effect& effect, const JointVector& joints) {
   });
 }
 
-JointVector held_within(const Effect& effect, const Chain& chain, JointVector joints) {
+/// Joints where the effect is known, and how much of what it is there holds.
+struct Anchor {
+  JointVector joints;
+  double weight = 1.0;
+};
+
+/// Of the end of `range` that is farther from `value`, which lies beyond it: a revolute joint's two ends are neighbours
+/// across the turns that were not measured, and half the way from one to the other each counts as much.
+double weight_of_farther_end(const Chain& chain, int joint, const Interval& range, double value) {
+  const double unmeasured = 2.0 * std::numbers::pi - (range.upper - range.lower);
+  if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute || unmeasured <= 0) return 0.0;
+  const double x = std::max(range.lower - value, value - range.upper) / unmeasured;
+  return x * x * (3.0 - 2.0 * x);
+}
+
+std::vector<Anchor> anchors(const Effect& effect, bool fades, const Chain& chain, const JointVector& joints) {
+  std::vector<Anchor> all{{joints, 1.0}};
   for (const auto& [joint, range] : effect.ranges) {
-    joints[joint] = std::clamp(nearest_turn(chain, joint, range, joints[joint]), range.lower, range.upper);
+    const double value = nearest_turn(chain, joint, range, joints[joint]);
+    const double nearer = std::clamp(value, range.lower, range.upper);
+    const double farther = nearer == range.lower ? range.upper : range.lower;
+    const double weight = fades || nearer == value ? 0.0 : weight_of_farther_end(chain, joint, range, value);
+    const std::size_t known = all.size();
+    for (std::size_t i = 0; i < known; ++i) {
+      all[i].joints[joint] = nearer;
+      if (weight == 0.0) continue;
+      all.push_back({all[i].joints, all[i].weight * weight});
+      all.back().joints[joint] = farther;
+      all[i].weight *= 1.0 - weight;
+    }
   }
-  return joints;
+  return all;
 }
 
 }  // namespace
@@ -69,13 +97,16 @@ void append_unit_motions(const Effect& effect, const Robot& robot, const ArmStat
                          std::vector<UnitMotion>& motions) {
   const EffectLaw& law = law_of(effect);
   if (is_within(effect, state.joints())) return law.unit_motions(effect, robot, state, motions);
-  const double share = law.fades(effect) ? known_share(effect, robot.chain, state.joints()) : 1.0;
+  const bool fades = law.fades(effect);
+  const double share = fades ? known_share(effect, robot.chain, state.joints()) : 1.0;
   if (share == 0.0) return;
   ArmState held = state;
-  held.stop.joints = held_within(effect, robot.chain, state.joints());
-  const std::size_t before = motions.size();
-  law.unit_motions(effect, robot, held, motions);
-  for (std::size_t i = before; i < motions.size(); ++i) motions[i].size *= share;
+  for (const Anchor& anchor : anchors(effect, fades, robot.chain, state.joints())) {
+    held.stop.joints = anchor.joints;
+    const std::size_t before = motions.size();
+    law.unit_motions(effect, robot, held, motions);
+    for (std::size_t i = before; i < motions.size(); ++i) motions[i].size *= share * anchor.weight;
+  }
 }
 
 }  // namespace demecal

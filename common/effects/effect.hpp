@@ -93,7 +93,7 @@ class EffectLaw {
   virtual std::vector<std::string> forms() const { return {}; }
   /// Whether the effect is of one joint.
   virtual bool of_joint() const { return true; }
-  /// Whether it is nothing beyond the measured range, on average: a ripple. Others keep the value they have at its end.
+  /// Whether it is nothing beyond the measured range, on average: a ripple. Others go on from what they are at its end.
   virtual bool fades(const Effect& /*effect*/) const { return false; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
   virtual std::vector<int> ranged_joints(const Effect& /*effect*/, const Robot& /*robot*/) const { return {}; }
@@ -111,7 +111,8 @@ const EffectLaw& law_of(const Effect& effect);
 VariableNames symbolic_variables(const Chain& chain);
 
 /// What a unit of each coefficient does at `state`. Outside the ranges the effect was measured in it is what it is at
-/// their nearer end; a ripple fades to nothing within 0.1 rad (or m).
+/// their nearer end, and of a revolute joint goes over to what it is at the other end, across the part of the turn that
+/// was not measured, without a jump; a ripple fades to nothing within 0.1 rad (or m).
 void append_unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
                          std::vector<UnitMotion>& motions);
 

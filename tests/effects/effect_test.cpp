@@ -101,20 +101,50 @@ TEST(MeasuredRange, ARippleFadesBeyondItFromWhatItIsAtTheEnd) {
   EXPECT_EQ(none.size(), 1u);
 }
 
-TEST(MeasuredRange, ASlowEffectKeepsBeyondItWhatItIsAtTheEnd) {
+/// A slow effect of joint 2, measured from 0 to 1 rad, with the joint at `angle_rad`; or as if measured everywhere.
+std::vector<UnitMotion> wobble_at(double angle_rad, bool everywhere = false, Arm arm = Arm::standard) {
   RandomStream stream{32, 2};
-  const Robot robot = laden_arm(stream, Arm::standard);
+  const Robot robot = laden_arm(stream, arm);
   Stop stop = random_stop(stream, robot);
-  const Effect everywhere{.kind = "axis_wobble", .joint = 1, .settings = {{"order", 1}}};
-  Effect ranged = everywhere;
-  ranged.ranges = {{1, {0.0, 1.0}}};
-  stop.joints[1] = 1.0;
-  std::vector<UnitMotion> at_end, beyond;
-  append_unit_motions(everywhere, robot, arm_state(robot, stop), at_end);
-  stop.joints[1] = 1.6;
-  append_unit_motions(ranged, robot, arm_state(robot, stop), beyond);
+  Effect effect{.kind = "axis_wobble", .joint = 1, .settings = {{"order", 1}}};
+  if (!everywhere) effect.ranges = {{1, {0.0, 1.0}}};
+  stop.joints[1] = angle_rad;
+  std::vector<UnitMotion> motions;
+  append_unit_motions(effect, robot, arm_state(robot, stop), motions);
+  return motions;
+}
+
+/// Of every coefficient, what all its motions come to.
+std::map<int, double> sizes(const std::vector<UnitMotion>& motions) {
+  std::map<int, double> sums;
+  for (const UnitMotion& motion : motions) sums[motion.coefficient] += motion.size;
+  return sums;
+}
+
+TEST(MeasuredRange, ASlowEffectGoesOnFromWhatItIsAtTheEnd) {
+  const auto at_end = sizes(wobble_at(1.0, true)), beyond = sizes(wobble_at(1.1)), before = sizes(wobble_at(-0.1));
+  const auto at_begin = sizes(wobble_at(0.0, true));
   ASSERT_EQ(beyond.size(), at_end.size());
-  for (std::size_t i = 0; i < at_end.size(); ++i) EXPECT_EQ(beyond[i].size, at_end[i].size);
+  for (const auto& [coefficient, size] : at_end) {
+    EXPECT_NEAR(beyond.at(coefficient), size, 2e-3);
+    EXPECT_NEAR(before.at(coefficient), at_begin.at(coefficient), 2e-3);
+  }
+}
+
+TEST(MeasuredRange, ASlowEffectGoesOverToItsOtherEndAcrossTheUnmeasuredTurnWithoutAJump) {
+  const auto lower = sizes(wobble_at(0.0, true)), upper = sizes(wobble_at(1.0, true));
+  const double opposite = 0.5 + std::numbers::pi;
+  for (const double angle_rad : {opposite - 1e-9, opposite + 1e-9, opposite - kTurn}) {
+    for (const auto& [coefficient, size] : sizes(wobble_at(angle_rad)))
+      EXPECT_NEAR(size, 0.5 * (lower.at(coefficient) + upper.at(coefficient)), 1e-8) << angle_rad;
+  }
+  constexpr int kSteps = 400;
+  std::map<int, double> last = sizes(wobble_at(0.0));
+  for (int i = 1; i <= kSteps; ++i) {
+    const auto now = sizes(wobble_at(kTurn * i / kSteps));
+    for (const auto& [coefficient, size] : now) EXPECT_NEAR(size, last.at(coefficient), 0.03) << i;
+    last = now;
+  }
 }
 
 }  // namespace
