@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   demecal::add_calibrate(app, exit_code);
   demecal::add_diagnose(app, exit_code);
   demecal::add_evaluate(app, exit_code);
+  demecal::add_apply(app, exit_code);
   demecal::add_simulate(app, exit_code);
   demecal::add_report(app, exit_code);
   demecal::add_monitor(app, exit_code);

@@ -1,13 +1,10 @@
 #include "effects/corrected_robot.hpp"
 
+#include "effects/command.hpp"
 #include "errors/check.hpp"
-#include "kinematics/damped_least_squares.hpp"
 
 namespace demecal {
 namespace {
-
-/// rad or m. Errors are thousandths; commands that need more would turn the wrist over to mend an angle of that size.
-constexpr double kLargestCorrection = 0.5;
 
 Eigen::Isometry3d tool_at(const Eigen::Vector3d& point_m) {
   return Eigen::Isometry3d(Eigen::Translation3d(point_m));
@@ -96,22 +93,8 @@ CorrectedRobot nominal_robot(const DataSet& data) {
 
 InverseSolution corrected_command(const CorrectedRobot& robot, const Chain& nominal, const Stop& desired,
                                   const InverseOptions& options) {
-  const std::string own_tool;
-  const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, desired.joints) * robot.tool(own_tool);
-  const PoseFunction model = [&](const JointVector& commanded) {
-    return robot.predict_with_jacobian(desired.with_joints(commanded), own_tool);
-  };
-  const InverseSolution exact = inverse(model, goal, desired.joints, options);
-  const bool converged = exact.status == InverseStatus::converged;
-  if (converged && (exact.q - desired.joints).cwiseAbs().maxCoeff() <= kLargestCorrection) return exact;
-
-  InverseSolution nearest = exact;
-  nearest.q = damped_least_squares(model, goal, desired.joints);
-  const PoseError left = pose_error(robot.predict(desired.with_joints(nearest.q), own_tool), goal);
-  nearest.position_residual_m = left.head<3>().norm();
-  nearest.orientation_residual_rad = left.tail<3>().norm();
-  if (converged) nearest.status = InverseStatus::damped;
-  return nearest;
+  const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, desired.joints) * robot.tool("");
+  return command_reaching(robot, goal, desired, options);
 }
 
 }  // namespace demecal

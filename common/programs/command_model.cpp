@@ -1,0 +1,82 @@
+#include "programs/command_model.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+/// Whether the effect is of the instrument's frame.
+bool is_of_instrument(const Effect& effect) {
+  return effect.kind == "registration" || effect.kind == "drift" || effect.kind == "sensor_scale";
+}
+
+void narrow(std::optional<Interval>& range, const Interval& by) {
+  if (!range) {
+    range = by;
+    return;
+  }
+  range->lower = std::max(range->lower, by.lower);
+  range->upper = std::min(range->upper, by.upper);
+}
+
+}  // namespace
+
+Eigen::Isometry3d CommandModel::nominal_tool(const JointVector& joints) const {
+  return forward(nominal.chain, joints) * Eigen::Isometry3d(Eigen::Translation3d(nominal.chain.tool_m));
+}
+
+CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
+                           const std::optional<Eigen::Vector3d>& other_tool_m) {
+  CommandModel model{nominal, identified, std::move(bounds)};
+  DEMECAL_CHECK(std::ssize(model.bounds) == nominal.chain.size(), model.bounds.size() << " bounds");
+  model.robot.sensor_from_base.setIdentity();
+  std::erase_if(model.robot.effects, is_of_instrument);
+  if (other_tool_m) {
+    model.nominal.chain.tool_m = *other_tool_m;
+    std::erase_if(model.robot.effects, [](const Effect& effect) { return effect.kind == "tool"; });
+  }
+  // A model of several targets on the tool need not hold the robot's own.
+  if (other_tool_m || !model.robot.tools.contains("")) {
+    model.robot.tools[""] = Eigen::Isometry3d(Eigen::Translation3d(model.nominal.chain.tool_m));
+  }
+  return model;
+}
+
+std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint) {
+  std::optional<Interval> range;
+  const JointCorrection& correction = robot.corrections[static_cast<std::size_t>(joint)];
+  if (!correction.is_neutral()) range = correction.range_rad();
+  for (const Effect& effect : robot.effects) {
+    const auto measured = effect.ranges.find(joint);
+    if (measured != effect.ranges.end()) narrow(range, measured->second);
+  }
+  return range;
+}
+
+double beyond_calibrated(const CorrectedRobot& robot, int joint, double value) {
+  const std::optional<Interval> range = calibrated_range(robot, joint);
+  if (!range) return 0.0;
+  const bool revolute = robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  double beyond = std::numeric_limits<double>::infinity();
+  for (int turns = revolute ? -2 : 0; turns <= (revolute ? 2 : 0); ++turns) {
+    const double turned = value + turns * 2.0 * std::numbers::pi;
+    beyond = std::min(beyond, std::max({0.0, range->lower - turned, turned - range->upper}));
+  }
+  return beyond;
+}
+
+JointVector middle_joints(const CommandModel& model) {
+  JointVector middle(model.nominal.chain.size());
+  for (int joint = 0; joint < middle.size(); ++joint) {
+    const Joint& link = model.nominal.chain.joints[static_cast<std::size_t>(joint)];
+    const Interval range = calibrated_range(model.robot, joint).value_or(Interval{link.lower, link.upper});
+    middle[joint] = 0.5 * (range.lower + range.upper);
+  }
+  return middle;
+}
+
+}  // namespace demecal

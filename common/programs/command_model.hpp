@@ -1,0 +1,42 @@
+// A model as a controller can use it: what the arm does wrong in its own base frame, without the instrument.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "effects/corrected_robot.hpp"
+
+namespace demecal {
+
+/// What belongs to the correction of a command, and what does not:
+/// - Not the base's place in the instrument's frame, nor any effect of that frame (registration, drift, sensor_scale):
+///   the robot that runs a program has no instrument. Poses are in the robot's own base frame. What a fit cannot tell
+///   from the base's place, such as d and the offset of joint 1, stays with the base where a registration is declared,
+///   and is not corrected.
+/// - Links, joint offsets, joint corrections and all effects of the arm do.
+/// - The tool does: the command brings the tool as it was identified to where the nominal robot has its nominal tool.
+struct CommandModel {
+  Robot nominal;               ///< as its maker describes it; what the controller believes
+  CorrectedRobot robot;        ///< predicts in the robot's own base frame
+  std::vector<double> bounds;  ///< of each joint's correction (rad or m) over its range; infinite where none is stated
+
+  /// Where the nominal robot has its tool: base frame, axes of the flange.
+  Eigen::Isometry3d nominal_tool(const JointVector& joints) const;
+};
+
+/// `bounds` as above. `other_tool_m` is the tool point of a program whose tool is not the one that was measured: it is
+/// taken as it stands, and nothing of the tool is corrected.
+CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
+                           const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
+
+/// The range that the model was calibrated in, of one joint (rad or m): where its correction and the effects that
+/// depend on it were measured. Nothing where the model states none.
+std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint);
+
+/// How far the joint stands outside that range, whole turns of revolute joints aside; 0 within it.
+double beyond_calibrated(const CorrectedRobot& robot, int joint, double value);
+
+/// In the middle of what was calibrated or, where that is unknown, of the joint limits.
+JointVector middle_joints(const CommandModel& model);
+
+}  // namespace demecal

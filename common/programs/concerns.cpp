@@ -1,0 +1,131 @@
+#include "programs/concerns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "effects/command.hpp"
+#include "kinematics/units.hpp"
+#include "programs/nominal_joints.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kRounding = 1e-4;          ///< rad or m: files round, and the ends of ranges are poses themselves
+constexpr double kLargestUsual = 0.05;      ///< rad or m: errors of arms are a tenth of it
+constexpr double kLargestToolError = 0.01;  ///< m
+
+std::string fixed(double value, int decimals) {
+  std::array<char, 400> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  return {buffer.data(), end.ptr};
+}
+
+std::string amount(const Joint& joint, double value) {
+  if (joint.type == JointType::prismatic) return fixed(millimetres(value), 3) + " mm";
+  return fixed(degrees(value), 4) + " deg";
+}
+
+std::string joint_name(int joint) {
+  return "joint " + std::to_string(joint + 1);
+}
+
+void check_limits(int joint, const Joint& link, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
+  const std::string limits = amount(link, link.lower) + " .. " + amount(link, link.upper);
+  if (beyond_limits(link, corrected.nominal[joint]) > kRounding) {
+    sentences.push_back(joint_name(joint) + " is sent to " + amount(link, corrected.nominal[joint]) +
+                        ", outside its limits " + limits);
+  } else if (beyond_limits(link, corrected.command[joint]) > kRounding) {
+    sentences.push_back("the correction takes " + joint_name(joint) + " to " + amount(link, corrected.command[joint]) +
+                        ", outside its limits " + limits);
+  }
+}
+
+void check_range(int joint, const Joint& link, const CorrectedTarget& corrected, const CommandModel& model,
+                 std::vector<std::string>& sentences) {
+  if (beyond_calibrated(model.robot, joint, corrected.nominal[joint]) <= kRounding) return;
+  const Interval range = *calibrated_range(model.robot, joint);
+  sentences.push_back(joint_name(joint) + " is sent to " + amount(link, corrected.nominal[joint]) +
+                      ", outside the calibrated range " + amount(link, range.lower) + " .. " +
+                      amount(link, range.upper));
+}
+
+/// What the model would ask for without its joint corrections: their bounds speak of the rest.
+JointVector without_formulas(const CorrectedTarget& corrected, const CommandModel& model) {
+  CorrectedRobot robot = model.robot;
+  for (JointCorrection& correction : robot.corrections) correction = {};
+  return command_reaching(robot, corrected.nominal_tool, corrected.nominal).q;
+}
+
+void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, std::vector<std::string>& sentences) {
+  const JointVector change = corrected.command - corrected.nominal;
+  std::optional<JointVector> rest;
+  for (int joint = 0; joint < change.size(); ++joint) {
+    const double bound = model.bounds[static_cast<std::size_t>(joint)];
+    const Joint& link = model.nominal.chain.joints[static_cast<std::size_t>(joint)];
+    double allowed = bound * (1.0 + 1e-6) + 1e-9;
+    if (std::isfinite(bound) && std::abs(change[joint]) > allowed) {
+      if (!rest) rest = without_formulas(corrected, model);
+      allowed += std::abs((*rest)[joint] - corrected.nominal[joint]);
+      if (std::abs(change[joint]) > allowed) {
+        sentences.push_back("the correction of " + joint_name(joint) + ", " + amount(link, change[joint]) +
+                            ", is larger than the bound that the model states, " + amount(link, bound));
+        continue;
+      }
+    }
+    if (std::abs(change[joint]) <= kLargestUsual) continue;
+    sentences.push_back("the correction of " + joint_name(joint) + ", " + amount(link, change[joint]) +
+                        ", is larger than errors of arms are; is the pose near a singularity?");
+  }
+}
+
+void check_configuration(const Target& target, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
+  if (!target.is_pose() || target.hint.empty()) return;
+  if (contradictions(target.hint, corrected.nominal) > 0) {
+    sentences.emplace_back("no joints were found that reach the pose in the configuration that is stated");
+  } else if (contradictions(target.hint, corrected.command) > 0) {
+    sentences.emplace_back("the correction takes a joint out of the configuration that is stated");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> concerns(const Target& target, const CorrectedTarget& corrected, const CommandModel& model) {
+  if (corrected.outcome == Outcome::no_joints) {
+    return {"the nominal robot does not reach the pose; it is left as it is"};
+  }
+  std::vector<std::string> sentences;
+  for (int joint = 0; joint < model.nominal.chain.size(); ++joint) {
+    const Joint& link = model.nominal.chain.joints[static_cast<std::size_t>(joint)];
+    check_limits(joint, link, corrected, sentences);
+    check_range(joint, link, corrected, model, sentences);
+  }
+  check_bounds(corrected, model, sentences);
+  check_configuration(target, corrected, sentences);
+  if (corrected.outcome == Outcome::nearest) {
+    sentences.push_back("the model has no exact inverse here; " + fixed(millimetres(corrected.left_m), 4) +
+                        " mm of position error remain");
+  }
+  return sentences;
+}
+
+std::vector<std::string> concerns(const Program& program, const CommandModel& model) {
+  std::vector<std::string> sentences;
+  if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
+  const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
+  if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {
+    sentences.emplace_back(
+        "positions without orientation: they are corrected for the joints nearest to those of the target before");
+  }
+  const double tool_error_m = (model.robot.tool("").translation() - model.nominal.chain.tool_m).norm();
+  if (tool_error_m > kLargestToolError) {
+    sentences.push_back("the model has its tool " + fixed(millimetres(tool_error_m), 1) +
+                        " mm away from where the robot's description has it, and corrects for that; where the program "
+                        "uses another tool than was measured, give --tool-mm");
+  }
+  return sentences;
+}
+
+}  // namespace demecal

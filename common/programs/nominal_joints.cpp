@@ -1,0 +1,152 @@
+#include "programs/nominal_joints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "kinematics/angles.hpp"
+#include "kinematics/inverse.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kStarts = 48;
+constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
+constexpr double kNear = 1.0;       ///< rad or m: a solution this near to the last one is taken without looking further
+constexpr double kRounding = 1e-6;  ///< rad, of signs and quadrants
+
+/// The `index`-th number of van der Corput's sequence, in (0, 1) for index >= 1.
+double radical_inverse(int index, int base) {
+  double value = 0.0, digit = 1.0 / base;
+  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
+bool limited(const Joint& joint) {
+  return joint.lower < joint.upper;
+}
+
+JointVector start_of(const Chain& arm, int index) {
+  JointVector start(arm.size());
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
+    double lower = -kPi, upper = kPi;
+    if (joint.type == JointType::prismatic || (limited(joint) && joint.upper - joint.lower < 2.0 * kPi)) {
+      lower = joint.lower;
+      upper = joint.upper;
+    }
+    start[i] = lower + (upper - lower) * radical_inverse(index, kPrimes[static_cast<std::size_t>(i)]);
+  }
+  return start;
+}
+
+PoseFunction nominal_pose(const Chain& arm) {
+  return [&arm](const JointVector& q) {
+    return PoseAndJacobian{forward(arm, q) * Eigen::Translation3d(arm.tool_m), joint_jacobian(arm, q, arm.tool_m)};
+  };
+}
+
+/// Whole turns of a revolute joint cost nothing: the one within the limits, if any, that is nearest to the reference.
+double nearest_turn(const Joint& joint, double value, double reference) {
+  if (joint.type == JointType::prismatic) return value;
+  const double near = wrap_near(value, reference);
+  double best = near;
+  for (const double turned : {near - 2.0 * kPi, near + 2.0 * kPi}) {
+    const double better = beyond_limits(joint, best) - beyond_limits(joint, turned);
+    if (better > 0.0) best = turned;
+  }
+  return best;
+}
+
+/// About where the hint has the joint; elsewhere, where the reference has it.
+double hinted(const ArmHint& hint, std::size_t joint, double reference) {
+  if (joint < hint.quadrants.size() && hint.quadrants[joint]) return (*hint.quadrants[joint] + 0.5) * kPi / 2.0;
+  if (joint < hint.negative.size() && hint.negative[joint]) return *hint.negative[joint] ? -kPi / 2.0 : kPi / 2.0;
+  return reference;
+}
+
+struct Candidate {
+  JointVector q;
+  int contradicting = 0;
+  bool outside = false;
+  double distance = 0.0;
+};
+
+Candidate candidate(const Chain& arm, JointVector q, const ArmHint& hint, const JointVector& reference) {
+  Candidate made;
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
+    q[i] = nearest_turn(joint, q[i], hinted(hint, static_cast<std::size_t>(i), reference[i]));
+    made.outside = made.outside || beyond_limits(joint, q[i]) > 0.0;
+    made.distance = std::max(made.distance, std::abs(q[i] - reference[i]));
+  }
+  made.contradicting = contradictions(hint, q);
+  made.q = q;
+  return made;
+}
+
+bool better(const Candidate& one, const Candidate& other) {
+  if (one.contradicting != other.contradicting) return one.contradicting < other.contradicting;
+  if (one.outside != other.outside) return other.outside;
+  return one.distance < other.distance - 1e-6;
+}
+
+}  // namespace
+
+double beyond_limits(const Joint& joint, double value) {
+  if (!limited(joint)) return 0.0;
+  return std::max({0.0, joint.lower - value, value - joint.upper});
+}
+
+int contradictions(const ArmHint& hint, const JointVector& joints) {
+  int count = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(joints.size()); ++i) {
+    const double angle = joints[static_cast<Eigen::Index>(i)];
+    if (i < hint.negative.size() && hint.negative[i]) {
+      count += (*hint.negative[i] ? angle > kRounding : angle < -kRounding) ? 1 : 0;
+    }
+    if (i < hint.quadrants.size() && hint.quadrants[i]) {
+      const double lower = *hint.quadrants[i] * kPi / 2.0;
+      count += angle < lower - kRounding || angle > lower + kPi / 2.0 + kRounding ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometry3d& tool, const ArmHint& hint,
+                                          const JointVector& reference) {
+  const PoseFunction model = nominal_pose(arm);
+  const JointVector& near = hint.near.size() == arm.size() ? hint.near : reference;
+  std::optional<Candidate> best;
+  for (int index = 0; index <= kStarts; ++index) {
+    const InverseSolution solution = inverse(model, tool, index == 0 ? near : start_of(arm, index));
+    if (solution.status != InverseStatus::converged) continue;
+    Candidate found = candidate(arm, solution.q, hint, near);
+    if (!best || better(found, *best)) best = std::move(found);
+    if (best->contradicting == 0 && !best->outside && best->distance < kNear) break;
+  }
+  if (!best) return std::nullopt;
+  return best->q;
+}
+
+std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector3d& point_m,
+                                           const JointVector& reference) {
+  const PoseFunction model = [&arm](const JointVector& q) {
+    PoseAndJacobian at{Eigen::Isometry3d(Eigen::Translation3d(tool_position(arm, q))),
+                       joint_jacobian(arm, q, arm.tool_m)};
+    at.jacobian.bottomRows<3>().setZero();
+    return at;
+  };
+  const Eigen::Isometry3d target{Eigen::Translation3d(point_m)};
+  for (int index = 0; index <= kStarts; ++index) {
+    const InverseSolution solution = inverse(model, target, index == 0 ? reference : start_of(arm, index));
+    if (solution.status != InverseStatus::converged) continue;
+    const Candidate found = candidate(arm, solution.q, {}, reference);
+    if (!found.outside) return found.q;
+  }
+  return std::nullopt;
+}
+
+}  // namespace demecal

@@ -1,0 +1,29 @@
+// The joints that a controller comes to for a pose of the tool, by the nominal arm's inverse kinematics.
+#pragma once
+
+#include <optional>
+
+#include "programs/program.hpp"
+
+namespace demecal {
+
+/// Joints at which the nominal arm's tool point (chain.tool_m, axes of the flange) stands at `tool`; nothing where none
+/// were found. Of an arm's several configurations: those that contradict the hint least; of these, those within the
+/// joint limits; of these, the nearest to the hint's joints or, where it names none, to `reference`. The configurations
+/// are searched for from a fixed set of joints, so that a far one may be missed but the answer never varies.
+std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometry3d& tool, const ArmHint& hint,
+                                          const JointVector& reference);
+
+/// Joints near `reference` at which the tool point stands at `point_m`, its orientation free; nothing where there are
+/// none.
+std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector3d& point_m,
+                                           const JointVector& reference);
+
+/// How many of the signs and quadrants that the hint states these joints contradict, by more than 1e-6 rad.
+int contradictions(const ArmHint& hint, const JointVector& joints);
+
+/// How far joint `joint` stands outside its limits, rad or m; 0 within them or where none are known (lower not below
+/// upper).
+double beyond_limits(const Joint& joint, double value);
+
+}  // namespace demecal

@@ -1,0 +1,115 @@
+#include "programs/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "programs/read_program.hpp"
+#include "programs/target_figures.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string row(const std::string& word, const std::vector<double>& values) {
+  std::string text = fmt::format("    {:<11}", word);
+  for (const double value : values) text += fmt::format(" {:>12.4f}", value);
+  return text + '\n';
+}
+
+std::string heading(const TargetFigures& figures) {
+  std::string text(15, ' ');
+  for (std::size_t i = 0; i < figures.names.size(); ++i) {
+    text += fmt::format(" {:>12}", figures.names[i] + ", " + figures.units[i]);
+  }
+  return text + '\n';
+}
+
+std::string block(const Target& target, const CorrectedTarget& corrected, const Chain& arm, std::string& last_heading) {
+  std::string text = fmt::format("  line {}{}", target.place.line, target.name.empty() ? "" : ": " + target.name);
+  if (corrected.outcome == Outcome::no_joints) return text + ": left as it is\n";
+  const TargetFigures figures = figures_of(target, corrected, arm);
+  text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg\n", figures.moved_mm, figures.turned_deg);
+  const std::string names = heading(figures);
+  if (names != last_heading) text += names;
+  last_heading = names;
+  return text + row("nominal", figures.nominal) + row("corrected", figures.corrected) +
+         row("difference", figures.difference);
+}
+
+Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
+  Json json{{"name", target.name},
+            {"line", target.place.line},
+            {"column", target.place.column},
+            {"kind", target.is_pose() ? "pose" : "joints"},
+            {"corrected_by_model", corrected.outcome != Outcome::no_joints}};
+  if (corrected.outcome == Outcome::no_joints) return json;
+  const TargetFigures figures = figures_of(target, corrected, arm);
+  json["units"] = figures.units;
+  json["nominal"] = figures.nominal;
+  json["corrected"] = figures.corrected;
+  json["difference"] = figures.difference;
+  json["moved_mm"] = figures.moved_mm;
+  if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
+  return json;
+}
+
+}  // namespace
+
+MovedFigures moved_figures(const CorrectedProgram& corrected) {
+  MovedFigures figures;
+  for (const CorrectedTarget& target : corrected.targets) {
+    if (target.outcome == Outcome::no_joints) {
+      ++figures.left;
+      continue;
+    }
+    const double moved_mm = 1e3 * (target.command_tool.translation() - target.nominal_tool.translation()).norm();
+    figures.mean_mm += moved_mm;
+    figures.max_mm = std::max(figures.max_mm, moved_mm);
+    ++figures.targets;
+  }
+  if (figures.targets > 0) figures.mean_mm /= figures.targets;
+  return figures;
+}
+
+std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
+  std::string text, last_heading;
+  for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
+    text += block(corrected.program.targets[i], corrected.targets[i], arm, last_heading);
+  }
+  const MovedFigures figures = moved_figures(corrected);
+  text += fmt::format("{} targets corrected; the tool is moved by {:.4f} mm in the mean, {:.4f} mm at most",
+                      figures.targets, figures.mean_mm, figures.max_mm);
+  const std::size_t left = static_cast<std::size_t>(figures.left) + corrected.program.left.size();
+  if (left > 0) text += fmt::format("; {} left as they are", left);
+  return text + '\n';
+}
+
+std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
+  const MovedFigures figures = moved_figures(corrected);
+  Json json{{"program", corrected.program.file},
+            {"language", word_of(corrected.program.language)},
+            {"targets", Json::array()},
+            {"moved_mm", {{"mean", figures.mean_mm}, {"max", figures.max_mm}}},
+            {"left", static_cast<std::size_t>(figures.left) + corrected.program.left.size()},
+            {"warnings", Json::array()}};
+  for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
+    json["targets"].push_back(entry(corrected.program.targets[i], corrected.targets[i], arm));
+  }
+  for (const Remark& warning : corrected.warnings) {
+    json["warnings"].push_back({{"line", warning.place.line},
+                                {"column", warning.place.column},
+                                {"name", warning.name},
+                                {"sentence", warning.sentence}});
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string warning_text(const CorrectedProgram& corrected, const Remark& warning) {
+  return fmt::format("{}:{}: {}{}\n", corrected.program.file, warning.place.line,
+                     warning.name.empty() ? "" : warning.name + ": ", warning.sentence);
+}
+
+}  // namespace demecal

@@ -1,0 +1,27 @@
+// What was corrected, by how much, for people and for programs.
+#pragma once
+
+#include <string>
+
+#include "programs/correct_program.hpp"
+
+namespace demecal {
+
+/// Mean and largest distance, mm, that corrections move the nominal robot's tool point, over the targets corrected.
+struct MovedFigures {
+  int targets = 0, left = 0;  ///< corrected (where nothing had to change, too), and left as they are
+  double mean_mm = 0.0, max_mm = 0.0;
+};
+MovedFigures moved_figures(const CorrectedProgram& corrected);
+
+/// A table: nominal, corrected and difference of every target, then mean and largest.
+std::string summary_table(const CorrectedProgram& corrected, const Chain& arm);
+
+/// One JSON object on one line: `targets` in the order of the text with name, line, column, kind (joints or pose),
+/// units, nominal, corrected, difference, moved_mm, and of poses turned_deg; `moved_mm`; `warnings`.
+std::string summary_json(const CorrectedProgram& corrected, const Chain& arm);
+
+/// "line 12: #cp[3]: SENTENCE", with the file before it.
+std::string warning_text(const CorrectedProgram& corrected, const Remark& warning);
+
+}  // namespace demecal

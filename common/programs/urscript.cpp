@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "programs/literal.hpp"
+#include "programs/read_program.hpp"
+
+namespace demecal {
+namespace {
+
+/// How many of its first arguments a command moves to; 0 for words that are none.
+int targets_of(std::string_view word) {
+  if (word == "movec") return 2;
+  constexpr std::array<std::string_view, 5> kCommands{"movej", "movel", "movep", "servoj", "servoc"};
+  return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end() ? 1 : 0;
+}
+
+class UrReader {
+ public:
+  UrReader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {.comment = '#'}), code_(text_.code()), arm_(arm) {
+    require_six_joints(arm, file, "URScript");
+    program_.language = Language::urscript;
+    program_.file = file;
+  }
+
+  Program read() {
+    find_assignments();
+    for_each_word([&](std::size_t begin, std::size_t end) {
+      const int targets = targets_of(code_.substr(begin, end - begin));
+      if (targets > 0 && at(end) == '(') read_call(text_.skip_spaces(end), targets);
+    });
+    std::sort(program_.targets.begin(), program_.targets.end(),
+              [](const Target& one, const Target& other) { return first_byte(one) < first_byte(other); });
+    return std::move(program_);
+  }
+
+ private:
+  static std::size_t first_byte(const Target& target) {
+    return (target.is_pose() ? target.position : target.joints).front().begin;
+  }
+
+  template <typename Visit>
+  void for_each_word(const Visit& visit) const {
+    for (std::size_t begin = 0; begin < code_.size(); ++begin) {
+      if (!text_.begins_word(begin)) continue;
+      const std::size_t end = text_.word_end(begin);
+      visit(begin, end);
+      begin = end - 1;
+    }
+  }
+
+  /// The next byte that is no space; 0 at the end.
+  char at(std::size_t offset) const {
+    offset = text_.skip_spaces(offset);
+    return offset < code_.size() ? code_[offset] : '\0';
+  }
+
+  /// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
+  std::optional<std::size_t> literal_at(std::size_t offset) const {
+    offset = text_.skip_spaces(offset);
+    if (offset >= code_.size()) return std::nullopt;
+    const bool pose = code_[offset] == 'p' && at(offset + 1) == '[' && text_.word_end(offset) == offset + 1;
+    return pose || code_[offset] == '[' ? std::optional(offset) : std::nullopt;
+  }
+
+  /// Remembers where every variable is given a literal.
+  void find_assignments() {
+    for_each_word([&](std::size_t begin, std::size_t end) {
+      const std::size_t sign = text_.skip_spaces(end);
+      if (sign >= code_.size() || code_[sign] != '=' || code_.substr(sign).starts_with("==")) return;
+      if (const auto literal = literal_at(sign + 1)) {
+        assigned_[std::string(code_.substr(begin, end - begin))].push_back(*literal);
+      }
+    });
+  }
+
+  /// Reads the first `targets` arguments of the call whose parenthesis opens at `open`.
+  void read_call(std::size_t open, int targets) {
+    std::size_t offset = open + 1;
+    for (int i = 0; i < targets; ++i) {
+      target_at(after_keyword(offset), {});
+      offset = argument_end(offset);
+      if (offset >= code_.size() || code_[offset] != ',') return;
+      ++offset;
+    }
+  }
+
+  /// Past "NAME =", where the argument is given by name.
+  std::size_t after_keyword(std::size_t offset) const {
+    const std::size_t begin = text_.skip_spaces(offset), end = text_.word_end(begin);
+    if (end == begin || at(end) != '=') return offset;
+    const std::size_t sign = text_.skip_spaces(end);
+    return code_.substr(sign).starts_with("==") ? offset : sign + 1;
+  }
+
+  /// The comma or parenthesis that ends the argument at `offset`.
+  std::size_t argument_end(std::size_t offset) const {
+    int depth = 0;
+    for (; offset < code_.size(); ++offset) {
+      const char letter = code_[offset];
+      if (depth == 0 && (letter == ',' || letter == ')')) return offset;
+      depth += letter == '(' || letter == '[' ? 1 : letter == ')' || letter == ']' ? -1 : 0;
+    }
+    return offset;
+  }
+
+  /// The target that an argument is: a literal, a variable that was given one, or a pose in get_inverse_kin().
+  void target_at(std::size_t offset, const ArmHint& hint) {
+    if (const auto literal = literal_at(offset)) return add(*literal, "", Numbers::or_expressions, hint);
+    const std::size_t begin = text_.skip_spaces(offset), end = text_.word_end(begin);
+    const std::string word(code_.substr(begin, end - begin));
+    if (word == "get_inverse_kin" && at(end) == '(') return inverse_kinematics(text_.skip_spaces(end));
+    const auto variable = assigned_.find(word);
+    const char after = at(end);
+    if (variable != assigned_.end() && (after == ',' || after == ')')) {
+      for (const std::size_t literal : variable->second) add(literal, word, Numbers::or_expressions, hint);
+    } else {
+      std::size_t first = begin;
+      const std::string argument(text_.trimmed(first, argument_end(begin)));
+      leave(program_, {.name = word, .place = text_.place(std::min(begin, code_.size()))},
+            "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
+    }
+  }
+
+  void inverse_kinematics(std::size_t open) {
+    const std::size_t second = argument_end(open + 1);
+    ArmHint hint;
+    if (second < code_.size() && code_[second] == ',') hint.near = joints_at(after_keyword(second + 1));
+    target_at(after_keyword(open + 1), hint);
+  }
+
+  /// The joints that a literal or a variable gives; empty where it gives none.
+  JointVector joints_at(std::size_t offset) const {
+    std::optional<std::size_t> literal = literal_at(offset);
+    const std::size_t begin = text_.skip_spaces(offset);
+    const auto variable = assigned_.find(std::string(code_.substr(begin, text_.word_end(begin) - begin)));
+    if (!literal && variable != assigned_.end()) literal = variable->second.front();
+    if (!literal || code_[*literal] != '[') return {};
+    const BracketItem list = read_list(text_, *literal, '[');
+    JointVector joints(arm_.size());
+    if (std::ssize(list.items) != arm_.size()) return {};
+    for (Eigen::Index i = 0; i < joints.size(); ++i) {
+      const BracketItem& item = list.items[static_cast<std::size_t>(i)];
+      const auto cell = cell_at(text_.text(), item.begin, item.size, {});
+      if (!cell) return {};
+      joints[i] = cell->value;
+    }
+    return joints;
+  }
+
+  /// Makes a target of the literal at `begin`, unless it is one already.
+  void add(std::size_t begin, const std::string& name, Numbers numbers, const ArmHint& hint) {
+    if (!seen_.insert(begin).second) return;
+    constexpr CellUnit kMetre{1.0, kDecimalsM}, kRadian{1.0, kDecimalsRad};
+    constexpr std::array<CellUnit, 6> kPose{kMetre, kMetre, kMetre, kRadian, kRadian, kRadian};
+    const bool pose = code_[begin] == 'p';
+    const BracketItem list = read_list(text_, pose ? text_.skip_spaces(begin + 1) : begin, '[');
+    Target target{.name = name, .place = text_.place(begin)};
+    if (list.items.size() != kPose.size()) {
+      text_.fail(begin, list.begin + list.size - begin,
+                 pose ? "must have six numbers: x, y, z and a rotation vector" : "must have six joint angles");
+    }
+    std::vector<CellUnit> units(kPose.begin(), kPose.end());
+    for (std::size_t i = 0; !pose && i < units.size(); ++i) {
+      units[i] = arm_.joints[i].type == JointType::revolute ? kRadian : kMetre;
+    }
+    const auto cells = cells_of(text_, list.items, units, numbers, program_, target);
+    if (!cells) return;
+    if (pose) {
+      target.position.assign(cells->begin(), cells->begin() + 3);
+      target.orientation.assign(cells->begin() + 3, cells->end());
+      target.form = OrientationForm::rotation_vector;
+      target.hint = hint;
+    } else {
+      target.joints = *cells;
+    }
+    program_.targets.push_back(std::move(target));
+  }
+
+  ProgramText text_;
+  std::string_view code_;
+  const Chain& arm_;
+  Program program_;
+  std::map<std::string, std::vector<std::size_t>> assigned_;
+  std::set<std::size_t> seen_;
+};
+
+}  // namespace
+
+Program read_urscript(std::string_view text, const std::string& file, const Chain& arm) {
+  return UrReader(text, file, arm).read();
+}
+
+}  // namespace demecal
