@@ -33,8 +33,7 @@ using Columns = std::vector<Column>;
 
 class CsvTargets {
  public:
-  CsvTargets(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {.line = '#'}), arm_(arm) {
+  CsvTargets(std::string_view text, const std::string& file, const Chain& arm) : text_(text, file, {}), arm_(arm) {
     program_.file = file;
   }
 
@@ -45,7 +44,8 @@ class CsvTargets {
       line_end_ = std::min(bytes.find('\n', begin), bytes.size());
       const std::size_t end = line_end_ > begin && bytes[line_end_ - 1] == '\r' ? line_end_ - 1 : line_end_;
       std::size_t first = begin;
-      if (text_.trimmed(first, end).empty()) continue;
+      const std::string_view line = text_.trimmed(first, end);
+      if (line.empty() || line.front() == '#') continue;
       names_.empty() ? read_header(begin, end) : read_row(begin, end);
     }
     if (names_.empty()) throw InputError({program_.file, 0}, "", "is empty; a header row is expected");

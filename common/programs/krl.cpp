@@ -66,7 +66,9 @@ class KrlReader {
   /// The words of the line before `at`, and the name that is assigned to.
   Context context_before(std::size_t at, std::string& name) const {
     const std::string_view code = text_.code();
+    constexpr std::size_t kFarthest = 1000;
     std::size_t begin = at == 0 ? 0 : code.rfind('\n', at - 1) + 1;
+    begin = std::max(begin, std::max(at, kFarthest) - kFarthest);
     Context context;
     while (begin < at) {
       if (!text_.begins_word(begin)) {

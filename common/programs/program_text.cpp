@@ -26,12 +26,13 @@ std::string blanked(std::string_view text, CommentStyle style) {
   if (text.starts_with("\xEF\xBB\xBF")) blank(0, 3);
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool starts_line = i == 0 || text[i - 1] == '\n';
-    const std::size_t end = line_end(text, i);
     if (text[i] == style.comment || (starts_line && style.line != '\0' && text[i] == style.line)) {
+      const std::size_t end = line_end(text, i);
       blank(i, end);
       i = end;
     } else if (text[i] == '"') {
-      const std::size_t quote = std::min(text.find('"', i + 1), end);
+      const std::size_t end = line_end(text, i);
+      const std::size_t quote = i + 1 + std::min(text.substr(i + 1, end - i - 1).find('"'), end - i - 1);
       blank(i + 1, quote);
       i = quote;
     }
