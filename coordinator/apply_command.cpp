@@ -8,7 +8,6 @@
 #include "config/model_text.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
-#include "programs/concerns.hpp"
 #include "programs/read_program.hpp"
 #include "programs/summary.hpp"
 
@@ -49,14 +48,6 @@ Language language_asked(const Request& request, const std::string& text) {
   return *language;
 }
 
-/// Prints the warnings, and returns how many there are.
-std::size_t warn(const CorrectedProgram& corrected, const CommandModel& model) {
-  const std::vector<std::string> of_all = concerns(corrected.program, model);
-  for (const std::string& sentence : of_all) fmt::print(stderr, "{}: {}\n", corrected.program.file, sentence);
-  for (const Remark& warning : corrected.warnings) fmt::print(stderr, "{}", warning_text(corrected, warning));
-  return of_all.size() + corrected.warnings.size();
-}
-
 ExitCode run(const Request& request) {
   const CommandModel model = model_of(request);
   const std::string text = read_file(request.program_file);
@@ -64,7 +55,8 @@ ExitCode run(const Request& request) {
   const CorrectedProgram corrected =
       correct_program(text, std::move(program), model,
                       {.payload_kg = request.payload_kg, .temperature_celsius = request.temperature_celsius});
-  const std::size_t warnings = warn(corrected, model);
+  for (const Remark& warning : corrected.warnings) fmt::print(stderr, "{}", warning_text(corrected, warning));
+  const std::size_t warnings = corrected.warnings.size();
   if (request.strict && warnings > 0) {
     fmt::print(stderr, "{}: nothing was written, because of {} warning{} and --strict\n", request.program_file,
                warnings, warnings == 1 ? "" : "s");

@@ -1,10 +1,13 @@
 #include "programs/command_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "errors/check.hpp"
+#include "kinematics/rotation_vector.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
@@ -12,6 +15,37 @@ namespace {
 /// Whether the effect is of the instrument's frame.
 bool is_of_instrument(const Effect& effect) {
   return effect.kind == "registration" || effect.kind == "drift" || effect.kind == "sensor_scale";
+}
+
+constexpr double kLargestToolError = 0.01;  ///< m
+constexpr double kLargestToolTurn = 0.05;   ///< rad
+
+/// Takes the tool point as it stands: nothing of it is wrong.
+void take_tool(CommandModel& model, const Eigen::Vector3d& tool_m) {
+  model.nominal.chain.tool_m = tool_m;
+  model.robot.tools[""] = Eigen::Isometry3d(Eigen::Translation3d(tool_m));
+  std::erase_if(model.robot.effects, [](const Effect& effect) { return effect.kind == "tool"; });
+}
+
+/// Leaves out what is not the described tool in error.
+void judge_tool(CommandModel& model) {
+  const Eigen::Vector3d described_m = model.nominal.chain.tool_m;
+  // A model of several targets on the tool need not hold the robot's own.
+  if (!model.robot.tools.contains("")) return take_tool(model, described_m);
+  Eigen::Isometry3d& tool = model.robot.tools.at("");
+  const double error_m = (tool.translation() - described_m).norm();
+  if (error_m > kLargestToolError) {
+    model.notes.push_back("the model has its tool point " + std::to_string(std::lround(millimetres(error_m))) +
+                          " mm from where the robot's description has it, as if another tool was measured; nothing of "
+                          "the tool is corrected, and the described one is taken (--tool-mm names another)");
+    return take_tool(model, described_m);
+  }
+  const double turn_rad = vector_of(tool.linear()).norm();
+  if (turn_rad > kLargestToolTurn) {
+    model.notes.push_back("the model has its tool turned by " + std::to_string(std::lround(degrees(turn_rad))) +
+                          " deg, as instruments' targets are mounted; that turn is not corrected");
+    tool.linear().setIdentity();
+  }
 }
 
 void narrow(std::optional<Interval>& range, const Interval& by) {
@@ -31,18 +65,11 @@ Eigen::Isometry3d CommandModel::nominal_tool(const JointVector& joints) const {
 
 CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
                            const std::optional<Eigen::Vector3d>& other_tool_m) {
-  CommandModel model{nominal, identified, std::move(bounds)};
+  CommandModel model{nominal, identified, std::move(bounds), {}};
   DEMECAL_CHECK(std::ssize(model.bounds) == nominal.chain.size(), model.bounds.size() << " bounds");
   model.robot.sensor_from_base.setIdentity();
   std::erase_if(model.robot.effects, is_of_instrument);
-  if (other_tool_m) {
-    model.nominal.chain.tool_m = *other_tool_m;
-    std::erase_if(model.robot.effects, [](const Effect& effect) { return effect.kind == "tool"; });
-  }
-  // A model of several targets on the tool need not hold the robot's own.
-  if (other_tool_m || !model.robot.tools.contains("")) {
-    model.robot.tools[""] = Eigen::Isometry3d(Eigen::Translation3d(model.nominal.chain.tool_m));
-  }
+  other_tool_m ? take_tool(model, *other_tool_m) : judge_tool(model);
   return model;
 }
 

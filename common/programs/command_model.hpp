@@ -15,10 +15,15 @@ namespace demecal {
 ///   and is not corrected.
 /// - Links, joint offsets, joint corrections and all effects of the arm do.
 /// - The tool does: the command brings the tool as it was identified to where the nominal robot has its nominal tool.
+/// But
+///   a tool point more than 10 mm from its description is the target of an instrument rather than that tool in error,
+///   and axes turned by more than 0.05 rad are how it is mounted: then the described ones are taken, and a note says
+///   so.
 struct CommandModel {
   Robot nominal;               ///< as its maker describes it; what the controller believes
   CorrectedRobot robot;        ///< predicts in the robot's own base frame
   std::vector<double> bounds;  ///< of each joint's correction (rad or m) over its range; infinite where none is stated
+  std::vector<std::string> notes{};  ///< sentences about the model that a user should know
 
   /// Where the nominal robot has its tool: base frame, axes of the flange.
   Eigen::Isometry3d nominal_tool(const JointVector& joints) const;

@@ -12,9 +12,8 @@
 namespace demecal {
 namespace {
 
-constexpr double kRounding = 1e-4;          ///< rad or m: files round, and the ends of ranges are poses themselves
-constexpr double kLargestUsual = 0.05;      ///< rad or m: errors of arms are a tenth of it
-constexpr double kLargestToolError = 0.01;  ///< m
+constexpr double kRounding = 1e-4;      ///< rad or m: files round, and the ends of ranges are poses themselves
+constexpr double kLargestUsual = 0.05;  ///< rad or m: errors of arms are a tenth of it
 
 std::string fixed(double value, int decimals) {
   std::array<char, 400> buffer;
@@ -56,7 +55,7 @@ void check_range(int joint, const Joint& link, const CorrectedTarget& corrected,
 JointVector without_formulas(const CorrectedTarget& corrected, const CommandModel& model) {
   CorrectedRobot robot = model.robot;
   for (JointCorrection& correction : robot.corrections) correction = {};
-  return command_reaching(robot, corrected.nominal_tool, corrected.nominal).q;
+  return command_reaching(robot, corrected.nominal_tool, corrected.stop).q;
 }
 
 void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, std::vector<std::string>& sentences) {
@@ -112,18 +111,12 @@ std::vector<std::string> concerns(const Target& target, const CorrectedTarget& c
 }
 
 std::vector<std::string> concerns(const Program& program, const CommandModel& model) {
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = model.notes;
   if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
   if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {
     sentences.emplace_back(
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
-  }
-  const double tool_error_m = (model.robot.tool("").translation() - model.nominal.chain.tool_m).norm();
-  if (tool_error_m > kLargestToolError) {
-    sentences.push_back("the model has its tool " + fixed(millimetres(tool_error_m), 1) +
-                        " mm away from where the robot's description has it, and corrects for that; where the program "
-                        "uses another tool than was measured, give --tool-mm");
   }
   return sentences;
 }

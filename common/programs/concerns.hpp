@@ -11,7 +11,7 @@ namespace demecal {
 /// A sentence for each thing that is not as it should be; none where all is well.
 std::vector<std::string> concerns(const Target& target, const CorrectedTarget& corrected, const CommandModel& model);
 
-/// The same of model and program as a whole, such as a tool that was identified far from where it is described.
+/// The same of the program, as read, as a whole, such as a tool that was identified far from where it is described.
 std::vector<std::string> concerns(const Program& program, const CommandModel& model);
 
 }  // namespace demecal

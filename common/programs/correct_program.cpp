@@ -81,8 +81,8 @@ class Corrector {
   }
 
   void command(const Target& target, CorrectedTarget& corrected) const {
-    const InverseSolution solution =
-        command_reaching(model_.robot, corrected.nominal_tool, stop_at(target, corrected.nominal));
+    corrected.stop = stop_at(target, corrected.nominal);
+    const InverseSolution solution = command_reaching(model_.robot, corrected.nominal_tool, corrected.stop);
     corrected.command = solution.q;
     corrected.outcome = solution.status == InverseStatus::converged ? Outcome::corrected : Outcome::nearest;
     corrected.left_m = solution.position_residual_m;
@@ -99,8 +99,8 @@ class Corrector {
       const auto solved = nominal_joints(model_.nominal.chain, tool, {.near = joints}, joints);
       if (!solved) return;
       joints = *solved;
-      const Eigen::Vector3d error =
-          corrected.nominal_tool.translation() - model_.robot.predict(stop_at(target, joints), "").translation();
+      const Eigen::Vector3d error = corrected.nominal_tool.translation() -
+                                    model_.robot.predict(corrected.stop.with_joints(joints), "").translation();
       const bool first = repetition == 0;
       if (first || error.norm() <= corrected.left_m) {
         corrected.command = joints;
@@ -145,7 +145,10 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
   Corrector corrector(model, circumstances);
-  result.warnings = result.program.left;
+  for (std::string& sentence : concerns(result.program, model)) {
+    result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
+  }
+  result.warnings.insert(result.warnings.end(), result.program.left.begin(), result.program.left.end());
   for (const Target& target : result.program.targets) {
     result.targets.push_back(corrector.correct(target));
     for (std::string& sentence : concerns(target, result.targets.back(), model)) {

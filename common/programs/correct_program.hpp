@@ -22,6 +22,7 @@ enum class Outcome {
 
 struct CorrectedTarget {
   Outcome outcome = Outcome::no_joints;
+  Stop stop{JointVector()};                      ///< the nominal joints and the circumstances they were corrected for
   JointVector nominal, command;                  ///< joints, rad or m: as the program means, and as it is to be sent
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
   double left_m = 0.0;                           ///< position error that the model predicts after correction

@@ -45,6 +45,9 @@ struct Target {
   bool is_pose() const { return joints.empty(); }
 };
 
+/// The place of remarks about a program as a whole.
+inline constexpr TextPlace kWholeProgram{0, 0};
+
 /// A sentence about a place in the program.
 struct Remark {
   TextPlace place;

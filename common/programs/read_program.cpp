@@ -32,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, Language>, 15> kEndings{{{"csv"
                                                                           {"urscript", Language::urscript}}};
 
 /// Words that only one of the languages has.
-constexpr std::array<std::pair<std::string_view, Language>, 15> kSigns{{{".locations", Language::val2},
+constexpr std::array<std::pair<std::string_view, Language>, 16> kSigns{{{".locations", Language::val2},
                                                                         {".program", Language::val2},
                                                                         {"robtarget", Language::rapid},
                                                                         {"jointtarget", Language::rapid},
@@ -46,7 +46,8 @@ constexpr std::array<std::pair<std::string_view, Language>, 15> kSigns{{{".locat
                                                                         {"movej", Language::urscript},
                                                                         {"movel(", Language::urscript},
                                                                         {"movep(", Language::urscript},
-                                                                        {"q1_", Language::csv}}};
+                                                                        {"q1_", Language::csv},
+                                                                        {"x_mm", Language::csv}}};
 
 }  // namespace
 

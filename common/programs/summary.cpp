@@ -108,8 +108,9 @@ std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
 }
 
 std::string warning_text(const CorrectedProgram& corrected, const Remark& warning) {
-  return fmt::format("{}:{}: {}{}\n", corrected.program.file, warning.place.line,
-                     warning.name.empty() ? "" : warning.name + ": ", warning.sentence);
+  const std::string line = warning.place.line > 0 ? fmt::format(":{}", warning.place.line) : "";
+  return fmt::format("{}{}: {}{}\n", corrected.program.file, line, warning.name.empty() ? "" : warning.name + ": ",
+                     warning.sentence);
 }
 
 }  // namespace demecal

@@ -148,7 +148,7 @@ TEST(CorrectedProgram, OfAnotherToolIsNotCorrectedForTheToolMeasured) {
   const Robot nominal = elbow_arm(stream);
   CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
   identified.corrections.assign(6, {});
-  identified.tools[""].translation() += Eigen::Vector3d(0.1, 0.0, 0.0);
+  identified.tools[""].translation() += Eigen::Vector3d(0.008, 0.0, 0.0);
   const std::vector<double> none(6, std::numeric_limits<double>::infinity());
   const std::string text = joints_line(Language::urscript, regular_joints(stream, nominal.chain), 1, 6);
   const Program program = read_urscript(text, "p", nominal.chain);

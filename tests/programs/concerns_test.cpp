@@ -77,17 +77,32 @@ TEST(Concerns, NamePosesOutOfReachAndLeaveThem) {
   EXPECT_EQ(moved_figures(corrected).left, 1);
 }
 
-TEST(Concerns, NameAToolThatIsFarFromItsDescription) {
+/// The one warning about a model whose tool is moved so, and that nothing is corrected for it.
+std::string only_warning(const Eigen::Isometry3d& tool) {
   RandomStream stream{7502};
   const Robot nominal = elbow_arm(stream);
   CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
-  identified.tools[""].translation().x() += 0.05;
-  const CommandModel model = unbounded_model(nominal, identified);
-  Program program;
-  program.targets.emplace_back().joints.resize(6);
-  const std::vector<std::string> sentences = concerns(program, model);
-  ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_THAT(sentences[0], HasSubstr("50.0 mm"));
+  identified.corrections.assign(6, {});
+  identified.tools[""] = identified.tools[""] * tool;
+  const CorrectedProgram corrected = corrected_joints(unbounded_model(nominal, identified), joints_with(0.5, 0.2));
+  EXPECT_EQ(corrected.targets[0].command, corrected.targets[0].nominal);
+  return corrected.warnings.size() == 1 ? corrected.warnings[0].sentence : "";
+}
+
+TEST(Concerns, NameAToolThatIsAnother) {
+  EXPECT_THAT(only_warning(Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.0, 0.0))), HasSubstr("50 mm"));
+  const Eigen::AngleAxisd mounted(0.5, Eigen::Vector3d::UnitY());
+  EXPECT_THAT(only_warning(Eigen::Isometry3d(mounted)), HasSubstr("turned by 29 deg"));
+}
+
+TEST(Concerns, DoNotLayTheApproachAtAFormulasDoor) {
+  CommandModel model = wave_model(2.1e-3);
+  model.robot.effects = {{.kind = "backlash", .joint = 1, .values = {0.002}}};
+  const std::string text = joints_line(Language::urscript, joints_with(0.4, 0.2), 1, 9) + '\n' +
+                           joints_line(Language::urscript, joints_with(0.05, 0.3), 2, 9);
+  const CorrectedProgram corrected = correct_program(text, read_urscript(text, "p", model.nominal.chain), model, {});
+  EXPECT_GT(std::abs(corrected.targets[1].command[1] - corrected.targets[1].nominal[1]), 2.2e-3);
+  EXPECT_TRUE(corrected.warnings.empty());
 }
 
 TEST(Summary, ShowsNominalCorrectedAndDifference) {

@@ -1,0 +1,82 @@
+// demecal apply: programs in, corrected programs out, and nothing written where something is wrong.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kVal2 =
+    ".PROGRAM t1\r\n MOVE #cp[1]\r\n.END\r\n.LOCATIONS\r\n#cp[1] 40.0 -30.5 140 5 -50 10.25\r\n"
+    "#cp[2] 35.0 -40.5 150 -5 -60 0\r\nmcp[1] 16384 0 0 0 -16384 0 0 0 -16384 9600 11200 -1600\r\n.END";
+constexpr const char* kCsv =
+    "name,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,note\na,40,-30.5,140,5,-50,10.25,\"x, y\"\n";
+
+/// A model found on simulated data, and files beside it.
+class Applied {
+ public:
+  Applied() {
+    const Ended ended = run("demecal", {"diagnose", job_.data(), "--declare", "registration,joint_corrections",
+                                        "--candidates", "joint_offset,gear_harmonic", "--out", job_.path("out")});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+  }
+
+  Ended apply(const std::string& program, const std::string& text, std::vector<std::string> more = {}) {
+    std::ofstream(job_.path(program), std::ios::binary) << text;
+    std::vector<std::string> arguments{"apply", job_.path("out/model.yaml"), job_.path(program), "--out",
+                                       job_.path("new-" + program)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("demecal", arguments);
+  }
+
+  std::string result(const std::string& program) const { return job_.text("new-" + program); }
+  bool wrote(const std::string& program) const { return std::filesystem::exists(job_.path("new-" + program)); }
+
+ private:
+  SmallJob job_;
+};
+
+TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
+  Applied applied;
+  const Ended val2 = applied.apply("a.v2", kVal2);
+  ASSERT_EQ(val2.code, 0) << val2.err;
+  EXPECT_NE(val2.out.find("3 targets corrected"), std::string::npos) << val2.out;
+  const std::string corrected = applied.result("a.v2");
+  EXPECT_EQ(corrected.substr(0, 54), std::string(kVal2).substr(0, 54));
+  EXPECT_NE(corrected, kVal2);
+  EXPECT_NE(corrected.find("\r\nmcp[1] 16384 0 0 0 -16384 0 0 0 -16384 "), std::string::npos) << corrected;
+  EXPECT_TRUE(corrected.ends_with("\r\n.END"));
+
+  const Ended csv = applied.apply("b.csv", kCsv, {"--json"});
+  ASSERT_EQ(csv.code, 0) << csv.err;
+  const Json summary = Json::parse(csv.out);
+  ASSERT_EQ(summary["targets"].size(), 1u);
+  EXPECT_EQ(summary["targets"][0]["nominal"].size(), 6u);
+  EXPECT_GT(summary["targets"][0]["moved_mm"], 0.1);
+  EXPECT_TRUE(applied.result("b.csv").ends_with(",\"x, y\"\n"));
+
+  const Ended broken = applied.apply("c.csv", "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n1,2,3,4,5,six\n");
+  EXPECT_EQ(broken.code, 11);
+  EXPECT_NE(broken.err.find("c.csv:2: 'six': must be a number (column 11)"), std::string::npos) << broken.err;
+  EXPECT_FALSE(applied.wrote("c.csv"));
+
+  const std::string outside = "#cp[1] 350 -30.5 140 5 -50 10.25\n";
+  EXPECT_EQ(applied.apply("d.v2", ".LOCATIONS\n" + outside).code, 0);
+  const Ended strict = applied.apply("e.v2", ".LOCATIONS\n" + outside, {"--strict"});
+  EXPECT_EQ(strict.code, 11);
+  EXPECT_NE(strict.err.find("e.v2:2: #cp[1]: joint 1 is sent to 350.0000 deg, outside its limits"), std::string::npos)
+      << strict.err;
+  EXPECT_FALSE(applied.wrote("e.v2"));
+
+  EXPECT_EQ(applied.apply("f.v2", kVal2, {"--language", "logo"}).code, 10);
+  EXPECT_EQ(applied.apply("g.txt", "hello\n").code, 11);
+}
+
+}  // namespace
+}  // namespace demecal
