@@ -59,7 +59,7 @@ JointVector without_formulas(const CorrectedTarget& corrected, const CommandMode
 }
 
 void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, std::vector<std::string>& sentences) {
-  const JointVector change = corrected.command - corrected.nominal;
+  const JointVector change = corrected.inverse - corrected.nominal;
   std::optional<JointVector> rest;
   for (int joint = 0; joint < change.size(); ++joint) {
     const double bound = model.bounds[static_cast<std::size_t>(joint)];

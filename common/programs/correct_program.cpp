@@ -83,7 +83,7 @@ class Corrector {
   void command(const Target& target, CorrectedTarget& corrected) const {
     corrected.stop = stop_at(target, corrected.nominal);
     const InverseSolution solution = command_reaching(model_.robot, corrected.nominal_tool, corrected.stop);
-    corrected.command = solution.q;
+    corrected.inverse = corrected.command = solution.q;
     corrected.outcome = solution.status == InverseStatus::converged ? Outcome::corrected : Outcome::nearest;
     corrected.left_m = solution.position_residual_m;
   }

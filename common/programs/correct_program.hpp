@@ -22,8 +22,9 @@ enum class Outcome {
 
 struct CorrectedTarget {
   Outcome outcome = Outcome::no_joints;
-  Stop stop{JointVector()};                      ///< the nominal joints and the circumstances they were corrected for
-  JointVector nominal, command;                  ///< joints, rad or m: as the program means, and as it is to be sent
+  Stop stop{JointVector()};      ///< the nominal joints and the circumstances they were corrected for
+  JointVector nominal, command;  ///< joints, rad or m: as the program means, and as it is to be sent
+  JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
   double left_m = 0.0;                           ///< position error that the model predicts after correction
   std::vector<std::string> texts{};              ///< of the cells, joints or position and then orientation; empty: kept

@@ -88,8 +88,8 @@ Candidate candidate(const Chain& arm, JointVector q, const ArmHint& hint, const 
 }
 
 bool better(const Candidate& one, const Candidate& other) {
-  if (one.contradicting != other.contradicting) return one.contradicting < other.contradicting;
   if (one.outside != other.outside) return other.outside;
+  if (one.contradicting != other.contradicting) return one.contradicting < other.contradicting;
   return one.distance < other.distance - 1e-6;
 }
 

@@ -8,8 +8,8 @@
 namespace demecal {
 
 /// Joints at which the nominal arm's tool point (chain.tool_m, axes of the flange) stands at `tool`; nothing where none
-/// were found. Of an arm's several configurations: those that contradict the hint least; of these, those within the
-/// joint limits; of these, the nearest to the hint's joints or, where it names none, to `reference`. The configurations
+/// were found. Of an arm's several configurations: those within the joint limits; of these, those that contradict the
+/// hint least; of these, the nearest to the hint's joints or, where it names none, to `reference`. The configurations
 /// are searched for from a fixed set of joints, so that a far one may be missed but the answer never varies.
 std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometry3d& tool, const ArmHint& hint,
                                           const JointVector& reference);
