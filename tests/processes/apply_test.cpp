@@ -48,7 +48,8 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
   ASSERT_EQ(val2.code, 0) << val2.err;
   EXPECT_NE(val2.out.find("3 targets corrected"), std::string::npos) << val2.out;
   const std::string corrected = applied.result("a.v2");
-  EXPECT_EQ(corrected.substr(0, 54), std::string(kVal2).substr(0, 54));
+  const std::string before_numbers = std::string(kVal2).substr(0, std::string(kVal2).find("40.0"));
+  EXPECT_TRUE(corrected.starts_with(before_numbers)) << corrected;
   EXPECT_NE(corrected, kVal2);
   EXPECT_NE(corrected.find("\r\nmcp[1] 16384 0 0 0 -16384 0 0 0 -16384 "), std::string::npos) << corrected;
   EXPECT_TRUE(corrected.ends_with("\r\n.END"));
