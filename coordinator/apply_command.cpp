@@ -35,7 +35,9 @@ CommandModel model_of(const Request& request) {
   const CalibratedModel model = load_model(request.model_file);
   std::optional<Eigen::Vector3d> tool_m;
   if (!request.tool_mm.empty()) tool_m = 1e-3 * Eigen::Map<const Eigen::Vector3d>(request.tool_mm.data());
-  return command_model(model.nominal, model.robot, bounds_of(model), tool_m);
+  const CorrectedRobot robot =
+      model.declared.registration ? without_base(model.robot, model.nominal.chain) : model.robot;
+  return command_model(model.nominal, robot, bounds_of(model), tool_m);
 }
 
 Language language_asked(const Request& request, const std::string& text) {

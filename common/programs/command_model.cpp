@@ -73,6 +73,19 @@ CommandModel command_model(const Robot& nominal, const CorrectedRobot& identifie
   return model;
 }
 
+CorrectedRobot without_base(CorrectedRobot identified, const Chain& nominal) {
+  Joint& first = identified.chain.joints.front();
+  const Joint& described = nominal.joints.front();
+  first.theta_rad = described.theta_rad;
+  first.d_m = described.d_m;
+  if (nominal.convention == Convention::modified_dh) {
+    first.a_m = described.a_m;
+    first.alpha_rad = described.alpha_rad;
+    first.beta_rad = described.beta_rad;
+  }
+  return identified;
+}
+
 std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint) {
   std::optional<Interval> range;
   const JointCorrection& correction = robot.corrections[static_cast<std::size_t>(joint)];

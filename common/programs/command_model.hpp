@@ -11,8 +11,7 @@ namespace demecal {
 /// What belongs to the correction of a command, and what does not:
 /// - Not the base's place in the instrument's frame, nor any effect of that frame (registration, drift, sensor_scale):
 ///   the robot that runs a program has no instrument. Poses are in the robot's own base frame. What a fit cannot tell
-///   from the base's place, such as d and the offset of joint 1, stays with the base where a registration is declared,
-///   and is not corrected.
+///   from the base's place stays with the base where a registration is declared: see without_base().
 /// - Links, joint offsets, joint corrections and all effects of the arm do.
 /// - The tool does: the command brings the tool as it was identified to where the nominal robot has its nominal tool.
 /// But
@@ -33,6 +32,11 @@ struct CommandModel {
 /// taken as it stands, and nothing of the tool is corrected.
 CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
                            const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
+
+/// `identified` with what no fit can tell from the base's place as `nominal` has it: theta and d of joint 1 (standard
+/// Denavit-Hartenberg), or all of joint 1 (modified). For models whose registration was fitted: how such a fit shares
+/// out base and first joint says nothing of the arm.
+CorrectedRobot without_base(CorrectedRobot identified, const Chain& nominal);
 
 /// The range that the model was calibrated in, of one joint (rad or m): where its correction and the effects that
 /// depend on it were measured. Nothing where the model states none.

@@ -143,6 +143,33 @@ TEST(CorrectedProgram, DoesNotDependOnWhereTheInstrumentStands) {
   EXPECT_EQ(correct_program(text, program, unbounded_model(nominal, identified), {}).text, here);
 }
 
+TEST(CorrectedProgram, DoesNotDependOnHowAFitSharesOutBaseAndFirstJoint) {
+  for (const Convention convention : {Convention::standard_dh, Convention::modified_dh}) {
+    RandomStream stream{7206, static_cast<std::uint64_t>(convention)};
+    Robot nominal = elbow_arm(stream);
+    nominal.chain.convention = convention;
+    CorrectedRobot identified = random_robot(stream, nominal.chain, 1e-3, 2e-3);
+    const CorrectedRobot first = without_base(identified, nominal.chain);
+    const Eigen::Isometry3d before = identified.predict(Stop(JointVector::Zero(6)), "");
+    // The same arm, its first joint raised and turned where its base is lowered and turned back.
+    const double raised_m = 0.033, turned_rad = -0.04;
+    identified.chain.joints[0].d_m += raised_m;
+    identified.chain.joints[0].theta_rad += turned_rad;
+    if (convention == Convention::standard_dh) {
+      identified.sensor_from_base = identified.sensor_from_base * Eigen::Translation3d(0.0, 0.0, -raised_m) *
+                                    Eigen::AngleAxisd(-turned_rad, Eigen::Vector3d::UnitZ());
+      EXPECT_TRUE(identified.predict(Stop(JointVector::Zero(6)), "").isApprox(before, 1e-12));
+    }
+    const CorrectedRobot second = without_base(identified, nominal.chain);
+    const JointVector joints = regular_joints(stream, nominal.chain);
+    const auto point = [&](const CorrectedRobot& robot) {
+      return unbounded_model(nominal, robot).robot.predict(Stop(joints), "");
+    };
+    EXPECT_TRUE(point(first).isApprox(point(second), 1e-12));
+    EXPECT_GT((point(first).translation() - point(identified).translation()).norm(), 0.01);
+  }
+}
+
 TEST(CorrectedProgram, OfAnotherToolIsNotCorrectedForTheToolMeasured) {
   RandomStream stream{7205};
   const Robot nominal = elbow_arm(stream);
