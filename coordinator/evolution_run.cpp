@@ -1,5 +1,8 @@
 #include "coordinator/evolution_run.hpp"
 
+#include <algorithm>
+#include <cstdio>
+
 #include "protocol/faults.hpp"
 
 namespace demecal {
@@ -9,6 +12,7 @@ constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kFarewell{2000};
 /// How long what the last holder of an island still had to tell may be on its way.
 constexpr std::chrono::milliseconds kBelated{500};
+constexpr int kMostDoublings = 10;
 
 }  // namespace
 
@@ -19,8 +23,13 @@ EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& ob
     : transport_(transport),
       state_(std::move(state)),
       observer_(observer),
-      assignment_(islands(state_.data().archipelago)) {
-  for (const Outcome& outcome : state_.outcomes()) assignment_.finish(outcome.island);
+      assignment_(islands(state_.data().archipelago)),
+      diligence_(state_.data().archipelago, Clock::now()) {
+  for (const Checkpoint& known : state_.checkpoints()) diligence_.reached(known.island, known.state.epoch, Clock::now());
+  for (const Outcome& outcome : state_.outcomes()) {
+    assignment_.finish(outcome.island);
+    diligence_.finished(outcome.island);
+  }
 }
 
 RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience patience) {
@@ -35,7 +44,9 @@ RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience pati
   }
   end(how == RunEnd::finished ? Control::State::finished : Control::State::cancelled);
   RunResult result = state_.result(how);
+  count_strangers();
   result.waited_share = std::move(waited_share_);
+  result.dropped = transport_.dropped();
   return result;
 }
 
@@ -49,6 +60,8 @@ RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patien
     if (assignment_.has_workers()) last_worker = now;
     if (now - last_tick >= kTick) {
       give_again();
+      set_idle_aside(patience.idle);
+      take_back(now);
       observer_.on_tick();
       last_tick = now;
     }
@@ -73,41 +86,99 @@ void EvolutionRun::receive(const Message& message) {
 }
 
 void EvolutionRun::take(const WorkerStatus& status) {
-  if (find_fault(status)) return;
+  if (const Fault fault = find_fault(status)) return transport_.drop(status.worker, *fault);
   if (status.only_run != 0 && status.only_run != state_.data().run) return;
   waited_share_[status.worker] = status.waited_share;
   if (status.leaving) {
     lose(status.worker);
     return;
   }
-  assignment_.add_worker(status.worker, status.slots);
+  Aside& aside = aside_[status.worker];
+  aside.slots = status.slots;
+  if (!aside.now) assignment_.add_worker(status.worker, status.slots);
   observer_.on_worker(status);
 }
 
+/// Whether a message of an island makes sense and comes from a worker that was given the island in this run, be it before
+/// another: what an earlier holder still has to tell is as good, since the state after an epoch is the same from every
+/// attempt. That the message comes from the worker that it names, the transport saw to. Not to be known from here is
+/// whether a worker computed what it tells: one that was let in without certificates can lie about its own islands.
+template <class IslandMessage>
+bool EvolutionRun::is_credible(const IslandMessage& message) {
+  constexpr std::size_t kMostStrangers = 1024;
+  if (message.run != state_.data().run) {
+    if (of_other_runs_.size() < kMostStrangers) ++of_other_runs_[message.worker];
+    return false;
+  }
+  const auto named = named_.find(message.island);
+  if (named == named_.end() || !named->second.contains(message.worker)) {
+    transport_.drop(message.worker, "it tells of an island that it was not given");
+    return false;
+  }
+  const Fault fault = find_fault(message, state_.data());
+  if (fault) transport_.drop(message.worker, *fault);
+  return !fault;
+}
+
 void EvolutionRun::take(const Progress& progress) {
-  if (!state_.take(progress)) return;
+  if (!is_credible(progress) || !state_.take(progress)) return;
   last_news_ = Clock::now();
   observer_.on_progress(progress);
 }
 
 void EvolutionRun::take(const Checkpoint& checkpoint) {
-  const auto given = given_.find(checkpoint.island);
-  if (given != given_.end() && given->second.attempt == checkpoint.attempt) given->second.answered = true;
+  if (!is_credible(checkpoint)) return;
+  Given& given = given_.at(checkpoint.island);
+  if (given.attempt == checkpoint.attempt && given.worker == checkpoint.worker) given.answered = true;
   if (!state_.take(checkpoint)) return;
   last_news_ = Clock::now();
+  diligence_.reached(checkpoint.island, checkpoint.state.epoch, last_news_);
   observer_.on_checkpoint(checkpoint);
 }
 
 void EvolutionRun::take(const Outcome& outcome) {
-  if (!state_.take(outcome)) return;
+  if (!is_credible(outcome) || !state_.take(outcome)) return;
   last_news_ = Clock::now();
   assignment_.finish(outcome.island);
+  diligence_.finished(outcome.island);
   observer_.on_outcome(outcome);
 }
 
 void EvolutionRun::lose(const std::string& worker) {
   assignment_.remove_worker(worker);
+  aside_.erase(worker);
   observer_.on_lost(worker);
+}
+
+/// Workers that hold an island which lacks nothing and does not get on; never the last one.
+void EvolutionRun::set_idle_aside(std::chrono::milliseconds patience) {
+  const Clock::time_point now = Clock::now();
+  for (const IslandKey island : diligence_.stalled(now, patience)) {
+    const std::string worker = assignment_.holder(island);
+    if (worker.empty() || assignment_.worker_count() < 2) continue;
+    Aside& aside = aside_[worker];
+    aside.now = true;
+    aside.until = now + patience * (1 << std::min(aside.times++, kMostDoublings));
+    assignment_.remove_worker(worker);
+    std::fprintf(stderr, "worker %s does not get on with its islands: others go on with them\n", worker.c_str());
+  }
+}
+
+/// Another chance, the later the more often it was idle; at once where nobody else is left.
+void EvolutionRun::take_back(Clock::time_point now) {
+  for (auto& [worker, aside] : aside_) {
+    if (!aside.now || (now < aside.until && assignment_.has_workers())) continue;
+    aside.now = false;
+    assignment_.add_worker(worker, aside.slots);
+  }
+}
+
+/// Workers tell of all the runs that they serve. Who tells of others and never said that it is a worker is a stranger.
+void EvolutionRun::count_strangers() {
+  for (const auto& [worker, count] : of_other_runs_) {
+    if (waited_share_.contains(worker)) continue;
+    for (std::uint64_t i = 0; i < count; ++i) transport_.drop(worker, "it tells of another run");
+  }
 }
 
 void EvolutionRun::hand_out() {
@@ -117,6 +188,8 @@ void EvolutionRun::hand_out() {
 void EvolutionRun::give(IslandKey island, const std::string& worker) {
   const IslandTask task = state_.task(island, given_[island].attempt + 1, worker);
   given_[island] = {worker, task.attempt, task.start.epoch, Clock::now(), false};
+  named_[island].insert(worker);
+  diligence_.given(island, given_[island].moment);
   transport_.publish(task);
 }
 

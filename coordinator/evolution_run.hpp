@@ -4,10 +4,12 @@
 #include <atomic>
 #include <chrono>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "coordinator/assignment.hpp"
+#include "coordinator/diligence.hpp"
 #include "coordinator/run_state.hpp"
 #include "transport/transport.hpp"
 
@@ -30,6 +32,7 @@ class RunObserver {
 struct RunPatience {
   std::chrono::milliseconds worker{30000};  ///< without any worker
   std::chrono::milliseconds news{10000};    ///< without news, where an island cannot be taken up
+  std::chrono::milliseconds idle{20000};    ///< without a worker's getting on with an island that lacks nothing
 };
 
 class EvolutionRun {
@@ -54,6 +57,14 @@ class EvolutionRun {
     bool answered = false;  ///< by a checkpoint
   };
 
+  /// A worker that is given no islands for a while, since it does not get on with them.
+  struct Aside {
+    std::uint32_t slots = 1;
+    Clock::time_point until;
+    int times = 0;  ///< so often so far
+    bool now = false;
+  };
+
   RunEnd work(const std::atomic<bool>& interrupt, RunPatience patience);
   void end(Control::State state);
   void receive(const Message& message);
@@ -61,7 +72,12 @@ class EvolutionRun {
   void take(const Progress& progress);
   void take(const Checkpoint& checkpoint);
   void take(const Outcome& outcome);
+  template <class IslandMessage>
+  bool is_credible(const IslandMessage& message);
   void lose(const std::string& worker);
+  void set_idle_aside(std::chrono::milliseconds patience);
+  void take_back(Clock::time_point now);
+  void count_strangers();
   void hand_out();
   void give(IslandKey island, const std::string& worker);
   void give_again();
@@ -70,7 +86,11 @@ class EvolutionRun {
   RunState state_;
   RunObserver& observer_;
   Assignment assignment_;
-  std::map<IslandKey, Given> given_;            ///< the last task of each island
+  Diligence diligence_;
+  std::map<IslandKey, Given> given_;                  ///< the last task of each island
+  std::map<IslandKey, std::set<std::string>> named_;  ///< whom tasks have given it
+  std::map<std::string, Aside> aside_;                ///< by worker
+  std::map<std::string, std::uint64_t> of_other_runs_;  ///< how much was heard, by worker
   std::map<std::string, double> waited_share_;  ///< by worker
   Clock::time_point last_news_;
 };

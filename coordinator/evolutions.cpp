@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "coordinator/progress_display.hpp"
+#include "errors/input_error.hpp"
+#include "protocol/faults.hpp"
 
 namespace demecal {
 namespace {
@@ -31,6 +33,16 @@ CalibrationData calibration_data(const Job& job, const std::vector<JointTraining
   for (const JointTraining& training : trainings) {
     data.archipelago.joints.push_back(training.joint);
     data.tables.push_back(training.table);
+  }
+  return data;
+}
+
+/// Data that workers would refuse are the user's error.
+CalibrationData believable(CalibrationData data) {
+  CalibrationData named = data;
+  named.run = 1;
+  if (const Fault fault = find_fault(named)) {
+    throw InputError({}, data.job, "no worker would take this job: " + *fault);
   }
   return data;
 }
@@ -91,7 +103,7 @@ Control::State state_told(RunEnd end) {
 
 std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training, bool shown) {
   if (training.empty()) return {};
-  RunState state = start_of(calibration_data(job_, training, options_.asynchronous));
+  RunState state = start_of(believable(calibration_data(job_, training, options_.asynchronous)));
   RunResult result = state.all_finished() ? state.result(RunEnd::finished) : evolve(std::move(state), shown);
   std::vector<JointCandidates> candidates = candidates_of(training, result);
   note(result, shown);
@@ -143,6 +155,7 @@ void Evolutions::note(RunResult& result, bool shown) {
   facts_.generations += result.generations;
   facts_.evaluations += result.evaluations;
   facts_.migrations += result.migrations;
+  facts_.dropped_samples += result.dropped;
   facts_.waited_share.merge(result.waited_share);
   if (shown) ++runs_;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "errors/input_error.hpp"
+#include "protocol/printable.hpp"
 #include "transport/dds.hpp"
 #include "worker/worker.hpp"
 
@@ -28,9 +29,9 @@ void on_alarm(int) {
 }
 
 std::string host_name() {
-  char name[256] = "unknown";
+  char name[128] = "unknown";
   ::gethostname(name, sizeof name - 1);
-  return name;
+  return demecal::printable(name);
 }
 
 /// Unique among all workers that may meet: host, process and the moment it started.

@@ -48,7 +48,7 @@ void Tenancy::run_epoch(const Population& immigrants, const std::function<void()
 }
 
 Migrants Tenancy::migrants() const {
-  return {run_->data.run, island(), epoch(), island_.emigrants()};
+  return {run_->data.run, island(), epoch(), island_.emigrants(), {}};
 }
 
 Progress Tenancy::progress(const std::string& worker) const {
@@ -76,7 +76,7 @@ std::optional<Checkpoint> Tenancy::due_checkpoint() {
   if (!due) return std::nullopt;
   checkpoint_epoch_ = epoch();
   checkpoint_sent_ = now;
-  return Checkpoint{run_->data.run, attempt_, island(), island_.state(), recent()};
+  return Checkpoint{run_->data.run, attempt_, island(), island_.state(), recent(), {}};
 }
 
 Outcome Tenancy::outcome(const std::string& worker) const {

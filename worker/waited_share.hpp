@@ -1,6 +1,7 @@
 // The share of some time that was spent waiting, kept up as what one waits for comes and goes.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 namespace demecal {
@@ -25,7 +26,7 @@ class WaitedShare {
   double at(Time now) const {
     WaitedShare until = *this;
     until.count_until(now);
-    return until.counted_s_ > 0.0 ? until.waited_s_ / until.counted_s_ : 0.0;
+    return until.counted_s_ > 0.0 ? std::min(until.waited_s_ / until.counted_s_, 1.0) : 0.0;
   }
 
  private:

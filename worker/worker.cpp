@@ -11,7 +11,13 @@ namespace {
 constexpr std::chrono::milliseconds kBeat = kLease / 5;
 constexpr std::chrono::milliseconds kFarewell{1000};
 constexpr std::chrono::milliseconds kAnnouncement{1000};
-constexpr std::size_t kMostEarlyMigrants = 4096;
+constexpr std::size_t kMostWaitingTasks = 65536, kMostEnded = 4096, kMostNamed = 1024;
+
+constexpr const char* kNotGiven = "migrants of an island that no task gives it";
+
+std::string coordinator_of(RunId run) {
+  return "the coordinator of run " + std::to_string(run);
+}
 
 }  // namespace
 
@@ -38,12 +44,13 @@ void Worker::receive(const Message& message) {
 }
 
 void Worker::take(const CalibrationData& data) {
-  if (ended_.contains(data.run) || runs_.contains(data.run) || find_fault(data)) return;
+  if (ended_.contains(data.run) || runs_.contains(data.run)) return;
   if (options_.only_run != 0 && data.run != options_.only_run) return;
+  if (const Fault fault = find_fault(data)) return transport_.drop(coordinator_of(data.run), *fault);
   runs_[data.run] = std::make_shared<RunData>(RunData{data});
-  for (const Migrants& migrants : std::exchange(early_migrants_, {})) take(migrants);
   const auto early = waiting_.extract(data.run);
   if (early.empty()) return;
+  waiting_tasks_ -= early.mapped().size();
   for (const auto& [island, task] : early.mapped()) take(task);
 }
 
@@ -51,12 +58,11 @@ void Worker::take(const IslandTask& task) {
   const Place place{task.run, task.island};
   if (ended_.contains(task.run)) return;
   const auto run = runs_.find(task.run);
-  if (run == runs_.end()) {
-    const auto [waiting, is_first] = waiting_[task.run].try_emplace(task.island, task);
-    if (!is_first && waiting->second.attempt < task.attempt) waiting->second = task;
-    return;
+  if (run == runs_.end()) return keep_for_later(task);
+  if (const Fault fault = find_fault(task, run->second->data)) {
+    return transport_.drop(coordinator_of(task.run), *fault);
   }
-  if (find_fault(task, run->second->data)) return;
+  name(task);
   std::uint32_t& highest = attempts_[place];
   if (task.attempt <= highest) return;
   highest = task.attempt;
@@ -64,12 +70,28 @@ void Worker::take(const IslandTask& task) {
   if (task.worker == options_.name) begin(task);
 }
 
+void Worker::keep_for_later(const IslandTask& task) {
+  if (options_.only_run != 0 && task.run != options_.only_run) return;
+  if (waiting_tasks_ >= kMostWaitingTasks) return transport_.drop(coordinator_of(task.run), "a task without data");
+  const auto [waiting, is_first] = waiting_[task.run].try_emplace(task.island, task);
+  if (is_first) ++waiting_tasks_;
+  if (!is_first && waiting->second.attempt < task.attempt) waiting->second = task;
+}
+
+/// Whoever was given an island, now or before, may send its migrants: those of an epoch are the same from each.
+void Worker::name(const IslandTask& task) {
+  std::set<std::string>& named = named_[{task.run, task.island}];
+  if (named.size() >= kMostNamed || !named.insert(task.worker).second) return;
+  for (const Migrants& migrants : unproven_.take(task.worker, task.run, task.island)) take(migrants);
+}
+
 void Worker::begin(const IslandTask& task) {
   const auto tenancy = std::make_shared<Tenancy>(runs_.at(task.run), task);
   tenancies_[{task.run, task.island}] = tenancy;
   transport_.follow_migrants(task.island.joint);
   for (const IslandKey& source : tenancy->sources()) transport_.follow_migrants(source.joint);
-  for (const Migrants& migrants : tenancy->recent()) {
+  for (Migrants migrants : tenancy->recent()) {
+    migrants.worker = options_.name;
     inboxes_[task.run].put(migrants);
     transport_.publish(migrants);
   }
@@ -77,19 +99,25 @@ void Worker::begin(const IslandTask& task) {
   if (tenancy->finished()) transport_.publish(tenancy->outcome(options_.name));
 }
 
+/// Not from anybody: a forged emigration would change the run, since the first of an epoch is taken. A worker that the
+/// coordinator gave the island can still lie; certificates keep out whom one does not trust.
 void Worker::take(const Migrants& migrants) {
+  if (ended_.contains(migrants.run)) return;
+  if (options_.only_run != 0 && migrants.run != options_.only_run) return;
   const auto run = runs_.find(migrants.run);
-  if (run == runs_.end()) {
-    if (!ended_.contains(migrants.run) && early_migrants_.size() < kMostEarlyMigrants)
-      early_migrants_.push_back(migrants);
+  const auto named = named_.find({migrants.run, migrants.island});
+  if (run == runs_.end() || named == named_.end() || !named->second.contains(migrants.worker)) {
+    if (!unproven_.put(migrants)) transport_.drop(migrants.worker, kNotGiven);
     return;
   }
-  if (!find_fault(migrants, run->second->data)) inboxes_[migrants.run].put(migrants);
+  if (const Fault fault = find_fault(migrants, run->second->data)) return transport_.drop(migrants.worker, *fault);
+  inboxes_[migrants.run].put(migrants);
 }
 
 void Worker::take(const Control& control) {
   if (control.state == Control::State::running) return;
   ended_.insert(control.run);
+  if (ended_.size() > kMostEnded) ended_.erase(ended_.begin());  // numbers of runs grow with time
   forget_run(control.run);
 }
 
@@ -141,11 +169,15 @@ void Worker::finish(const std::shared_ptr<Tenancy>& done) {
   const auto found = tenancies_.find(place);
   if (found == tenancies_.end() || found->second != done) return;  // given to another worker meanwhile
   Tenancy& tenancy = *done;
-  const Migrants migrants = tenancy.migrants();
+  Migrants migrants = tenancy.migrants();
+  migrants.worker = options_.name;
   inboxes_[place.first].put(migrants);
   transport_.publish(migrants);
   transport_.publish(tenancy.progress(options_.name));
-  if (const auto checkpoint = tenancy.due_checkpoint()) transport_.publish(*checkpoint);
+  if (auto checkpoint = tenancy.due_checkpoint()) {
+    checkpoint->worker = options_.name;
+    transport_.publish(*checkpoint);
+  }
   if (!tenancy.finished()) return;
   announce(false);  // the share it waited, before the run can be over
   transport_.publish(tenancy.outcome(options_.name));
@@ -169,7 +201,15 @@ void Worker::forget_run(RunId run) {
   std::erase_if(attempts_, of_run);
   runs_.erase(run);
   inboxes_.erase(run);
-  waiting_.erase(run);
+  if (const auto waiting = waiting_.extract(run)) waiting_tasks_ -= waiting.mapped().size();
+  // Who held an island before this worker came is not known here: nobody is accused.
+  std::set<std::string> named;
+  for (const auto& [place, workers] : named_)
+    if (place.first == run) named.insert(workers.begin(), workers.end());
+  std::erase_if(named_, of_run);
+  for (const auto& [worker, count] : unproven_.forget(run)) {
+    for (std::size_t i = 0; i < count && !named.contains(worker); ++i) transport_.drop("", kNotGiven);
+  }
 }
 
 void Worker::keep_alive() {

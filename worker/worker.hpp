@@ -13,6 +13,7 @@
 #include "worker/inbox.hpp"
 #include "worker/slots.hpp"
 #include "worker/tenancy.hpp"
+#include "worker/unproven.hpp"
 
 namespace demecal {
 
@@ -40,6 +41,8 @@ class Worker {
   void take(const IslandTask& task);
   void take(const Migrants& migrants);
   void take(const Control& control);
+  void name(const IslandTask& task);
+  void keep_for_later(const IslandTask& task);
   void begin(const IslandTask& task);
   void start_ready();
   WaitedShare::Time note_waiting();
@@ -54,11 +57,13 @@ class Worker {
   std::map<RunId, std::shared_ptr<const RunData>> runs_;
   std::map<RunId, Inbox> inboxes_;
   std::map<RunId, std::map<IslandKey, IslandTask>> waiting_;  ///< tasks that came before their run's data
-  std::vector<Migrants> early_migrants_;                      ///< the same of migrants
+  std::size_t waiting_tasks_ = 0;
+  Unproven unproven_;  ///< migrants of runs without data, or whose sender no task has named
+  std::map<Place, std::set<std::string>> named_;  ///< whom tasks have given an island
   std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
   std::map<Place, std::uint32_t> attempts_;  ///< highest seen, ours or another's
   std::set<std::shared_ptr<Tenancy>> busy_;
-  std::set<RunId> ended_;
+  std::set<RunId> ended_;  ///< the last ones
   Slots<std::shared_ptr<Tenancy>> slots_;
   std::uint64_t beats_seen_ = 0;
   WaitedShare slots_waited_;

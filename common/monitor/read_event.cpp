@@ -6,6 +6,7 @@
 #include "errors/input_error.hpp"
 #include "monitor/event_line.hpp"
 #include "monitor/event_words.hpp"
+#include "protocol/printable.hpp"
 #include "report/json_value.hpp"
 
 namespace demecal {
@@ -13,6 +14,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+/// Text of a file that anybody may have written, fit for a terminal.
+std::string shown(const JsonValue& json) {
+  return printable(json.text());
+}
 
 /// A number that is written as text; 0 where it is empty or missing.
 std::uint64_t named_number(const JsonValue& json) {
@@ -46,7 +52,7 @@ Value one_of(const JsonValue& json, const std::array<Value, size>& values) {
 Message read_run(const JsonValue& json) {
   CalibrationData data;
   data.run = named_number(json["run"]);
-  data.job = json["job"].text();
+  data.job = shown(json["job"]);
   data.seed = json["seed"].count().value_or(0);
   data.parameters.population_size = static_cast<int>(small_count(json["population_size"]));
   data.parameters.number_generations = static_cast<int>(small_count(json["generations"]));
@@ -61,7 +67,7 @@ Message read_progress(const JsonValue& json) {
   Progress progress;
   progress.run = named_number(json["run"]);
   progress.island = {place(json["joint"]), place(json["island"])};
-  progress.worker = json["worker"].text();
+  progress.worker = shown(json["worker"]);
   progress.epoch = small_count(json["epoch"]);
   progress.generation = small_count(json["generation"]);
   progress.figures = {json["best_fitness"].number().value_or(kInfinity),
@@ -79,15 +85,15 @@ Message read_run_state(const JsonValue& json) {
   using State = Control::State;
   return Control{named_number(json["run"]),
                  one_of(json["state"], std::array{State::running, State::finished, State::cancelled}),
-                 json["note"].text()};
+                 shown(json["note"])};
 }
 
 Message read_worker(const JsonValue& json) {
-  return WorkerStatus{.worker = json["worker"].text(),
-                      .host = json["host"].text(),
+  return WorkerStatus{.worker = shown(json["worker"]),
+                      .host = shown(json["host"]),
                       .process = small_count(json["process"]),
                       .slots = small_count(json["slots"]),
-                      .version = json["version"].text(),
+                      .version = shown(json["version"]),
                       .leaving = json["leaving"].truth().value_or(false),
                       .only_run = named_number(json["only_run"]),
                       .waited_share = json["waited_share"].number().value_or(0.0)};
@@ -96,8 +102,8 @@ Message read_worker(const JsonValue& json) {
 LoopNews read_news(const JsonValue& json) {
   LoopNews news;
   news.calibration = named_number(json["calibration"]);
-  news.job = json["job"].text();
-  news.text = json["text"].text();
+  news.job = shown(json["job"]);
+  news.text = shown(json["text"]);
   return news;
 }
 
@@ -115,16 +121,16 @@ Message read_round(const JsonValue& json) {
   news.round = small_count(json["round"]);
   if (news.round == 0) json["round"].refuse("must be a whole number from 1");
   news.verdict = one_of(json["verdict"], std::array{added, rejected, none});
-  news.kind = json["kind"].text();
+  news.kind = shown(json["kind"]);
   news.joint = small_count(json["joint"]);
-  news.label = json["label"].text();
+  news.label = shown(json["label"]);
   news.validation_before_m = 1e-3 * json["validation_before_mm"].number().value_or(kNotANumber);
   news.validation_after_m = 1e-3 * json["validation_after_mm"].number().value_or(kNotANumber);
   return news;
 }
 
 Message read_worker_lost(const JsonValue& json) {
-  return WorkerLost{json["worker"].text()};
+  return WorkerLost{shown(json["worker"])};
 }
 
 Message read_calibration_lost(const JsonValue& json) {

@@ -9,6 +9,13 @@ namespace {
 
 constexpr std::size_t kMostVariables = 255;
 
+Fault size_fault(const GpParameters& p) {
+  if (p.population_size > kMostIndividuals) return "more individuals than are believed";
+  if (p.number_generations > kMostGenerations) return "more generations than are believed";
+  if (p.invalid_attempts > kMostAttempts) return "more attempts at an offspring than are believed";
+  return std::nullopt;
+}
+
 Fault archipelago_fault(const Archipelago& a) {
   if (a.joints.empty() || a.joints.size() > kMostJoints) return "no joints, or too many";
   if (std::adjacent_find(a.joints.begin(), a.joints.end(), std::greater_equal<>()) != a.joints.end())
@@ -27,7 +34,7 @@ bool is_finite_column(const std::vector<double>& column, std::size_t rows) {
 
 Fault table_fault(const TrainingTable& table) {
   const std::size_t rows = table.target.size();
-  if (rows == 0) return "a table without rows";
+  if (rows == 0 || rows > kMostRows) return "a table without rows, or with too many";
   if (table.variables.empty() || table.variables.size() > kMostVariables)
     return "a table without variables, or with too many";
   for (const auto& column : table.variables)
@@ -44,6 +51,7 @@ Fault table_fault(const TrainingTable& table) {
 Fault find_fault(const CalibrationData& data) {
   if (data.run == 0) return "run 0 names no run";
   if (const auto fault = find_fault(data.parameters)) return fault->key + " = " + fault->value + " " + fault->rule;
+  if (auto fault = size_fault(data.parameters)) return fault;
   if (auto fault = archipelago_fault(data.archipelago)) return fault;
   if (data.archipelago.migrants > static_cast<std::uint32_t>(data.parameters.population_size))
     return "more migrants than individuals";

@@ -12,31 +12,37 @@ namespace demecal {
 /// Why a message is refused: a sentence for a log.
 using Fault = std::optional<std::string>;
 
-/// At most as many joints, and islands of one joint, are believed.
+/// More than any job needs is not believed: memory is claimed by these numbers.
 inline constexpr std::size_t kMostJoints = 64;
-inline constexpr std::uint32_t kMostDemes = 1024;
+inline constexpr std::uint32_t kMostDemes = 1024;  ///< islands of one joint
+inline constexpr int kMostIndividuals = 100'000;   ///< of one island
+inline constexpr int kMostGenerations = 100'000'000;
+inline constexpr int kMostAttempts = 100'000;  ///< at a valid offspring
+inline constexpr std::size_t kMostRows = 1'000'000;
+inline constexpr std::uint32_t kMostSlots = 4096;  ///< of one worker
 
-/// Parameters hold their rules; joints ascending and below kMostJoints; counts positive; one table per joint whose
-/// columns are finite and as long as each other, with weights from 0 to 1.
+/// Parameters hold their rules and the bounds above; joints ascending and below kMostJoints; counts positive; one table
+/// per joint whose columns are finite and as long as each other, with weights from 0 to 1.
 Fault find_fault(const CalibrationData& data);
 
 /// The island is one of the run's, worker named, the start state consistent, recent emigrations its own. As for all
 /// that follow, `data` is that of the message's run; a message of another run is a fault.
 Fault find_fault(const IslandTask& task, const CalibrationData& data);
 /// The island is one of the run's, the epoch is one it can have completed, no more individuals than agreed, all valid.
+/// Who sends them is not asked: that is a matter of who was given the island.
 Fault find_fault(const Migrants& migrants, const CalibrationData& data);
-/// The island is one of the run's, the counters are ones it can reach, the worker is named.
+/// The island is one of the run's, counters and figures are ones it can reach, the worker is named.
 Fault find_fault(const Progress& progress, const CalibrationData& data);
 /// The island is one of the run's, the state consistent, recent emigrations its own.
 Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data);
 /// The island is one of the run's, all generations are bred, the front valid, the worker named.
 Fault find_fault(const Outcome& outcome, const CalibrationData& data);
 
-/// The worker is named and has at least one slot.
+/// The worker is named, has a believable number of slots, and waited for a share from 0 to 1.
 Fault find_fault(const WorkerStatus& status);
 
-/// A population of a joint with `variables` variables: every tree valid and no deeper than allowed, every fitness at
-/// least 0 (infinite is allowed, NaN is not).
+/// A population of a joint with `variables` variables: every tree valid, no deeper and no longer than allowed, every
+/// fitness at least 0 (infinite is allowed, NaN is not).
 Fault find_fault(const Population& population, const GpParameters& parameters, int variables);
 
 }  // namespace demecal

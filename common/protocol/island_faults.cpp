@@ -75,12 +75,27 @@ Fault recent_fault(const std::vector<Migrants>& recent, const IslandKey& island,
   return std::nullopt;
 }
 
+bool is_share(double value) {
+  return value >= 0.0 && value <= 1.0;
+}
+
+Fault figures_fault(const Progress& progress) {
+  const IslandFigures& figures = progress.figures;
+  if (!(figures.best >= 0.0) || !(figures.median >= 0.0)) return "a fitness is negative or not a number";
+  if (!is_share(figures.diversity) || !is_share(progress.waited_share)) return "a share outside 0 to 1";
+  if (!(progress.evaluations_per_s >= 0.0) || !std::isfinite(progress.evaluations_per_s))
+    return "a speed that is negative or not finite";
+  return std::nullopt;
+}
+
 }  // namespace
 
 Fault find_fault(const Population& population, const GpParameters& parameters, int variables) {
   for (const Individual& individual : population) {
     if (!is_valid(individual.tree, variables)) return "a tree is no complete formula";
     if (depth(individual.tree) > parameters.max_tree_depth) return "a tree is too deep";
+    if (parameters.max_tree_nodes != 0 && individual.tree.size() > static_cast<std::size_t>(parameters.max_tree_nodes))
+      return "a tree has too many nodes";
     if (!(individual.fitness >= 0.0)) return "a fitness is negative or not a number";
   }
   return std::nullopt;
@@ -96,6 +111,7 @@ Fault find_fault(const Migrants& migrants, const CalibrationData& data) {
 
 Fault find_fault(const IslandTask& task, const CalibrationData& data) {
   if (auto fault = island_fault(task, data)) return fault;
+  if (task.attempt == 0) return "attempt 0";
   if (task.worker.empty()) return "a task for nobody";
   if (auto fault = state_fault(task.start, bounds_of(task.island, data))) return fault;
   return recent_fault(task.recent, task.island, task.start.epoch, data);
@@ -107,7 +123,7 @@ Fault find_fault(const Progress& progress, const CalibrationData& data) {
   const Bounds bounds = bounds_of(progress.island, data);
   if (progress.epoch > bounds.epochs() || progress.generation > bounds.generations())
     return "more epochs or generations than the run has";
-  return std::nullopt;
+  return figures_fault(progress);
 }
 
 Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data) {
@@ -126,7 +142,8 @@ Fault find_fault(const Outcome& outcome, const CalibrationData& data) {
 
 Fault find_fault(const WorkerStatus& status) {
   if (status.worker.empty()) return "no worker is named";
-  if (status.slots < 1) return "a worker without slots";
+  if (status.slots < 1 || status.slots > kMostSlots) return "a worker without slots, or with too many";
+  if (!is_share(status.waited_share)) return "a share outside 0 to 1";
   return std::nullopt;
 }
 

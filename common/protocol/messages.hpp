@@ -38,6 +38,7 @@ struct Migrants {
   IslandKey island;
   std::uint32_t epoch = 0;  ///< epochs completed when they left: 1 after the first
   Population individuals;
+  std::string worker{};  ///< who sends them; empty within another message
 
   bool operator==(const Migrants&) const = default;
 };
@@ -80,6 +81,7 @@ struct Checkpoint {
   IslandKey island;
   IslandState state;
   std::vector<Migrants> recent;  ///< its last kMigrantEpochs emigrations
+  std::string worker{};
 
   bool operator==(const Checkpoint&) const = default;
 };

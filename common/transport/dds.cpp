@@ -21,8 +21,14 @@ using std::chrono::steady_clock;
 class DdsTransport final : public Transport {
  public:
   DdsTransport(const DdsOptions& options, Role role, const std::string& name)
-      : role_(role), name_(name), participant_(options, role, name) {
-    inbox_.is_own = [this](const auto& publication) { return participant_.is_own(publication); };
+      : role_(role), name_(name), inbox_(role), participant_(options, role, name) {
+    // A coordinator knows what its own herald repeats of a run that goes on.
+    inbox_.is_own = [this](const auto& publication) {
+      return participant_.is_own(publication) ||
+             (role_ == Role::coordinator && participant_.is_of_this_process(publication));
+    };
+    inbox_.secured = !options.security.empty();
+    inbox_.name_of = [this](const ParticipantId& participant) { return participant_.name_of(participant); };
     for (const Topic topic : kTopics)
       if (topic != Topic::migrants) join_topic({topic, 0});
   }
@@ -33,7 +39,8 @@ class DdsTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override;
   void assert_alive() override;
   bool flush(milliseconds patience) override;
-  std::uint64_t unreadable() const override { return inbox_.unreadable; }
+  void drop(const std::string& source, const std::string& why) override { inbox_.dropped.note(source, why); }
+  std::uint64_t dropped() const override { return inbox_.dropped.count(); }
 
  private:
   void join_topic(DdsWriters::Place place);
@@ -85,6 +92,7 @@ void DdsTransport::note_status(const WorkerStatus& status) {
 std::optional<Message> DdsTransport::receive(milliseconds patience) {
   participant_.tell_unproven();
   writers_.catch_up();
+  inbox_.owners.release(steady_clock::now());
   auto message = inbox_.mailbox.take(patience);
   if (message)
     if (const RunId ended = ended_run(*message)) writers_.withdraw(ended);

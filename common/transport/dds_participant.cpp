@@ -13,6 +13,7 @@
 #include "transport/dds_participant_qos.hpp"
 #include "transport/dds_qos.hpp"
 #include "transport/dds_security.hpp"
+#include "transport/dds_types.hpp"
 
 namespace demecal {
 namespace {
@@ -93,6 +94,10 @@ Owned<dds::DataReader> DdsParticipant::make_reader(demecal::Topic which, std::ui
 
 bool DdsParticipant::is_own(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const {
   return eprosima::fastrtps::rtps::iHandle2GUID(publication).guidPrefix == participant_->guid().guidPrefix;
+}
+
+bool DdsParticipant::is_of_this_process(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const {
+  return eprosima::fastrtps::rtps::iHandle2GUID(publication).is_on_same_process_as(participant_->guid());
 }
 
 dds::Topic* DdsParticipant::topic(demecal::Topic which, std::uint32_t joint) {

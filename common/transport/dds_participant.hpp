@@ -39,6 +39,10 @@ class DdsParticipant {
 
   /// Whether the writer with this handle is one of this participant's.
   bool is_own(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
+  /// Whether the writer is of this process: of a participant whose GUID is not made of a name.
+  bool is_of_this_process(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
+  /// What a participant that is there calls itself; its GUID prefix where it is not known.
+  std::string name_of(const ParticipantId& participant) { return refusals_.name_of(participant); }
 
   /// Says who has had long enough to prove its identity, and has not; to be called now and then.
   void tell_unproven() { refusals_.tell_unproven(std::chrono::steady_clock::now()); }

@@ -3,11 +3,13 @@
 #include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
+#include <algorithm>
 #include <charconv>
 
 #include "errors/input_error.hpp"
 #include "transport/dds_qos.hpp"
 #include "transport/dds_security.hpp"
+#include "transport/participant_of.hpp"
 
 namespace demecal {
 namespace {
@@ -85,6 +87,7 @@ void set_discovery(rtps::BuiltinAttributes& builtin, const DdsOptions& options) 
 dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role, const std::string& name) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(name);
+  if (role == Role::worker) std::ranges::copy(participant_of(name), qos.wire_protocol().prefix.value);
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBuffer_bytes;
   udp->receiveBufferSize = kSocketBuffer_bytes;

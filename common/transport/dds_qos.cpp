@@ -1,9 +1,5 @@
 #include "transport/dds_qos.hpp"
 
-#include <memory>
-
-#include "calibrationPubSubTypes.h"
-
 namespace demecal {
 namespace {
 
@@ -20,17 +16,6 @@ dds::ResourceLimitsQosPolicy no_limits() {
   limits.max_samples_per_instance = 0;
   limits.allocated_samples = 1;
   return limits;
-}
-
-/// Sequences without a bound make the generated types claim megabytes, which every sample would then occupy: buffers
-/// begin at this size and grow as they must.
-constexpr std::uint32_t kFirstBuffer_bytes = 256;
-
-template <class PubSubType>
-dds::TypeSupport lean() {
-  auto type = std::make_unique<PubSubType>();
-  type->m_typeSize = kFirstBuffer_bytes;
-  return dds::TypeSupport(type.release());
 }
 
 /// What the two ends of a topic must agree on, and what is set alike on both.
@@ -83,30 +68,6 @@ std::string topic_name(Topic topic, std::uint32_t joint) {
       break;
   }
   return "demecal/1/worker";
-}
-
-dds::TypeSupport topic_type(Topic topic) {
-  switch (topic) {
-    case Topic::data:
-      return lean<wire::CalibrationDataPubSubType>();
-    case Topic::task:
-      return lean<wire::IslandTaskPubSubType>();
-    case Topic::control:
-      return lean<wire::ControlPubSubType>();
-    case Topic::migrants:
-      return lean<wire::MigrantsPubSubType>();
-    case Topic::progress:
-      return lean<wire::ProgressPubSubType>();
-    case Topic::checkpoint:
-      return lean<wire::CheckpointPubSubType>();
-    case Topic::outcome:
-      return lean<wire::OutcomePubSubType>();
-    case Topic::loop:
-      return lean<wire::LoopNewsPubSubType>();
-    case Topic::worker:
-      break;
-  }
-  return lean<wire::WorkerStatusPubSubType>();
 }
 
 dds::DataWriterQos writer_qos(Topic topic) {

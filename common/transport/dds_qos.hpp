@@ -1,9 +1,8 @@
-// The quality of service, name and type of each topic, as idl/calibration.idl states them.
+// The quality of service and name of each topic, as idl/calibration.idl states them.
 #pragma once
 
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
 #include <string>
 
 #include "transport/topic.hpp"
@@ -12,7 +11,6 @@ namespace demecal {
 
 /// The name on the wire; `joint` (from 0) matters for migrants alone.
 std::string topic_name(Topic topic, std::uint32_t joint = 0);
-eprosima::fastdds::dds::TypeSupport topic_type(Topic topic);
 
 eprosima::fastdds::dds::DataWriterQos writer_qos(Topic topic);
 /// As the topic's writers offer it where `reliably`, else BEST_EFFORT: what passes while one looks.

@@ -29,26 +29,59 @@ class Receiver : public dds::DataReaderListener {
     dds::SampleInfo info;
     while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data || inbox_.is_own(info.publication_handle)) continue;
+      const WriterId writer = writer_id(info.publication_handle);
       auto message = decode(sample);
-      if (message)
-        deliver(std::move(*message), info.publication_handle);
-      else
-        ++inbox_.unreadable;
+      if (message) {
+        deliver(std::move(*message), writer);
+      } else {
+        drop(writer, "it cannot be read");
+      }
     }
   }
 
  protected:
   template <class Plain>
-  void deliver(Plain message, const InstanceHandle_t& publication) {
-    if constexpr (std::is_same_v<Plain, WorkerStatus>)
-      inbox_.presence.heard(writer_id(publication), std::move(message));
-    else if constexpr (std::is_same_v<Plain, LoopNews>)
-      inbox_.heralds.heard(writer_id(publication), std::move(message));
-    else
-      inbox_.mailbox.put(std::move(message));
+  void deliver(Plain message, const WriterId& writer) {
+    const ParticipantId source = participant_of(writer);
+    if constexpr (requires { inbox_.owners.heard(source, "", std::move(message), Time()); }) {
+      inbox_.owners.heard(source, inbox_.name_of(source), std::move(message), std::chrono::steady_clock::now());
+    } else if constexpr (std::is_same_v<Plain, LoopNews>) {
+      if (!inbox_.heralds.heard(writer, std::move(message))) drop(writer, "news of a calibration that is another's");
+    } else if (!may_speak_for(source, message)) {
+      drop(writer, "it speaks for worker " + message.worker);
+    } else if constexpr (std::is_same_v<Plain, WorkerStatus>) {
+      inbox_.presence.heard(writer, std::move(message));
+    } else if (!inbox_.mailbox.put(source, std::move(message))) {
+      drop(writer, "more than can be kept");
+    }
   }
 
   Inbox& inbox_;
+
+ private:
+  using Time = RunOwners::Time;
+
+  /// Figures are told to watchers by heralds too, of workers that are gone.
+  template <class Plain>
+  bool may_speak_for(const ParticipantId& source, const Plain& message) const {
+    if (inbox_.secured || (std::is_same_v<Plain, Progress> && inbox_.role == Role::watcher)) return true;
+    return source == participant_of(message.worker);
+  }
+
+  void drop(const WriterId& writer, const std::string& why) {
+    inbox_.dropped.note(inbox_.name_of(participant_of(writer)), why);
+  }
+};
+
+/// Hears also of those whose writer of data goes.
+class DataReceiver final : public Receiver<wire::CalibrationData> {
+ public:
+  using Receiver::Receiver;
+
+  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+    const WriterId writer = writer_id(status.last_publication_handle);
+    if (status.current_count_change < 0) inbox_.owners.departed(participant_of(writer));
+  }
 };
 
 /// Hears also of workers that fall silent.
@@ -82,7 +115,7 @@ class LoopReceiver final : public Receiver<wire::LoopNews> {
 std::unique_ptr<dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox) {
   switch (topic) {
     case Topic::data:
-      return std::make_unique<Receiver<wire::CalibrationData>>(inbox);
+      return std::make_unique<DataReceiver>(inbox);
     case Topic::task:
       return std::make_unique<Receiver<wire::IslandTask>>(inbox);
     case Topic::control:

@@ -1,7 +1,10 @@
 #include "transport/dds_refusals.hpp"
 
 #include <fastrtps/utils/IPLocator.h>
+#include <algorithm>
 #include <cstdio>
+
+#include "protocol/printable.hpp"
 
 namespace demecal {
 namespace {
@@ -12,12 +15,9 @@ namespace rtps = eprosima::fastrtps::rtps;
 /// How long a handshake may take on a busy machine.
 constexpr std::chrono::seconds kHandshake{5};
 
-/// What it calls itself, and where it says it is.
-std::string describe(const rtps::ParticipantProxyData& participant) {
-  std::string text = "'" + participant.m_participantName.to_string() + "'";
-  if (!participant.default_locators.unicast.empty())
-    text += " at " + rtps::IPLocator::ip_to_string(participant.default_locators.unicast[0]);
-  return text;
+std::string place_of(const rtps::ParticipantProxyData& participant) {
+  if (participant.default_locators.unicast.empty()) return "";
+  return " at " + rtps::IPLocator::ip_to_string(participant.default_locators.unicast[0]);
 }
 
 bool shows_certificate(const rtps::ParticipantProxyData& participant) {
@@ -35,7 +35,9 @@ void Refusals::on_participant_discovery(dds::DomainParticipant*, rtps::Participa
   }
   const bool certified = shows_certificate(found.info);
   const bool settled = !secured_ && !certified;
-  Other& other = others_.try_emplace(found.info.m_guid, describe(found.info), Clock::now(), settled).first->second;
+  const std::string name = printable(found.info.m_participantName.to_string());
+  Other& other =
+      others_.try_emplace(found.info.m_guid, name, place_of(found.info), Clock::now(), settled).first->second;
   if (secured_ && !certified) tell(other, "is refused: it shows no certificate");
   if (!secured_ && certified)
     tell(other, "does not talk to this one: it demands a certificate, which --security would show");
@@ -50,6 +52,15 @@ void Refusals::onParticipantAuthentication(dds::DomainParticipant*, rtps::Partic
   other->second.settled = true;
 }
 
+std::string Refusals::name_of(const ParticipantId& participant) {
+  Guid guid;
+  std::ranges::copy(participant, guid.guidPrefix.value);
+  guid.entityId = eprosima::fastrtps::rtps::c_EntityId_RTPSParticipant;
+  const std::lock_guard lock(mutex_);
+  const auto other = others_.find(guid);
+  return other == others_.end() || other->second.name.empty() ? "participant " + text_of(participant) : other->second.name;
+}
+
 void Refusals::tell_unproven(Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   for (auto& [guid, other] : others_)
@@ -57,7 +68,7 @@ void Refusals::tell_unproven(Clock::time_point now) {
 }
 
 void Refusals::tell(Other& other, const std::string& what) const {
-  if (!silent_ && !other.settled) std::fprintf(stderr, "%s %s\n", other.name.c_str(), what.c_str());
+  if (!silent_ && !other.settled) std::fprintf(stderr, "'%s'%s %s\n", other.name.c_str(), other.place.c_str(), what.c_str());
   other.settled = true;
 }
 

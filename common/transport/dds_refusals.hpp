@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 
+#include "transport/participant_of.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal {
@@ -24,13 +25,17 @@ class Refusals final : public eprosima::fastdds::dds::DomainParticipantListener 
   void onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant* participant,
                                    eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& result) override;
 
+  /// What a participant that is there calls itself; its GUID prefix where it is not known.
+  std::string name_of(const ParticipantId& participant);
+
   /// Whoever begins a handshake is not told that the other end does not accept it: only that it takes no end.
   void tell_unproven(Clock::time_point now);
 
  private:
   using Guid = eprosima::fastrtps::rtps::GUID_t;
   struct Other {
-    std::string name;  ///< with where it is
+    std::string name;
+    std::string place;  ///< where it says that it is
     Clock::time_point found;
     bool settled;  ///< whether it was accepted, or spoken of
   };

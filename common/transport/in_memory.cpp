@@ -9,6 +9,7 @@
 
 #include "errors/check.hpp"
 #include "transport/mailbox.hpp"
+#include "transport/run_owners.hpp"
 #include "transport/topic.hpp"
 
 namespace demecal {
@@ -16,15 +17,32 @@ namespace {
 
 /// What the exchange knows of a participant.
 struct Member {
-  Member(Role r, std::string n) : role(r), name(std::move(n)) {}
+  Member(Role r, std::string n) : role(r), name(std::move(n)), owners(mailbox, dropped, role == Role::worker) {}
 
   bool follows(const TopicKey& key) const {
     return reads(role, key.topic) && (key.topic != Topic::migrants || joints.contains(key.island.joint));
   }
 
+  /// What another said.
+  void hear(const Member& sender, const Message& message) {
+    std::visit(
+        [&](const auto& plain) {
+          const auto now = std::chrono::steady_clock::now();
+          if constexpr (requires { owners.heard(sender.id, "", plain, now); }) {
+            owners.heard(sender.id, sender.name, plain, now);
+          } else if (!mailbox.put(sender.id, plain)) {
+            dropped.note(sender.name, "more than can be kept");
+          }
+        },
+        message);
+  }
+
   const Role role;
   const std::string name;
+  ParticipantId id{};
   Mailbox mailbox;
+  DroppedSamples dropped;
+  RunOwners owners;
   std::set<std::uint32_t> joints;
 };
 
@@ -42,6 +60,7 @@ class Exchange {
   void enter(Member* member) {
     const std::lock_guard lock(mutex_);
     members_.push_back(member);
+    member->id = id_of(++entered_);
     catch_up(*member, [member](const TopicKey& key) { return member->follows(key); });
   }
 
@@ -51,8 +70,9 @@ class Exchange {
     const bool is_lost = has_announced_itself(*member);
     const std::set<std::uint64_t> calibrations = calibrations_of(*member);
     kept_.erase(member);
-    for (const std::uint64_t calibration : calibrations) tell(Topic::loop, CalibrationLost{calibration});
-    if (is_lost) tell(Topic::worker, WorkerLost{member->name});
+    for (const std::uint64_t calibration : calibrations) tell(*member, Topic::loop, CalibrationLost{calibration});
+    if (is_lost) tell(*member, Topic::worker, WorkerLost{member->name});
+    for (Member* other : members_) other->owners.departed(member->id);
   }
 
   void follow(Member* member, std::uint32_t joint) {
@@ -74,15 +94,23 @@ class Exchange {
     values.push_back({++published_, message});
     if (values.size() > static_cast<std::size_t>(values_kept(key.topic))) values.pop_front();
     for (Member* member : members_)
-      if (member != sender && member->follows(key)) member->mailbox.put(message);
+      if (member != sender && member->follows(key)) member->hear(*sender, message);
   }
 
  private:
   using Values = std::map<TopicKey, std::deque<Kept>>;
 
-  void tell(Topic topic, const Message& message) {
+  /// No two members have the same, whatever their names.
+  static ParticipantId id_of(std::uint64_t number) {
+    ParticipantId id{};
+    for (std::size_t i = 0; i < sizeof number; ++i) id[i] = static_cast<std::uint8_t>(number >> (8 * i));
+    return id;
+  }
+
+  /// Says of a member what it does not say itself.
+  void tell(const Member& of, Topic topic, const Message& message) {
     for (Member* member : members_)
-      if (reads(member->role, topic)) member->mailbox.put(message);
+      if (reads(member->role, topic)) member->mailbox.put(of.id, message);
   }
 
   /// Those whose news it has told.
@@ -95,12 +123,12 @@ class Exchange {
 
   template <class Predicate>
   void catch_up(Member& newcomer, Predicate wanted) {
-    std::map<std::uint64_t, const Message*> in_order;
+    std::map<std::uint64_t, std::pair<const Member*, const Message*>> in_order;
     for (const auto& [sender, values] : kept_)
       for (const auto& [key, waiting] : values)
         if (sender != &newcomer && wanted(key))
-          for (const Kept& kept : waiting) in_order.emplace(kept.number, &kept.message);
-    for (const auto& [number, message] : in_order) newcomer.mailbox.put(*message);
+          for (const Kept& kept : waiting) in_order.emplace(kept.number, std::pair(sender, &kept.message));
+    for (const auto& [number, kept] : in_order) newcomer.hear(*kept.first, *kept.second);
   }
 
   /// Whether it has said that it is there, and not that it leaves.
@@ -118,7 +146,7 @@ class Exchange {
   std::mutex mutex_;
   std::vector<Member*> members_;
   std::map<const Member*, Values> kept_;
-  std::uint64_t published_ = 0;
+  std::uint64_t published_ = 0, entered_ = 0;
 };
 
 namespace {
@@ -134,11 +162,16 @@ class InMemoryTransport final : public Transport {
   InMemoryTransport& operator=(const InMemoryTransport&) = delete;
 
   void publish(const Message& message) override { exchange_->publish(&member_, message); }
-  std::optional<Message> receive(std::chrono::milliseconds patience) override { return member_.mailbox.take(patience); }
+  std::optional<Message> receive(std::chrono::milliseconds patience) override {
+    member_.owners.release(std::chrono::steady_clock::now());
+    return member_.mailbox.take(patience);
+  }
   void wake() override { member_.mailbox.wake(); }
   void follow_migrants(std::uint32_t joint) override { exchange_->follow(&member_, joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
+  void drop(const std::string& source, const std::string& why) override { member_.dropped.note(source, why); }
+  std::uint64_t dropped() const override { return member_.dropped.count(); }
 
  private:
   std::shared_ptr<Exchange> exchange_;

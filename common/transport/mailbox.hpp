@@ -4,27 +4,47 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 
 #include "protocol/messages.hpp"
+#include "transport/participant_of.hpp"
 
 namespace demecal {
 
-/// First in, first out, between any number of threads.
+/// First in, first out for each source; between sources turn by turn, so that one that floods makes the others wait for
+/// one message at a time. Between any number of threads.
 class Mailbox {
  public:
-  void put(Message message);
-  /// The oldest message, or nothing after `patience` or when woken. A wake() that finds nobody waiting is kept for the
-  /// next take() that finds no message.
+  /// What waits from one source is kept below so many messages, and so many bytes as far as they can be weighed.
+  explicit Mailbox(std::size_t most = 4096, std::size_t most_bytes = 256 << 20)
+      : most_(most), most_bytes_(most_bytes) {}
+
+  /// Whether there was room. Where there is none, the message takes the place of the oldest one of its source and key,
+  /// as writers that keep their last value do, or is dropped where none of its key waits.
+  bool put(const ParticipantId& source, Message message);
+  /// The oldest message of the source whose turn it is, or nothing after `patience` or when woken. A wake() that finds
+  /// nobody waiting is kept for the next take() that finds no message.
   std::optional<Message> take(std::chrono::milliseconds patience);
   void wake();
 
  private:
+  struct Waiting {
+    std::deque<Message> messages;
+    std::size_t bytes = 0;
+  };
+  bool make_room(Waiting& waiting, const Message& message);
+
+  std::size_t most_, most_bytes_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Message> messages_;
+  std::map<ParticipantId, Waiting> sources_;  ///< those of which anything waits
+  ParticipantId served_{};                    ///< last
   bool woken_ = false;
 };
+
+/// About how much memory a message takes.
+std::size_t weight_bytes(const Message& message);
 
 }  // namespace demecal

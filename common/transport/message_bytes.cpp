@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "transport/wire_form.hpp"
+#include "transport/wire_shape.hpp"
 
 namespace demecal {
 namespace {
@@ -28,10 +29,12 @@ std::string to_bytes(const Plain& message) {
 
 template <class Plain>
 std::optional<Plain> message_of(std::string_view bytes) {
+  using Wire = decltype(encode(Plain{}));
+  if (!has_shape<Wire>(bytes, Endian::little)) return std::nullopt;
   std::string copy(bytes);  // the library takes no read-only bytes
   FastBuffer buffer(copy.data(), copy.size());
   Cdr stream(buffer, Cdr::LITTLE_ENDIANNESS);
-  decltype(encode(Plain{})) encoded;
+  Wire encoded;
   try {
     encoded.deserialize(stream);
   } catch (const std::exception&) {
@@ -42,12 +45,22 @@ std::optional<Plain> message_of(std::string_view bytes) {
 }
 
 template std::string to_bytes(const CalibrationData&);
+template std::string to_bytes(const IslandTask&);
+template std::string to_bytes(const Migrants&);
 template std::string to_bytes(const Progress&);
 template std::string to_bytes(const Checkpoint&);
 template std::string to_bytes(const Outcome&);
+template std::string to_bytes(const WorkerStatus&);
+template std::string to_bytes(const Control&);
+template std::string to_bytes(const LoopNews&);
 template std::optional<CalibrationData> message_of(std::string_view);
+template std::optional<IslandTask> message_of(std::string_view);
+template std::optional<Migrants> message_of(std::string_view);
 template std::optional<Progress> message_of(std::string_view);
 template std::optional<Checkpoint> message_of(std::string_view);
 template std::optional<Outcome> message_of(std::string_view);
+template std::optional<WorkerStatus> message_of(std::string_view);
+template std::optional<Control> message_of(std::string_view);
+template std::optional<LoopNews> message_of(std::string_view);
 
 }  // namespace demecal

@@ -9,8 +9,7 @@
 
 namespace demecal {
 
-/// `Plain` is CalibrationData, Progress, Checkpoint or Outcome. Numbers come back to the bit; text longer than its
-/// bound is cut off.
+/// `Plain` is any message that travels. Numbers come back to the bit; text longer than its bound is cut off.
 template <class Plain>
 std::string to_bytes(const Plain& message);
 

@@ -10,8 +10,9 @@
 
 namespace demecal {
 
-/// What DDS calls a publication handle.
+/// What DDS calls a publication handle: a participant's GUID prefix, and which of its writers.
 using WriterId = std::array<std::uint8_t, 16>;
+ParticipantId participant_of(const WriterId& writer);
 
 /// Puts statuses and losses into a mailbox in the order in which they are true. Any thread may call.
 class Presence {
@@ -32,7 +33,7 @@ class Presence {
     WorkerStatus status;
     bool lost = false;
   };
-  void lose(Worker& worker);
+  void lose(const WriterId& writer, Worker& worker);
 
   Mailbox& mailbox_;
   std::mutex mutex_;
@@ -44,8 +45,8 @@ class Heralds {
  public:
   explicit Heralds(Mailbox& mailbox) : mailbox_(mailbox) {}
 
-  /// News were read: put as they are.
-  void heard(const WriterId& writer, LoopNews news);
+  /// News were read: put, unless another writer tells of that calibration; whether they were.
+  bool heard(const WriterId& writer, LoopNews news);
   /// The writer is gone for good, whether or not it had said all.
   void departed(const WriterId& writer);
 

@@ -39,6 +39,10 @@ TopicKey key_of(const Message& message) {
   return std::visit(KeyOf{}, message);
 }
 
+bool is_sent(const Message& message) {
+  return !std::holds_alternative<WorkerLost>(message) && !std::holds_alternative<CalibrationLost>(message);
+}
+
 Topic topic_of(const Message& message) {
   return key_of(message).topic;
 }

@@ -13,6 +13,8 @@ enum class Topic { data, task, control, migrants, progress, checkpoint, outcome,
 inline constexpr std::array kTopics{Topic::data,       Topic::task,    Topic::control, Topic::migrants, Topic::progress,
                                     Topic::checkpoint, Topic::outcome, Topic::worker,  Topic::loop};
 
+/// Whether a message travels; the others are made by the transport that delivers them.
+bool is_sent(const Message& message);
 /// The topic of a message; a WorkerLost has none, and asking is a broken promise.
 Topic topic_of(const Message& message);
 

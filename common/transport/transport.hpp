@@ -20,7 +20,8 @@ enum class Role { coordinator, worker, herald, watcher };
 /// Every message is delivered to all participants whose role reads it, never to the sender. Those who come late get the
 /// last value of every key of data, tasks, control, progress, checkpoints, outcomes, worker status and loop news, and
 /// the last `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and
-/// until a Control says that the run is over. A slow reader may miss values between, never the last; there is no order
+/// until a Control says that the run is over. Tasks and control of a run are delivered after its data and only from the
+/// participant that published those (see RunOwners). A slow reader may miss values between, never the last; there is no order
 /// between topics. Watchers hold nobody up: they may miss control and worker status, and nobody waits for them.
 class Transport {
  public:
@@ -39,8 +40,12 @@ class Transport {
   /// Whether all that was published has reached those who read it, within `patience`; save for data and progress, since
   /// whoever still reads those only watches.
   virtual bool flush(std::chrono::milliseconds patience) = 0;
-  /// Messages dropped so far because they could not be read.
-  virtual std::uint64_t unreadable() const { return 0; }
+  /// Counts a message from `source` (a worker's name, or words for another) that its receiver does not act on, and why;
+  /// told on standard error once for each source, and not of one without a name.
+  virtual void drop(const std::string& /*source*/, const std::string& /*why*/) {}
+  /// Messages dropped so far: by the receiver, and those that could not be read, came from who may not say so, or from
+  /// one that sends more than can be kept.
+  virtual std::uint64_t dropped() const { return 0; }
 };
 
 inline constexpr std::chrono::milliseconds kLease{2000};

@@ -134,8 +134,8 @@ wire::CalibrationData encode(const CalibrationData& message) {
 std::optional<CalibrationData> decode(const wire::CalibrationData& message) {
   auto parameters = decode(message.parameters());
   auto archipelago = decode(message.archipelago());
-  if (!parameters || !archipelago) return std::nullopt;
-  CalibrationData decoded{message.run(),          message.job().to_string(), message.seed(),
+  if (!parameters || !archipelago || message.run() == 0) return std::nullopt;
+  CalibrationData decoded{message.run(),          decode_text(message.job()), message.seed(),
                           std::move(*parameters), std::move(*archipelago),   {}};
   for (const wire::TrainingTable& table : message.tables()) decoded.tables.push_back(decode(table));
   return decoded;

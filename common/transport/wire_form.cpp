@@ -39,6 +39,13 @@ wire::RunState encode(Control::State state) {
   return wire::CANCELLED;
 }
 
+/// The island of a message that has a run and one of each.
+template <class Wire>
+std::optional<IslandKey> decode_island(const Wire& message) {
+  if (message.run() == 0 || message.joint() == 0 || message.deme() == 0) return std::nullopt;
+  return IslandKey{message.joint() - 1, message.deme() - 1};
+}
+
 }  // namespace
 
 wire::IslandTask encode(const IslandTask& message) {
@@ -52,11 +59,11 @@ wire::IslandTask encode(const IslandTask& message) {
 }
 
 std::optional<IslandTask> decode(const wire::IslandTask& message) {
-  const auto island = decode_island(message.joint(), message.deme());
+  const auto island = decode_island(message);
   auto start = decode(message.start());
   auto recent = decode(message.recent());
   if (!island || !start || !recent) return std::nullopt;
-  return IslandTask{message.run(),     *island,           message.attempt(), message.worker().to_string(),
+  return IslandTask{message.run(),     *island,           message.attempt(), decode_text(message.worker()),
                     std::move(*start), std::move(*recent)};
 }
 
@@ -65,14 +72,15 @@ wire::Migrants encode(const Migrants& message) {
   encode_island(encoded, message);
   encoded.epoch(message.epoch);
   encoded.individuals(encode(message.individuals));
+  encoded.worker(message.worker);
   return encoded;
 }
 
 std::optional<Migrants> decode(const wire::Migrants& message) {
-  const auto island = decode_island(message.joint(), message.deme());
+  const auto island = decode_island(message);
   auto individuals = decode(message.individuals());
   if (!island || !individuals) return std::nullopt;
-  return Migrants{message.run(), *island, message.epoch(), std::move(*individuals)};
+  return Migrants{message.run(), *island, message.epoch(), std::move(*individuals), decode_text(message.worker())};
 }
 
 wire::Progress encode(const Progress& message) {
@@ -94,11 +102,11 @@ wire::Progress encode(const Progress& message) {
 }
 
 std::optional<Progress> decode(const wire::Progress& message) {
-  const auto island = decode_island(message.joint(), message.deme());
+  const auto island = decode_island(message);
   if (!island) return std::nullopt;
   return Progress{message.run(),
                   *island,
-                  message.worker().to_string(),
+                  decode_text(message.worker()),
                   message.epoch(),
                   message.generation(),
                   {message.best(), message.median(), message.best_length(), message.diversity()},
@@ -115,15 +123,17 @@ wire::Checkpoint encode(const Checkpoint& message) {
   encoded.attempt(message.attempt);
   encoded.state(encode(message.state));
   encoded.recent(encode(message.recent));
+  encoded.worker(message.worker);
   return encoded;
 }
 
 std::optional<Checkpoint> decode(const wire::Checkpoint& message) {
-  const auto island = decode_island(message.joint(), message.deme());
+  const auto island = decode_island(message);
   auto state = decode(message.state());
   auto recent = decode(message.recent());
   if (!island || !state || !recent) return std::nullopt;
-  return Checkpoint{message.run(), message.attempt(), *island, std::move(*state), std::move(*recent)};
+  return Checkpoint{message.run(),      message.attempt(),  *island,
+                    std::move(*state), std::move(*recent), decode_text(message.worker())};
 }
 
 wire::Outcome encode(const Outcome& message) {
@@ -139,13 +149,13 @@ wire::Outcome encode(const Outcome& message) {
 }
 
 std::optional<Outcome> decode(const wire::Outcome& message) {
-  const auto island = decode_island(message.joint(), message.deme());
+  const auto island = decode_island(message);
   auto front = decode(message.front());
   if (!island || !front) return std::nullopt;
   return Outcome{message.run(),
                  message.attempt(),
                  *island,
-                 message.worker().to_string(),
+                 decode_text(message.worker()),
                  message.generations(),
                  message.evaluations(),
                  message.migrants_taken(),
@@ -166,9 +176,10 @@ wire::WorkerStatus encode(const WorkerStatus& message) {
 }
 
 std::optional<WorkerStatus> decode(const wire::WorkerStatus& message) {
+  if (message.worker().size() == 0) return std::nullopt;
   return WorkerStatus{
-      message.worker().to_string(),  message.host().to_string(), message.process(),  message.slots(),
-      message.version().to_string(), message.leaving(),          message.only_run(), message.waited_share()};
+      decode_text(message.worker()),  decode_text(message.host()), message.process(),  message.slots(),
+      decode_text(message.version()), message.leaving(),          message.only_run(), message.waited_share()};
 }
 
 wire::Control encode(const Control& message) {
@@ -181,8 +192,8 @@ wire::Control encode(const Control& message) {
 
 std::optional<Control> decode(const wire::Control& message) {
   const auto state = decode(message.state());
-  if (!state) return std::nullopt;
-  return Control{message.run(), *state, message.note().to_string()};
+  if (!state || message.run() == 0) return std::nullopt;
+  return Control{message.run(), *state, decode_text(message.note())};
 }
 
 }  // namespace demecal

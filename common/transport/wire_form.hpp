@@ -19,8 +19,9 @@ wire::WorkerStatus encode(const WorkerStatus& message);
 wire::Control encode(const Control& message);
 wire::LoopNews encode(const LoopNews& message);
 
-/// The message; nothing where a code is unknown, a number below its first or a count disagrees with another. Whether
-/// the message makes sense in its run is not asked here, but by protocol/faults.hpp.
+/// The message, its texts made printable; nothing where a code is unknown, a number below its first, a count disagrees
+/// with another, a constant is not finite, or the run, the worker or the calibration is none. Whether the message makes
+/// sense in its run is not asked here, but by protocol/faults.hpp.
 std::optional<CalibrationData> decode(const wire::CalibrationData& message);
 std::optional<IslandTask> decode(const wire::IslandTask& message);
 std::optional<Migrants> decode(const wire::Migrants& message);

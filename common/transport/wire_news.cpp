@@ -1,4 +1,4 @@
-#include "transport/wire_form.hpp"
+#include "transport/wire_population.hpp"
 
 #include <array>
 #include <utility>
@@ -55,17 +55,17 @@ wire::LoopNews encode(const LoopNews& message) {
 std::optional<LoopNews> decode(const wire::LoopNews& message) {
   const auto stage = decode(kStages, message.stage());
   const auto verdict = decode(kVerdicts, message.verdict());
-  if (!stage || !verdict) return std::nullopt;
+  if (!stage || !verdict || message.calibration() == 0) return std::nullopt;
   return LoopNews{.calibration = message.calibration(),
                   .round = message.round(),
                   .run = message.run(),
                   .stage = *stage,
-                  .job = message.job().to_string(),
-                  .text = message.text().to_string(),
+                  .job = decode_text(message.job()),
+                  .text = decode_text(message.text()),
                   .verdict = *verdict,
-                  .kind = message.kind().to_string(),
+                  .kind = decode_text(message.kind()),
                   .joint = message.joint(),
-                  .label = message.label().to_string(),
+                  .label = decode_text(message.label()),
                   .validation_before_m = message.validation_before_m(),
                   .validation_after_m = message.validation_after_m()};
 }

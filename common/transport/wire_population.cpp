@@ -1,5 +1,6 @@
 #include "transport/wire_population.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace demecal {
@@ -47,7 +48,7 @@ std::optional<Tree> decode(const wire::Formula& formula) {
       node.variable = *variable++;
     }
     if (node.primitive == Primitive::constant) {
-      if (constant == formula.constants().end()) return std::nullopt;
+      if (constant == formula.constants().end() || !std::isfinite(*constant)) return std::nullopt;
       node.value = *constant++;
     }
     tree.push_back(node);
@@ -103,11 +104,6 @@ std::vector<wire::Migrants> encode(const std::vector<Migrants>& emigrations) {
 
 std::optional<std::vector<Migrants>> decode(const std::vector<wire::Migrants>& emigrations) {
   return decode_each<Migrants>(emigrations);
-}
-
-std::optional<IslandKey> decode_island(std::uint32_t joint, std::uint32_t deme) {
-  if (joint == 0 || deme == 0) return std::nullopt;
-  return IslandKey{joint - 1, deme - 1};
 }
 
 }  // namespace demecal

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "protocol/printable.hpp"
 #include "transport/wire_form.hpp"
 
 namespace demecal {
@@ -22,7 +23,10 @@ std::optional<std::vector<Migrants>> decode(const std::vector<wire::Migrants>& e
 inline std::uint32_t to_wire_index(std::uint32_t index) {
   return index + 1;
 }
-/// Nothing where the wire says 0.
-std::optional<IslandKey> decode_island(std::uint32_t joint, std::uint32_t deme);
+/// What can be shown of a text.
+template <class Text>
+std::string decode_text(const Text& text) {
+  return printable(text.to_string());
+}
 
 }  // namespace demecal

@@ -79,6 +79,8 @@ class MortalTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
+  void drop(const std::string& source, const std::string& why) override { sound_->drop(source, why); }
+  std::uint64_t dropped() const override { return sound_->dropped(); }
 
  private:
   enum class State { running, stopped, dead };

@@ -14,6 +14,7 @@
 
 #include "errors/input_error.hpp"
 #include "network.hpp"
+#include "random_messages.hpp"
 #include "transport/dds_participant.hpp"
 #include "transport/wire_form.hpp"
 
@@ -49,13 +50,13 @@ TEST(Dds, MalformedSamplesAreCountedAndDropped) {
   worker->follow_migrants(kJoint);
   DdsParticipant stranger(local_options(), Role::worker, "stranger");
   const auto writer = stranger.make_writer(Topic::migrants, kJoint);
-  const Migrants sound{1, {kJoint, 0}, 1, {{variable_tree(0), 0.5}}};
+  const Migrants sound{1, {kJoint, 0}, 1, {{variable_tree(0), 0.5}}, "stranger"};
   wire::Migrants unknown_code = encode(sound), no_deme = encode(sound), sample = encode(sound);
   unknown_code.individuals()[0].formula().primitives({77});
   no_deme.deme(0);
   for (wire::Migrants* one : {&unknown_code, &no_deme, &sample}) ASSERT_TRUE(writer->write(one));
   receive_until(*worker, [](const auto& messages) { return !messages.empty(); });
-  receive_until(*worker, [&](const auto&) { return worker->unreadable() == 2; });
+  receive_until(*worker, [&](const auto&) { return worker->dropped() == 2; });
 }
 
 /// Hears of checkpoints, but keeps Fast DDS's thread, and with it the acknowledgment, until it is let go.
@@ -94,6 +95,7 @@ Checkpoint checkpoint_of(std::uint32_t epoch) {
   Checkpoint checkpoint;
   checkpoint.state.population.assign(kIndividuals, {variable_tree(0), 0.5});
   checkpoint.run = 1;
+  checkpoint.worker = "worker";
   checkpoint.state.epoch = epoch;
   return checkpoint;
 }
@@ -175,8 +177,9 @@ TEST(Dds, ParticipantsMeetThroughADiscoveryServer) {
   auto worker = network.join(Role::worker, "worker");
   worker->publish(status_of("worker"));
   receive_up_to(*coordinator, status_of("worker"));
-  coordinator->publish(Control{1, Control::State::running, ""});
-  receive_up_to(*worker, Control{1, Control::State::running, ""});
+  const Message data = RandomMessages(7).data();
+  coordinator->publish(data);
+  receive_up_to(*worker, data);
   worker.reset();
   receive_up_to(*coordinator, WorkerLost{"worker"});
 }

@@ -34,7 +34,8 @@ class FaultyTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
   void assert_alive() override { sound_->assert_alive(); }
   bool flush(std::chrono::milliseconds patience) override { return sound_->flush(patience); }
-  std::uint64_t unreadable() const override { return sound_->unreadable(); }
+  void drop(const std::string& source, const std::string& why) override { sound_->drop(source, why); }
+  std::uint64_t dropped() const override { return sound_->dropped(); }
 
   /// A held message goes first now and then, and surely where nothing new has come.
   std::optional<Message> receive(std::chrono::milliseconds patience) override {

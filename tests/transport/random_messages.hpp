@@ -11,9 +11,11 @@ namespace demecal {
 
 class RandomMessages {
  public:
-  explicit RandomMessages(std::uint64_t seed) : random_{seed} {}
+  /// `worker` is who says all that workers say.
+  explicit RandomMessages(std::uint64_t seed, std::string worker = "worker")
+      : random_{seed}, worker_(std::move(worker)) {}
 
-  std::uint32_t number() { return static_cast<std::uint32_t>(random_.index(1u << 31)); }
+  std::uint32_t number() { return static_cast<std::uint32_t>(1 + random_.index(1u << 31)); }
   IslandKey island() { return {small(6), small(1000)}; }
   double real() { return random_.real(-1e3, 1e3); }
 
@@ -43,7 +45,7 @@ class RandomMessages {
 
   IslandState state() { return {number(), number(), number(), number(), population(), population()}; }
 
-  Migrants migrants() { return {number(), island(), number(), population(5)}; }
+  Migrants migrants() { return {number(), island(), number(), population(5), worker_}; }
 
   std::vector<Migrants> recent() {
     std::vector<Migrants> emigrations(random_.index(kMigrantEpochs + 1));
@@ -60,15 +62,15 @@ class RandomMessages {
 
   IslandTask task() { return {number(), island(), number(), text(), state(), recent()}; }
   Progress progress() {
-    return {number(), island(),       text(),
+    return {number(), island(),       worker_,
             number(), number(),       {random_.real(), random_.real(), number(), random_.real()},
             number(), random_.real(), number(),
             number(), random_.real()};
   }
-  Checkpoint checkpoint() { return {number(), number(), island(), state(), recent()}; }
-  Outcome outcome() { return {number(), number(), island(), text(), number(), number(), number(), population()}; }
+  Checkpoint checkpoint() { return {number(), number(), island(), state(), recent(), worker_}; }
+  Outcome outcome() { return {number(), number(), island(), worker_, number(), number(), number(), population()}; }
   WorkerStatus status() {
-    return {text(), text(), number(), number(), text(), random_.chance(0.5), number(), random_.real()};
+    return {worker_, text(), number(), number(), text(), random_.chance(0.5), number(), random_.real()};
   }
   LoopNews news() {
     using enum LoopNews::Stage;
@@ -77,6 +79,12 @@ class RandomMessages {
     const LoopNews::Verdict verdicts[]{added, rejected, none};
     return {number(), number(), number(), stages[random_.index(6)], text(),        text(), verdicts[random_.index(3)],
             text(),   number(), text(),   random_.real(),           random_.real()};
+  }
+  /// Data of the run that a task is of: before them it is not delivered.
+  CalibrationData data_of(const IslandTask& task) {
+    CalibrationData of_run = data();
+    of_run.run = task.run;
+    return of_run;
   }
   /// Of a run that goes on.
   Control control() { return {number(), Control::State::running, text()}; }
@@ -107,6 +115,7 @@ class RandomMessages {
   }
 
   RandomStream random_;
+  std::string worker_;
 };
 
 }  // namespace demecal

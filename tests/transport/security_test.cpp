@@ -6,6 +6,7 @@
 
 #include "errors/input_error.hpp"
 #include "network.hpp"
+#include "random_messages.hpp"
 #include "transport/dds_participant.hpp"
 #include "transport/dds_security.hpp"
 
@@ -89,9 +90,11 @@ TEST(Security, EveryRolesMessagesArrive) {
   const auto watcher = network.join(Role::watcher, "watcher");
   worker->publish(status_of("worker"));
   receive_up_to(*coordinator, status_of("worker"));
-  const Message begins = Control{1, Control::State::running, ""};
+  const CalibrationData data = RandomMessages(7).data();
+  const Message begins = Control{data.run, Control::State::running, ""};
+  coordinator->publish(data);
   coordinator->publish(begins);
-  receive_up_to(*worker, begins);
+  receive_until(*worker, [&](const auto& messages) { return messages == std::vector<Message>{data, begins}; });
   Progress progress;
   progress.run = 1;
   progress.worker = "worker";

@@ -24,8 +24,8 @@ INSTANTIATE_TEST_SUITE_P(Both, Transports, ::testing::Values("in_memory", "dds")
 
 constexpr std::uint32_t kJoint = 2;
 
-Migrants emigration(std::uint32_t joint, std::uint32_t deme, std::uint32_t epoch) {
-  return {1, {joint, deme}, epoch, {{variable_tree(0), 1.0 / epoch}}};
+Migrants emigration(std::uint32_t joint, std::uint32_t deme, std::uint32_t epoch, const char* sender = "worker") {
+  return {1, {joint, deme}, epoch, {{variable_tree(0), 1.0 / epoch}}, sender};
 }
 
 /// Receives until all of `expected` have come, in whatever order; nothing else may have come by then.
@@ -46,7 +46,11 @@ TEST_P(Transports, DeliverEveryMessageEqualToAllWhoseRoleReadsIt) {
   RandomMessages random(41);
   std::vector<Message> from_coordinator, from_worker, migrants;
   for (int i = 0; i < 10; ++i) {
-    from_coordinator.insert(from_coordinator.end(), {random.data(), random.task(), random.control()});
+    const IslandTask task = random.task();
+    const CalibrationData data = random.data_of(task);
+    Control control = random.control();
+    control.run = task.run;
+    from_coordinator.insert(from_coordinator.end(), {data, task, control});
     from_worker.insert(from_worker.end(), {random.progress(), random.checkpoint(), random.outcome()});
     Migrants some = random.migrants();
     some.island.joint = kJoint;
@@ -109,6 +113,7 @@ TEST_P(Transports, KeepTheOrderOfEachKeyAndTheLastValue) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");
   Progress last;
+  last.worker = "worker";
   for (std::uint32_t epoch = 1; epoch <= 200; ++epoch) {
     last.run = 1;
     last.epoch = epoch;
@@ -125,6 +130,8 @@ TEST_P(Transports, GiveLatecomersTheLastValueOfEachKey) {
   std::vector<Message> last;
   for (int key = 0; key < 12; ++key) {
     IslandTask task = random.task();
+    last.emplace_back(random.data_of(task));
+    coordinator->publish(last.back());
     coordinator->publish(task);
     ++task.attempt;
     coordinator->publish(task);
@@ -165,8 +172,8 @@ TEST_P(Transports, NeverDeliverToTheSender) {
   neighbour->follow_migrants(kJoint);
   worker->publish(emigration(kJoint, 0, 1));
   receive_up_to(*neighbour, emigration(kJoint, 0, 1));
-  neighbour->publish(emigration(kJoint, 1, 1));
-  expect_exactly(*worker, {emigration(kJoint, 1, 1)});
+  neighbour->publish(emigration(kJoint, 1, 1, "neighbour"));
+  expect_exactly(*worker, {emigration(kJoint, 1, 1, "neighbour")});
 }
 
 TEST_P(Transports, CarryMessagesOfAMegabyte) {
@@ -174,6 +181,7 @@ TEST_P(Transports, CarryMessagesOfAMegabyte) {
   const auto worker = network->join(Role::worker, "worker");
   Checkpoint checkpoint;
   checkpoint.run = 1;
+  checkpoint.worker = "worker";
   Tree tree = variable_tree(0);
   for (int i = 0; i < 9; ++i) tree = apply(Primitive::add, tree, tree);
   checkpoint.state.population.assign(1000, {tree, 0.25});
@@ -212,8 +220,13 @@ TEST_P(Transports, ForgetWhatWasSaidOfARunThatIsOverAndGoOnWithOthers) {
   of_over.run = 1;
   of_next.run = 2;
   IslandTask task_of_over, task_of_next;
+  of_over.worker = of_next.worker = "worker";
   task_of_over.run = 1;
   task_of_next.run = 2;
+  RandomMessages random(59);
+  const CalibrationData data_of_next = random.data_of(task_of_next);
+  coordinator->publish(random.data_of(task_of_over));
+  coordinator->publish(data_of_next);
   coordinator->publish(task_of_over);
   coordinator->publish(task_of_next);
   worker->publish(of_over);
@@ -224,7 +237,7 @@ TEST_P(Transports, ForgetWhatWasSaidOfARunThatIsOverAndGoOnWithOthers) {
   const auto late_worker = network->join(Role::worker, "late worker");
   const auto late_coordinator = network->join(Role::coordinator, "late coordinator");
   const auto watcher = network->join(Role::watcher, "watcher");
-  expect_exactly(*late_worker, {over, task_of_next});
+  expect_exactly(*late_worker, {over, data_of_next, task_of_next});
   expect_exactly(*late_coordinator, {of_next});
   receive_up_to(*watcher, of_next);
   ++of_next.epoch;

@@ -1,6 +1,8 @@
 // The wire form loses nothing, and what was never encoded is not decoded.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "random_messages.hpp"
 #include "transport/wire_form.hpp"
 
@@ -78,22 +80,22 @@ TEST(WireForm, OneBadFormulaRefusesTheMessageThatHoldsIt) {
   wire::Migrants migrants = encode(Migrants{1, {0, 0}, 1, {}});
   migrants.individuals({bad});
   EXPECT_FALSE(decode(migrants).has_value());
-  wire::Checkpoint of_state = encode(Checkpoint{});
+  wire::Checkpoint of_state = encode(RandomMessages(3).checkpoint());
   of_state.state().front({bad});
   EXPECT_FALSE(decode(of_state).has_value());
-  wire::Checkpoint of_recent = encode(Checkpoint{});
+  wire::Checkpoint of_recent = encode(RandomMessages(3).checkpoint());
   of_recent.recent({migrants});
   EXPECT_FALSE(decode(of_recent).has_value());
-  wire::IslandTask task = encode(IslandTask{});
+  wire::IslandTask task = encode(RandomMessages(3).task());
   task.start().population({bad});
   EXPECT_FALSE(decode(task).has_value());
-  wire::Outcome outcome = encode(Outcome{});
+  wire::Outcome outcome = encode(RandomMessages(3).outcome());
   outcome.front({bad});
   EXPECT_FALSE(decode(outcome).has_value());
 }
 
 TEST(WireForm, JointOrDemeZeroIsRefused) {
-  wire::Progress progress = encode(Progress{});
+  wire::Progress progress = encode(RandomMessages(3).progress());
   ASSERT_TRUE(decode(progress).has_value());
   progress.joint(0);
   EXPECT_FALSE(decode(progress).has_value());
@@ -126,8 +128,35 @@ TEST(WireForm, AnUnknownStageOrVerdictIsRefused) {
 
 TEST(WireForm, AnUnknownStateOfARunIsRefused) {
   wire::Control control;
+  control.run(1);
   control.state(static_cast<wire::RunState>(3));
   EXPECT_FALSE(decode(control).has_value());
+}
+
+TEST(WireForm, AConstantThatIsNotFiniteIsRefused) {
+  for (const double value : {HUGE_VAL, -HUGE_VAL, std::nan("")})
+    EXPECT_FALSE(decode(encode(constant_tree(value))).has_value());
+}
+
+TEST(WireForm, ARunWorkerOrCalibrationThatIsNoneIsRefused) {
+  const auto of_run_0 = [](auto message) {
+    message.run = 0;
+    return decode(encode(message)).has_value();
+  };
+  RandomMessages random(23);
+  EXPECT_FALSE(of_run_0(random.data()) || of_run_0(random.task()) || of_run_0(random.migrants()) ||
+               of_run_0(random.progress()) || of_run_0(random.checkpoint()) || of_run_0(random.outcome()) ||
+               of_run_0(random.control()));
+  EXPECT_FALSE(decode(encode(WorkerStatus{})).has_value());
+  EXPECT_FALSE(decode(encode(LoopNews{})).has_value());
+}
+
+TEST(WireForm, TextThatWouldMoveACursorIsMadePrintable) {
+  WorkerStatus status = RandomMessages(3).status();
+  status.worker = "a\nb";
+  status.host = "\033[2J";
+  EXPECT_EQ(decode(encode(status))->worker, "a?b");
+  EXPECT_EQ(decode(encode(status))->host, "?[2J");
 }
 
 }  // namespace

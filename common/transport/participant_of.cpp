@@ -1,0 +1,38 @@
+#include "transport/participant_of.hpp"
+
+namespace demecal {
+namespace {
+
+/// FNV-1a (Fowler, Noll, Vo; 64 bits), and a finish by which every bit of the text reaches every bit of the number
+/// (splitmix64, Steele et al. 2014).
+std::uint64_t hash(std::string_view text, std::uint64_t salt) {
+  std::uint64_t value = 0xcbf29ce484222325ULL ^ salt;
+  for (const char byte : text) value = (value ^ static_cast<std::uint8_t>(byte)) * 0x100000001b3ULL;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
+  return value ^ (value >> 31);
+}
+
+}  // namespace
+
+ParticipantId participant_of(std::string_view worker) {
+  ParticipantId id{0x01, 0x0f};  // the vendor of Fast DDS, by which peers know what they may use
+  const std::uint64_t first = hash(worker, 0), second = hash(worker, 0x9e3779b97f4a7c15ULL);
+  for (std::size_t i = 2; i < id.size(); ++i) {
+    const std::uint64_t source = i < 8 ? first : second;
+    id[i] = static_cast<std::uint8_t>(source >> (8 * (i % 8)));
+  }
+  return id;
+}
+
+std::string text_of(const ParticipantId& participant) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : participant) {
+    if (!text.empty()) text += '.';
+    text += {kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return text;
+}
+
+}  // namespace demecal

@@ -1,0 +1,167 @@
+#include "transport/run_owners.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace demecal {
+namespace {
+
+constexpr std::ptrdiff_t kMostRuns = 16;  ///< of one owner at a time
+constexpr std::size_t kMostOver = 64;   ///< runs that are over, or whose owner is gone
+constexpr std::size_t kMostEarly = 4096, kMostEarly_bytes = 256 << 20;
+
+/// Whether a message takes the place of one of the same key: an end stays, and so does the higher attempt.
+bool is_newer(const Message& message, const Message& before) {
+  const auto* task = std::get_if<IslandTask>(&message);
+  return task != nullptr ? task->attempt > std::get<IslandTask>(before).attempt : ended_run(before) == 0;
+}
+
+}  // namespace
+
+void RunOwners::put(const ParticipantId& source, const std::string& name, Message message) {
+  if (!mailbox_.put(source, std::move(message))) dropped_.note(name, "more than can be kept");
+}
+
+void RunOwners::heard(const ParticipantId& source, const std::string& name, CalibrationData data, Time) {
+  const std::lock_guard lock(mutex_);
+  const RunId run = data.run;
+  const auto known = runs_.find(run);
+  if (known != runs_.end() && known->second.owner != source) {
+    dropped_.note(name, "data of a run that is another's");
+    return;
+  }
+  if (known == runs_.end() && !has_room(source)) return dropped_.note(name, "more runs than one may have at a time");
+  Run& owned = runs_.try_emplace(run, Run{source, false, false, ++order_, {}}).first->second;
+  owned.owner_gone = false;
+  put(source, name, std::move(data));
+  give_early(run, source, name);
+  forget_first_of_many();
+}
+
+void RunOwners::heard(const ParticipantId& source, const std::string& name, IslandTask task, Time now) {
+  const std::lock_guard lock(mutex_);
+  const RunId run = task.run;
+  Message message(std::move(task));
+  if (is_settled(source, name, message, run)) return;
+  if (runs_.contains(run)) return dropped_.note(name, "a task of a run that is another's");
+  wait(source, name, std::move(message), now);
+}
+
+void RunOwners::heard(const ParticipantId& source, const std::string& name, Control control, Time now) {
+  const std::lock_guard lock(mutex_);
+  if (is_settled(source, name, control, control.run)) return;
+  const auto known = runs_.find(control.run);
+  if (known == runs_.end()) return wait(source, name, std::move(control), now);
+  if (control.state == Control::State::running || known->second.end_from_elsewhere) {
+    return dropped_.note(name, "control of a run that is another's");
+  }
+  if (known->second.owner_gone) return put(source, name, std::move(control));
+  known->second.end_from_elsewhere = std::move(control);
+}
+
+bool RunOwners::is_settled(const ParticipantId& source, const std::string& name, const Message& message, RunId run) {
+  const auto known = runs_.find(run);
+  const bool may_say = known == runs_.end() ? !waits_ : known->second.owner == source;
+  if (may_say && known != runs_.end() && ended_run(message) != 0) known->second.is_over = true;
+  if (may_say) put(source, name, message);
+  return may_say;
+}
+
+/// In place of what was said of the same before.
+void RunOwners::wait(const ParticipantId& source, const std::string& name, Message message, Time now) {
+  Early& early = early_[source];
+  const TopicKey key = key_of(message);
+  if (const auto before = early.last.find(key); before != early.last.end()) {
+    if (!is_newer(message, before->second.message)) return;
+    take_back(early, before);
+  }
+  const std::size_t bytes = weight_bytes(message);
+  if (early.last.size() >= kMostEarly || early.bytes + bytes > kMostEarly_bytes) {
+    return dropped_.note(name, "more of runs without data than can be kept");
+  }
+  early.bytes += bytes;
+  early.last.emplace(key, Early::Said{std::move(message), now});
+}
+
+Message RunOwners::take_back(Early& early, std::map<TopicKey, Early::Said>::iterator said) {
+  Message message = std::move(said->second.message);
+  early.bytes -= weight_bytes(message);
+  early.last.erase(said);
+  return message;
+}
+
+/// What waited for this run's data: the owner's is put, of others' an end is kept.
+void RunOwners::give_early(RunId run, const ParticipantId& owner, const std::string& name) {
+  for (auto& [source, early] : early_) {
+    for (auto said = early.last.begin(); said != early.last.end();) {
+      const auto next = std::next(said);
+      if (said->first.run == run) {
+        Message message = take_back(early, said);
+        if (source == owner) {
+          runs_.at(run).is_over |= ended_run(message) != 0;
+          put(source, name, std::move(message));
+        } else if (ended_run(message) != 0) {
+          runs_.at(run).end_from_elsewhere = std::get<Control>(std::move(message));
+        } else {
+          dropped_.note("participant " + text_of(source), "of a run that is another's");
+        }
+      }
+      said = next;
+    }
+  }
+  std::erase_if(early_, [](const auto& entry) { return entry.second.last.empty(); });
+}
+
+void RunOwners::departed(const ParticipantId& source) {
+  const std::lock_guard lock(mutex_);
+  for (auto& [number, run] : runs_) {
+    if (run.owner != source) continue;
+    run.owner_gone = true;
+    if (auto end = std::exchange(run.end_from_elsewhere, std::nullopt)) put(source, "nobody", std::move(*end));
+  }
+  const auto early = early_.find(source);
+  if (early == early_.end()) return;
+  // Whoever ends a run goes soon after; its last word counts.
+  for (auto said = early->second.last.begin(); said != early->second.last.end();) {
+    const auto next = std::next(said);
+    if (ended_run(said->second.message) == 0) take_back(early->second, said);
+    said = next;
+  }
+}
+
+void RunOwners::release(Time now) {
+  const std::lock_guard lock(mutex_);
+  for (auto& [source, early] : early_) {
+    for (auto said = early.last.begin(); said != early.last.end();) {
+      const auto next = std::next(said);
+      if (ended_run(said->second.message) != 0 && now - said->second.came >= kBelated) {
+        put(source, "participant " + text_of(source), take_back(early, said));
+      }
+      said = next;
+    }
+  }
+  std::erase_if(early_, [](const auto& entry) { return entry.second.last.empty(); });
+}
+
+bool RunOwners::has_room(const ParticipantId& owner) const {
+  return std::ranges::count_if(runs_, [&](const auto& run) {
+           return run.second.owner == owner && !run.second.is_over;
+         }) < kMostRuns;
+}
+
+/// Of the runs that are over or left by their owners the one that appeared first, where they are many. What is left
+/// ends with that.
+void RunOwners::forget_first_of_many() {
+  std::size_t count = 0;
+  auto first = runs_.end();
+  for (auto run = runs_.begin(); run != runs_.end(); ++run) {
+    if (!run->second.is_over && !run->second.owner_gone) continue;
+    ++count;
+    if (first == runs_.end() || run->second.order < first->second.order) first = run;
+  }
+  if (count <= kMostOver) return;
+  if (!first->second.is_over) put(first->second.owner, "nobody", Control{first->first, Control::State::cancelled, ""});
+  runs_.erase(first);
+}
+
+}  // namespace demecal

@@ -1,0 +1,78 @@
+// Whose a run is: what others say of it is not heard.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "transport/dropped_samples.hpp"
+#include "transport/mailbox.hpp"
+#include "transport/topic.hpp"
+
+namespace demecal {
+
+/// Puts data, tasks and control into a mailbox. A run belongs to the participant whose data come first; whatever others
+/// say of it is dropped. Tasks and control that come before the data wait for them. An end from elsewhere waits until
+/// the owner is gone: a coordinator that resumes a job ends the run that its dead forerunner left. A run that ends
+/// without data is over: its data were withdrawn. Any thread may call.
+///
+/// A stranger that publishes data of a run under its number where this participant has not heard of the owner yet is
+/// taken for the owner: that keeps this participant from the run, and no one else.
+class RunOwners {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::chrono::milliseconds kBelated{2000};
+
+  /// `waits`: whether what comes before its run's data waits for them; otherwise it is put at once.
+  RunOwners(Mailbox& mailbox, DroppedSamples& dropped, bool waits)
+      : mailbox_(mailbox), dropped_(dropped), waits_(waits) {}
+
+  /// `name`: of the source, for people.
+  void heard(const ParticipantId& source, const std::string& name, CalibrationData data, Time now);
+  void heard(const ParticipantId& source, const std::string& name, IslandTask task, Time now);
+  void heard(const ParticipantId& source, const std::string& name, Control control, Time now);
+  /// The participant is gone, as far as the network tells.
+  void departed(const ParticipantId& source);
+  /// Puts the ends that have waited long enough for data; to be called now and then.
+  void release(Time now);
+
+ private:
+  struct Run {
+    ParticipantId owner;
+    bool owner_gone = false;
+    bool is_over = false;
+    std::uint64_t order = 0;  ///< of appearance
+    std::optional<Control> end_from_elsewhere;
+  };
+  /// What one source said of runs without data.
+  struct Early {
+    struct Said {
+      Message message;
+      Time came;
+    };
+    std::map<TopicKey, Said> last;  ///< of each key
+    std::size_t bytes = 0;
+  };
+
+  void put(const ParticipantId& source, const std::string& name, Message message);
+  /// Puts a message of the run's owner; whether that, or dropping it, was all there was to do.
+  bool is_settled(const ParticipantId& source, const std::string& name, const Message& message, RunId run);
+  void wait(const ParticipantId& source, const std::string& name, Message message, Time now);
+  Message take_back(Early& early, std::map<TopicKey, Early::Said>::iterator said);
+  bool has_room(const ParticipantId& owner) const;
+  void forget_first_of_many();
+  void give_early(RunId run, const ParticipantId& owner, const std::string& name);
+
+  Mailbox& mailbox_;
+  DroppedSamples& dropped_;
+  const bool waits_;
+  std::mutex mutex_;
+  std::uint64_t order_ = 0;
+  std::map<RunId, Run> runs_;
+  std::map<ParticipantId, Early> early_;
+};
+
+}  // namespace demecal
