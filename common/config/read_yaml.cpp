@@ -1,5 +1,6 @@
 #include "config/read_yaml.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <sstream>
@@ -79,24 +80,67 @@ std::string quoting_hint(const std::string& line) {
   return symbols ? " (symbols such as * and % need quotes)" : "";
 }
 
-std::vector<YAML::Node> documents(const std::string& text, const std::string& file) {
-  try {
-    return YAML::LoadAll(text);
-  } catch (const YAML::Exception& fault) {
-    const std::size_t line = line_of(fault.mark);
-    throw InputError({file, line}, "", "is not valid YAML: " + fault.msg + quoting_hint(line_text(text, line)));
+/// What a document begins with, and whether there are too many values. YAML::LoadAll would return documents without end
+/// where one begins with a comma.
+class Outline final : public YAML::EventHandler {
+ public:
+  explicit Outline(std::string file) : file_(std::move(file)) {}
+
+  bool is_null() const { return is_null_; }
+  std::size_t line() const { return line_; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark, true); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark, false); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    count(mark, false);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    count(mark, false);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    count(mark, false);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void count(const YAML::Mark& mark, bool null) {
+    if (values_ == 0) {
+      is_null_ = null;
+      line_ = line_of(mark);
+    }
+    if (++values_ > kMostNodes) throw InputError({file_, line_of(mark)}, "", "holds too many values");
+  }
+
+  std::string file_;
+  std::size_t values_ = 0, line_ = 0;
+  bool is_null_ = true;
+};
+
+void check_outline(const std::string& text, const std::string& file) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Outline first(file), second(file);
+  if (!parser.HandleNextDocument(first) || first.is_null()) throw InputError({file, 0}, "", "is empty");
+  if (parser.HandleNextDocument(second) && !second.is_null()) {
+    throw InputError({file, second.line()}, "", "must hold one YAML document, not several");
   }
 }
 
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
-  const std::vector<YAML::Node> found = documents(text, file);
-  if (found.empty() || found.front().IsNull()) throw InputError({file, 0}, "", "is empty");
-  if (found.size() > 1) {
-    throw InputError({file, line_of(found[1].Mark())}, "", "must hold one YAML document, not several");
+  YAML::Node found;
+  try {
+    check_outline(text, file);
+    found = YAML::Load(text);
+  } catch (const YAML::Exception& fault) {
+    const std::size_t line = line_of(fault.mark);
+    throw InputError({file, line}, "", "is not valid YAML: " + fault.msg + quoting_hint(line_text(text, line)));
   }
-  return Conversion(file).convert(found.front(), line_of(found.front().Mark()), "");
+  return Conversion(file).convert(found, line_of(found.Mark()), "");
 }
 
 YamlNode read_yaml(const std::filesystem::path& path) {

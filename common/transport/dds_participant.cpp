@@ -4,12 +4,11 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <algorithm>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/log/Log.hpp>
-#include <fastdds/dds/log/StdoutErrConsumer.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "errors/input_error.hpp"
+#include "transport/dds_log.hpp"
 #include "transport/dds_participant_qos.hpp"
 #include "transport/dds_qos.hpp"
 #include "transport/dds_security.hpp"
@@ -20,15 +19,11 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 
-/// The library speaks only of errors, and not where results are printed; and it takes the same path between
-/// participants of one process as between processes.
+/// The library speaks of errors alone; and it takes the same path between participants of one process as between
+/// processes.
 void set_up_library() {
   static const bool once = [] {
-    dds::Log::SetVerbosity(dds::Log::Kind::Error);
-    dds::Log::ClearConsumers();
-    auto to_stderr = std::make_unique<dds::StdoutErrConsumer>();
-    to_stderr->stderr_threshold(dds::Log::Kind::Info);
-    dds::Log::RegisterConsumer(std::move(to_stderr));
+    set_up_dds_log();
     eprosima::fastrtps::LibrarySettingsAttributes settings;
     settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
     eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);

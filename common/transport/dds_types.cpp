@@ -34,6 +34,9 @@ class Wary final : public Generated {
 
   Wary() { this->m_typeSize = kFirstBuffer_bytes; }
 
+  /// Where a type is, Fast DDS takes its first size for its largest, and readers drop what is larger.
+  bool is_bounded() const override { return false; }
+
   bool deserialize(SerializedPayload_t* payload, void* data) override {
     if (!is_sample<Wire>(*payload) || !is_read(payload, data)) *static_cast<Wire*>(data) = Wire();
     return true;

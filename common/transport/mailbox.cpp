@@ -1,6 +1,5 @@
 #include "transport/mailbox.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "transport/topic.hpp"
@@ -11,26 +10,35 @@ bool Mailbox::put(const ParticipantId& source, Message message) {
   {
     const std::lock_guard lock(mutex_);
     Waiting& waiting = sources_[source];
-    const std::size_t bytes = weight_bytes(message);
-    const bool is_full = waiting.messages.size() >= most_ || waiting.bytes + bytes > most_bytes_;
-    if (is_full && !waiting.messages.empty() && !make_room(waiting, message)) return false;
-    waiting.bytes += bytes;
+    if (is_full(waiting, 1) && !waiting.is_all_new) drop_replaced(waiting);
+    if (is_full(waiting, 1)) return false;
+    waiting.bytes += weight_bytes(message);
     waiting.messages.push_back(std::move(message));
   }
   changed_.notify_one();
   return true;
 }
 
-/// Drops the oldest of its key; whether there was one.
-bool Mailbox::make_room(Waiting& waiting, const Message& message) {
-  if (!is_sent(message)) return true;
-  const TopicKey key = key_of(message);
-  const auto oldest = std::ranges::find_if(
-      waiting.messages, [&](const Message& other) { return is_sent(other) && key_of(other) == key; });
-  if (oldest == waiting.messages.end()) return false;
-  waiting.bytes -= weight_bytes(*oldest);
-  waiting.messages.erase(oldest);
-  return true;
+bool Mailbox::is_full(const Waiting& waiting, std::size_t share) const {
+  return waiting.messages.size() >= most_ / share || waiting.bytes >= most_bytes_ / share;
+}
+
+/// All at once, and not again before half has been taken where it was not worth it: a flood shall cost little.
+void Mailbox::drop_replaced(Waiting& waiting) {
+  std::map<TopicKey, int> kept;
+  std::deque<Message> last;
+  for (auto message = waiting.messages.rbegin(); message != waiting.messages.rend(); ++message) {
+    if (is_sent(*message)) {
+      const TopicKey key = key_of(*message);
+      if (++kept[key] > values_kept(key.topic)) {
+        waiting.bytes -= weight_bytes(*message);
+        continue;
+      }
+    }
+    last.push_front(std::move(*message));
+  }
+  waiting.messages = std::move(last);
+  waiting.is_all_new = is_full(waiting, 2);
 }
 
 std::optional<Message> Mailbox::take(std::chrono::milliseconds patience) {
@@ -47,6 +55,7 @@ std::optional<Message> Mailbox::take(std::chrono::milliseconds patience) {
   Message message = std::move(waiting.messages.front());
   waiting.messages.pop_front();
   waiting.bytes -= weight_bytes(message);
+  if (!is_full(waiting, 2)) waiting.is_all_new = false;
   if (waiting.messages.empty()) sources_.erase(turn);
   return message;
 }

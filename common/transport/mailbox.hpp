@@ -18,11 +18,11 @@ namespace demecal {
 class Mailbox {
  public:
   /// What waits from one source is kept below so many messages, and so many bytes as far as they can be weighed.
-  explicit Mailbox(std::size_t most = 4096, std::size_t most_bytes = 256 << 20)
+  explicit Mailbox(std::size_t most = 16384, std::size_t most_bytes = 256 << 20)
       : most_(most), most_bytes_(most_bytes) {}
 
-  /// Whether there was room. Where there is none, the message takes the place of the oldest one of its source and key,
-  /// as writers that keep their last value do, or is dropped where none of its key waits.
+  /// Whether there was room. Where there is none, what newer messages of the source replace is dropped for it, as writers
+  /// do that keep their last values; where even that makes no room, the message is.
   bool put(const ParticipantId& source, Message message);
   /// The oldest message of the source whose turn it is, or nothing after `patience` or when woken. A wake() that finds
   /// nobody waiting is kept for the next take() that finds no message.
@@ -33,8 +33,10 @@ class Mailbox {
   struct Waiting {
     std::deque<Message> messages;
     std::size_t bytes = 0;
+    bool is_all_new = false;  ///< nothing in it was replaced by another, or little, when it was full
   };
-  bool make_room(Waiting& waiting, const Message& message);
+  bool is_full(const Waiting& waiting, std::size_t share) const;
+  void drop_replaced(Waiting& waiting);
 
   std::size_t most_, most_bytes_;
   std::mutex mutex_;

@@ -109,6 +109,10 @@ TEST(Yaml, SurvivesNestingWithoutEnd) {
   EXPECT_NE(complaint([&] { yaml(doubling); }), "");
 }
 
+TEST(Yaml, RefusesACommaThatWouldBeginDocumentsWithoutEnd) {
+  EXPECT_NE(complaint([] { yaml(", a: 1\n"); }), "");
+}
+
 TEST(YamlText, ReadsBackTheSame) {
   std::mt19937_64 bits(29);
   const std::string letters =

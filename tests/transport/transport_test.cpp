@@ -176,6 +176,20 @@ TEST_P(Transports, NeverDeliverToTheSender) {
   expect_exactly(*worker, {emigration(kJoint, 1, 1, "neighbour")});
 }
 
+TEST_P(Transports, CarryLongNames) {
+  const std::string name(200, 'w');
+  const auto coordinator = network->join(Role::coordinator, "coordinator");
+  const auto worker = network->join(Role::worker, name);
+  WorkerStatus status = status_of(name);
+  status.host = status.version = name;
+  Progress progress;
+  progress.run = 1;
+  progress.worker = name;
+  worker->publish(status);
+  worker->publish(progress);
+  expect_exactly(*coordinator, {status, progress});
+}
+
 TEST_P(Transports, CarryMessagesOfAMegabyte) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");

@@ -1,0 +1,68 @@
+#include <array>
+
+#include "../config/sample_files.hpp"
+#include "../config/temporary_folder.hpp"
+#include "config/load_data_set.hpp"
+#include "config/load_job.hpp"
+#include "config/load_robot.hpp"
+#include "config/load_scenario.hpp"
+#include "config/model_text.hpp"
+#include "errors/input_error.hpp"
+#include "targets.hpp"
+
+namespace demecal::fuzz {
+namespace {
+
+const TemporaryFolder& folder() {
+  static const TemporaryFolder one;
+  return one;
+}
+
+/// Files may be refused in words.
+template <class Load>
+std::function<void(std::string_view)> reader(const std::string& name, Load load) {
+  return [name, load](std::string_view bytes) {
+    folder().write("robot.yaml", kRobotText);
+    try {
+      load(folder().write(name, std::string(bytes)));
+    } catch (const InputError&) {
+    }
+  };
+}
+
+constexpr std::string_view kNextFile = "\n# next file\n";
+
+/// Data set, robot and poses, one after the other.
+void read_data_set(std::string_view bytes) {
+  for (const std::string name : {"dataset.yaml", "robot.yaml", "poses.csv"}) {
+    const std::size_t size = std::min(bytes.size(), bytes.find(kNextFile));
+    folder().write(name, std::string(bytes.substr(0, size)));
+    bytes.remove_prefix(std::min(bytes.size(), size + kNextFile.size()));
+  }
+  try {
+    load_data_set(folder().path() / "dataset.yaml");
+  } catch (const InputError&) {
+  }
+}
+
+void read_model(const std::filesystem::path& path) {
+  const CalibratedModel model = load_model(path);
+  load_model(folder().write("again.yaml", model_text(model)));
+}
+
+std::string shipped(const std::string& path) {
+  return read_file(std::string(DEMECAL_SOURCE_DIR) + "/" + path);
+}
+
+}  // namespace
+
+std::vector<Target> file_targets() {
+  const std::string files = kDataSetText + std::string(kNextFile) + kRobotText + std::string(kNextFile) + kPosesText;
+  return {{"robot", {kRobotText, shipped("configs/robots/ur10.yaml")}, reader("one.yaml", load_robot)},
+          {"job", {kJobText, shipped("configs/jobs/demo.yaml")}, reader("job.yaml", load_job)},
+          {"data_set", {files}, read_data_set},
+          {"scenario", {kScenarioText, shipped("configs/scenarios/demo.yaml")}, reader("scenario.yaml", load_scenario)},
+          {"model", {shipped("tests/fuzz/seeds/model.yaml")}, reader("model.yaml", read_model)}};
+}
+
+}  // namespace demecal::fuzz

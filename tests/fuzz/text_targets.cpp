@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <sstream>
+
+#include "../protocol/small_run.hpp"
+#include "coordinator/journal_records.hpp"
+#include "coordinator/run_state.hpp"
+#include "data/csv.hpp"
+#include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "monitor/event_line.hpp"
+#include "monitor/monitor_page.hpp"
+#include "monitor/watched.hpp"
+#include "targets.hpp"
+
+namespace demecal::fuzz {
+namespace {
+
+void read_formula(std::string_view bytes) {
+  const VariableNames names{"theta", "q1", "s"};
+  try {
+    const Tree tree = parse(bytes, names);
+    demand(is_valid(tree, static_cast<int>(names.size())), "what is parsed is a formula");
+    demand(parse(to_text(tree, names), names) == tree, "a formula comes back from its text");
+  } catch (const InputError&) {
+  }
+}
+
+void read_table(std::string_view bytes) {
+  CsvTable table;
+  try {
+    std::istringstream text{std::string(bytes)};
+    table = read_csv(text, "table.csv");
+  } catch (const InputError&) {
+    return;
+  }
+  for (const CsvRow& row : table.rows) demand(row.fields.size() == table.columns.size(), "rows are as wide as the header");
+}
+
+void read_event_lines(std::string_view bytes) {
+  std::istringstream lines{std::string(bytes)};
+  Watched watched;
+  double now_s = 0.0;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    try {
+      const auto event = read_event(line, "events.jsonl", ++number);
+      if (!event) continue;
+      now_s = std::max(now_s, event->time_s);
+      watched.take(event->message, now_s);
+      event_line(event->message, event->time_s);
+    } catch (const InputError&) {
+    }
+  }
+  for (const std::string& line : monitor_page(watched, {.columns = 80, .lines = 30, .now_s = now_s, .place = "here"}))
+    demand(std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' '; }), "no control character is shown");
+}
+
+void read_records_of(std::string_view bytes) {
+  const RecordedJob job = read_journal(bytes);
+  demand(job.sound_bytes <= bytes.size(), "no more is sound than there is");
+  if (!job.identity) return;
+  const std::string again = journal_of(*job.identity, job.evolutions);
+  const RecordedJob reread = read_journal(again);
+  demand(reread.end == JournalEnd::clean && reread.evolutions.size() == job.evolutions.size(), "a journal is read again");
+}
+
+/// Records are checked by their sums, which no mutation keeps: here each line of text is one, whatever it holds.
+void read_record_contents(std::string_view bytes) {
+  std::string journal(kJournalHead);
+  while (!bytes.empty()) {
+    const std::size_t size = std::min(bytes.size(), bytes.find("\n--\n"));
+    journal += record_of(bytes.substr(0, size));
+    bytes.remove_prefix(std::min(bytes.size(), size + 4));
+  }
+  read_records_of(journal);
+}
+
+JobIdentity some_identity() {
+  return {.data_sha256 = "d", .job_sha256 = "j", .seed = 3, .version = "0.1.0", .asynchronous = false};
+}
+
+std::string some_journal() {
+  RunState state(small_run());
+  for (const std::uint32_t epochs : {1U, 3U}) state.take(checkpoint_after(small_run(), epochs));
+  return journal_of(some_identity(), {state});
+}
+
+std::string some_contents() {
+  std::string text;
+  const std::string journal = some_journal();
+  for (const std::string_view content : read_records(journal).contents) text += std::string(content) + "\n--\n";
+  return text;
+}
+
+const std::string kEvents = R"json({"event": "format", "demecal_events": 1}
+{"event": "run", "t_s": 0.1, "run": "7", "job": "j", "seed": 1, "population_size": 20, "generations": 9, "joints": [1, 3], "islands_per_joint": 2, "migration_interval": 3, "migrants": 2}
+{"event": "progress", "t_s": 0.2, "run": "7", "joint": 1, "island": 2, "worker": "w", "epoch": 1, "generation": 3, "best_fitness": 0.5, "median_fitness": null, "best_length": 3, "evaluations": 60, "evaluations_per_s": 5, "migrants_taken": 1, "migrants_sent": 2, "diversity": 0.5, "waited_share": 0.1}
+{"event": "worker", "t_s": 0.3, "worker": "w", "host": "h", "process": 3, "slots": 2, "version": "v", "leaving": false, "only_run": "7", "waited_share": 0.5}
+{"event": "stage", "t_s": 0.4, "calibration": "9", "run": "7", "stage": "evolving", "job": "j", "text": "t"}
+{"event": "run_state", "t_s": 0.5, "run": "7", "state": "finished", "note": "n"}
+{"event": "worker_lost", "t_s": 0.6, "worker": "w"}
+)json";
+
+}  // namespace
+
+std::vector<Target> text_targets() {
+  return {{"formula", {"0.004 * SIN(2 * theta - 1.2)", "(theta + q1) % -1e-3", "SQRTp(ABS(COS(s))) - SIGN(theta)"}, read_formula},
+          {"table", {"a,b\n1,2\n\"x\"\"y\", 3\r\n# no\n"}, read_table},
+          {"events", {kEvents}, read_event_lines},
+          {"journal", {some_journal()}, read_records_of},
+          {"journal_contents", {some_contents()}, read_record_contents}};
+}
+
+}  // namespace demecal::fuzz

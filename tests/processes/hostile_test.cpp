@@ -1,0 +1,40 @@
+// Somebody in the domain means harm: the run takes longer, and is the same.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, int workers) {
+  return {"calibrate", job.job(), "--out", job.path(out), "--workers", std::to_string(workers), "--domain",
+          private_domain(), "--max-effects", "0"};
+}
+
+TEST(Hostile, AFloodOfEveryTopicNeitherChangesNorEndsARun) {
+  const SmallJob job(1000);
+  ASSERT_EQ(run("demecal", calibrate(job, "calm", 2)).code, 0);
+  Program intruder("demecal-hostile", {private_domain()});
+  ASSERT_TRUE(intruder.wait_for_out("flooding"));
+  Program worker("demecal-worker", {"--domain", private_domain()});
+  const Ended ended = run("demecal", calibrate(job, "flooded", 1));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_FALSE(intruder.ends_within(std::chrono::milliseconds{0})) << intruder.wait().err;
+  EXPECT_FALSE(worker.ends_within(std::chrono::milliseconds{0})) << worker.wait().err;
+  EXPECT_EQ(job.text("calm/model.yaml"), job.text("flooded/model.yaml"));
+  EXPECT_EQ(Json::parse(job.text("calm/report.json"))["runtime"]["dropped_samples"], 0);
+  EXPECT_GT(Json::parse(job.text("flooded/report.json"))["runtime"]["dropped_samples"], 100);
+  for (const std::string& said : {ended.err, worker.err_so_far()}) {
+    const std::size_t first = said.find("dropped a sample from intruder: ");
+    ASSERT_NE(first, std::string::npos) << said;
+    EXPECT_EQ(said.find("dropped a sample from intruder: ", first + 1), std::string::npos) << said;
+  }
+}
+
+}  // namespace
+}  // namespace demecal
