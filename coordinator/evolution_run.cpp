@@ -25,7 +25,8 @@ EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& ob
       observer_(observer),
       assignment_(islands(state_.data().archipelago)),
       diligence_(state_.data().archipelago, Clock::now()) {
-  for (const Checkpoint& known : state_.checkpoints()) diligence_.reached(known.island, known.state.epoch, Clock::now());
+  for (const Checkpoint& known : state_.checkpoints())
+    diligence_.reached(known.island, known.state.epoch, Clock::now());
   for (const Outcome& outcome : state_.outcomes()) {
     assignment_.finish(outcome.island);
     diligence_.finished(outcome.island);
@@ -99,10 +100,10 @@ void EvolutionRun::take(const WorkerStatus& status) {
   observer_.on_worker(status);
 }
 
-/// Whether a message of an island makes sense and comes from a worker that was given the island in this run, be it before
-/// another: what an earlier holder still has to tell is as good, since the state after an epoch is the same from every
-/// attempt. That the message comes from the worker that it names, the transport saw to. Not to be known from here is
-/// whether a worker computed what it tells: one that was let in without certificates can lie about its own islands.
+/// Whether a message of an island makes sense and comes from a worker that was given the island in this run, be it
+/// before another: what an earlier holder still has to tell is as good, since the state after an epoch is the same from
+/// every attempt. That the message comes from the worker that it names, the transport saw to. Not to be known from here
+/// is whether a worker computed what it tells: one that was let in without certificates can lie about its own islands.
 template <class IslandMessage>
 bool EvolutionRun::is_credible(const IslandMessage& message) {
   constexpr std::size_t kMostStrangers = 1024;

@@ -87,11 +87,11 @@ class EvolutionRun {
   RunObserver& observer_;
   Assignment assignment_;
   Diligence diligence_;
-  std::map<IslandKey, Given> given_;                  ///< the last task of each island
-  std::map<IslandKey, std::set<std::string>> named_;  ///< whom tasks have given it
-  std::map<std::string, Aside> aside_;                ///< by worker
+  std::map<IslandKey, Given> given_;                    ///< the last task of each island
+  std::map<IslandKey, std::set<std::string>> named_;    ///< whom tasks have given it
+  std::map<std::string, Aside> aside_;                  ///< by worker
   std::map<std::string, std::uint64_t> of_other_runs_;  ///< how much was heard, by worker
-  std::map<std::string, double> waited_share_;  ///< by worker
+  std::map<std::string, double> waited_share_;          ///< by worker
   Clock::time_point last_news_;
 };
 

@@ -24,9 +24,9 @@ struct RunResult {
   std::vector<Progress> history;           ///< one per island and epoch, by island, then epoch
   std::uint32_t generations = 0;           ///< over all islands
   std::uint64_t evaluations = 0;
-  std::uint64_t migrations = 0;                ///< individuals taken in
-  std::size_t workers = 0;                     ///< different ones that finished an island
-  std::uint64_t dropped = 0;  ///< messages that were received and not acted on, since they could not be believed
+  std::uint64_t migrations = 0;  ///< individuals taken in
+  std::size_t workers = 0;       ///< different ones that finished an island
+  std::uint64_t dropped = 0;     ///< messages that were received and not acted on, since they could not be believed
   std::map<std::string, double> waited_share;  ///< of each worker heard of: of its slots' time while it had islands to
                                                ///< breed, the share without work
 };

@@ -43,7 +43,8 @@ class Tenancy {
   /// Whether the island waits for its neighbours from `now` on.
   void set_waiting(WaitedShare::Time now, bool waiting) { waited_.set(now, waiting ? 1.0 : 0.0, 1.0); }
 
-  /// What there is to say after an epoch, but for who says it (after the start: recent migrants that a slower neighbour may lack).
+  /// What there is to say after an epoch, but for who says it (after the start: recent migrants that a slower neighbour
+  /// may lack).
   std::vector<Migrants> recent() const { return {recent_.begin(), recent_.end()}; }
   Migrants migrants() const;
   Progress progress(const std::string& worker) const;

@@ -58,7 +58,7 @@ class Worker {
   std::map<RunId, Inbox> inboxes_;
   std::map<RunId, std::map<IslandKey, IslandTask>> waiting_;  ///< tasks that came before their run's data
   std::size_t waiting_tasks_ = 0;
-  Unproven unproven_;  ///< migrants of runs without data, or whose sender no task has named
+  Unproven unproven_;                             ///< migrants of runs without data, or whose sender no task has named
   std::map<Place, std::set<std::string>> named_;  ///< whom tasks have given an island
   std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
   std::map<Place, std::uint32_t> attempts_;  ///< highest seen, ours or another's

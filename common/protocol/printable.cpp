@@ -21,7 +21,8 @@ Character first_character(std::string_view text) {
   struct Form {
     std::uint32_t mask, lead, smallest;
   };
-  constexpr std::array<Form, 4> kForms{{{0x80, 0x00, 0}, {0xE0, 0xC0, 0x80}, {0xF0, 0xE0, 0x800}, {0xF8, 0xF0, 0x10000}}};
+  constexpr std::array<Form, 4> kForms{
+      {{0x80, 0x00, 0}, {0xE0, 0xC0, 0x80}, {0xF0, 0xE0, 0x800}, {0xF8, 0xF0, 0x10000}}};
   for (std::size_t bytes = 1; bytes <= kForms.size() && bytes <= text.size(); ++bytes) {
     const Form& form = kForms[bytes - 1];
     if ((bits(text[0]) & form.mask) != form.lead) continue;

@@ -26,9 +26,9 @@ struct RunFacts {
   std::uint64_t evaluations = 0;
   std::uint64_t migrations = 0;
   bool interrupted = false;
-  bool asynchronous = false;  ///< islands waited for no neighbour: the result depends on timing
+  bool asynchronous = false;          ///< islands waited for no neighbour: the result depends on timing
   std::uint64_t dropped_samples = 0;  ///< of the network, not acted on since they could not be believed
-  bool resumed = false;       ///< part of it comes from a journal; wall_s and workers are of the last process
+  bool resumed = false;               ///< part of it comes from a journal; wall_s and workers are of the last process
   std::map<std::string, double> waited_share;  ///< of each worker: of its slots' time while it had islands to breed,
                                                ///< the share without work
 };

@@ -62,10 +62,16 @@ Json waited_share(const RunFacts& facts) {
 }
 
 Json runtime(const RunFacts& facts) {
-  return {{"wall_s", number(facts.wall_s)},     {"workers", facts.workers},           {"islands", facts.islands},
-          {"generations", facts.generations},   {"evaluations", facts.evaluations},   {"migrations", facts.migrations},
+  return {{"wall_s", number(facts.wall_s)},
+          {"workers", facts.workers},
+          {"islands", facts.islands},
+          {"generations", facts.generations},
+          {"evaluations", facts.evaluations},
+          {"migrations", facts.migrations},
           {"dropped_samples", facts.dropped_samples},
-          {"interrupted", facts.interrupted},   {"asynchronous", facts.asynchronous}, {"resumed", facts.resumed},
+          {"interrupted", facts.interrupted},
+          {"asynchronous", facts.asynchronous},
+          {"resumed", facts.resumed},
           {"waited_share", waited_share(facts)}};
 }
 

@@ -8,7 +8,8 @@
 
 namespace demecal {
 
-/// A worker's participant is the one that its name stands for (participant_of). Throws InputError where a peer or the discovery server is no address, or a file of the security folder is missing.
+/// A worker's participant is the one that its name stands for (participant_of). Throws InputError where a peer or the
+/// discovery server is no address, or a file of the security folder is missing.
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role,
                                                              const std::string& name);
 

@@ -58,7 +58,8 @@ std::string Refusals::name_of(const ParticipantId& participant) {
   guid.entityId = eprosima::fastrtps::rtps::c_EntityId_RTPSParticipant;
   const std::lock_guard lock(mutex_);
   const auto other = others_.find(guid);
-  return other == others_.end() || other->second.name.empty() ? "participant " + text_of(participant) : other->second.name;
+  return other == others_.end() || other->second.name.empty() ? "participant " + text_of(participant)
+                                                              : other->second.name;
 }
 
 void Refusals::tell_unproven(Clock::time_point now) {
@@ -68,7 +69,8 @@ void Refusals::tell_unproven(Clock::time_point now) {
 }
 
 void Refusals::tell(Other& other, const std::string& what) const {
-  if (!silent_ && !other.settled) std::fprintf(stderr, "'%s'%s %s\n", other.name.c_str(), other.place.c_str(), what.c_str());
+  if (!silent_ && !other.settled)
+    std::fprintf(stderr, "'%s'%s %s\n", other.name.c_str(), other.place.c_str(), what.c_str());
   other.settled = true;
 }
 

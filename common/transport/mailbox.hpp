@@ -21,8 +21,8 @@ class Mailbox {
   explicit Mailbox(std::size_t most = 16384, std::size_t most_bytes = 256 << 20)
       : most_(most), most_bytes_(most_bytes) {}
 
-  /// Whether there was room. Where there is none, what newer messages of the source replace is dropped for it, as writers
-  /// do that keep their last values; where even that makes no room, the message is.
+  /// Whether there was room. Where there is none, what newer messages of the source replace is dropped for it, as
+  /// writers do that keep their last values; where even that makes no room, the message is.
   bool put(const ParticipantId& source, Message message);
   /// The oldest message of the source whose turn it is, or nothing after `patience` or when woken. A wake() that finds
   /// nobody waiting is kept for the next take() that finds no message.

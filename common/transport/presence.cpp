@@ -49,9 +49,8 @@ void Presence::lose(const WriterId& writer, Worker& worker) {
 
 bool Heralds::heard(const WriterId& writer, LoopNews news) {
   const std::lock_guard lock(mutex_);
-  const bool is_anothers = std::ranges::any_of(calibrations_, [&](const auto& other) {
-    return other.first != writer && other.second == news.calibration;
-  });
+  const bool is_anothers = std::ranges::any_of(
+      calibrations_, [&](const auto& other) { return other.first != writer && other.second == news.calibration; });
   if (is_anothers) return false;
   calibrations_[writer] = news.calibration;
   return mailbox_.put(participant_of(writer), std::move(news));

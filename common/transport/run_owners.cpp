@@ -7,7 +7,7 @@ namespace demecal {
 namespace {
 
 constexpr std::ptrdiff_t kMostRuns = 16;  ///< of one owner at a time
-constexpr std::size_t kMostOver = 64;   ///< runs that are over, or whose owner is gone
+constexpr std::size_t kMostOver = 64;     ///< runs that are over, or whose owner is gone
 constexpr std::size_t kMostEarly = 4096, kMostEarly_bytes = 256 << 20;
 
 /// Whether a message takes the place of one of the same key: an end stays, and so does the higher attempt.
@@ -144,9 +144,8 @@ void RunOwners::release(Time now) {
 }
 
 bool RunOwners::has_room(const ParticipantId& owner) const {
-  return std::ranges::count_if(runs_, [&](const auto& run) {
-           return run.second.owner == owner && !run.second.is_over;
-         }) < kMostRuns;
+  return std::ranges::count_if(
+             runs_, [&](const auto& run) { return run.second.owner == owner && !run.second.is_over; }) < kMostRuns;
 }
 
 /// Of the runs that are over or left by their owners the one that appeared first, where they are many. What is left

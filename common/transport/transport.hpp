@@ -21,8 +21,8 @@ enum class Role { coordinator, worker, herald, watcher };
 /// last value of every key of data, tasks, control, progress, checkpoints, outcomes, worker status and loop news, and
 /// the last `kMigrantEpochs` migrants of every island whose joint they follow: as long as the sender takes part, and
 /// until a Control says that the run is over. Tasks and control of a run are delivered after its data and only from the
-/// participant that published those (see RunOwners). A slow reader may miss values between, never the last; there is no order
-/// between topics. Watchers hold nobody up: they may miss control and worker status, and nobody waits for them.
+/// participant that published those (see RunOwners). A slow reader may miss values between, never the last; there is no
+/// order between topics. Watchers hold nobody up: they may miss control and worker status, and nobody waits for them.
 class Transport {
  public:
   virtual ~Transport() = default;

@@ -136,7 +136,7 @@ std::optional<CalibrationData> decode(const wire::CalibrationData& message) {
   auto archipelago = decode(message.archipelago());
   if (!parameters || !archipelago || message.run() == 0) return std::nullopt;
   CalibrationData decoded{message.run(),          decode_text(message.job()), message.seed(),
-                          std::move(*parameters), std::move(*archipelago),   {}};
+                          std::move(*parameters), std::move(*archipelago),    {}};
   for (const wire::TrainingTable& table : message.tables()) decoded.tables.push_back(decode(table));
   return decoded;
 }

@@ -132,7 +132,7 @@ std::optional<Checkpoint> decode(const wire::Checkpoint& message) {
   auto state = decode(message.state());
   auto recent = decode(message.recent());
   if (!island || !state || !recent) return std::nullopt;
-  return Checkpoint{message.run(),      message.attempt(),  *island,
+  return Checkpoint{message.run(),     message.attempt(),  *island,
                     std::move(*state), std::move(*recent), decode_text(message.worker())};
 }
 
@@ -179,7 +179,7 @@ std::optional<WorkerStatus> decode(const wire::WorkerStatus& message) {
   if (message.worker().size() == 0) return std::nullopt;
   return WorkerStatus{
       decode_text(message.worker()),  decode_text(message.host()), message.process(),  message.slots(),
-      decode_text(message.version()), message.leaving(),          message.only_run(), message.waited_share()};
+      decode_text(message.version()), message.leaving(),           message.only_run(), message.waited_share()};
 }
 
 wire::Control encode(const Control& message) {

@@ -63,7 +63,8 @@ class Comparison {
  private:
   static std::uint32_t number_of(std::string_view& shape) {
     std::uint32_t number = 0;
-    for (; shape.front() != ','; shape.remove_prefix(1)) number = 10 * number + static_cast<std::uint32_t>(shape.front() - '0');
+    for (; shape.front() != ','; shape.remove_prefix(1))
+      number = 10 * number + static_cast<std::uint32_t>(shape.front() - '0');
     shape.remove_prefix(1);
     return number;
   }
@@ -122,7 +123,8 @@ class Comparison {
 
   /// Takes off the element's shape with its bracket.
   static void skip(std::string_view& shape) {
-    for (int open = 1; open > 0; shape.remove_prefix(1)) open += shape.front() == '[' ? 1 : shape.front() == ']' ? -1 : 0;
+    for (int open = 1; open > 0; shape.remove_prefix(1))
+      open += shape.front() == '[' ? 1 : shape.front() == ']' ? -1 : 0;
   }
 
   std::string_view bytes_;

@@ -161,25 +161,87 @@ TEST(Worker, BeginsTheNewestOfTheTasksThatCameBeforeTheirData) {
   EXPECT_TRUE(answered);
 }
 
-TEST(EvolutionRun, MalformedMessagesOfOthersChangeNothing) {
-  const CalibrationData data = small_run(10);
+/// Publishes what it is given when the first epochs were heard of; the run that it disturbs is compared with a calm
+/// one.
+RunResult disturbed_by(const CalibrationData& data, const std::string& name,
+                       const std::function<void(Transport&)>& disturb) {
   const auto exchange = make_exchange();
   WorkerThread worker(exchange, "worker");
-  const auto stranger = join(exchange, Role::worker, "stranger");
+  const auto stranger = join(exchange, Role::worker, name);
+  for (const std::uint32_t joint : data.archipelago.joints) stranger->follow_migrants(joint);
   const auto transport = join(exchange, Role::coordinator, "coordinator");
-  AfterSomeEpochs disturb(3, [&] {
-    stranger->follow_migrants(0);
+  AfterSomeEpochs watch(2, [&] { disturb(*stranger); });
+  const std::atomic<bool> interrupt{false};
+  return EvolutionRun(*transport, data, watch).run(interrupt, {});
+}
+
+TEST(EvolutionRun, MalformedMessagesOfOthersChangeNothing) {
+  const CalibrationData data = small_run(10);
+  const RunResult result = disturbed_by(data, "stranger", [&](Transport& stranger) {
     Outcome forged{.run = data.run, .attempt = 1, .island = {99, 0}, .worker = "stranger", .front = {}};
-    stranger->publish(forged);
+    stranger.publish(forged);
     Checkpoint broken{.run = data.run, .attempt = 1, .island = {0, 0}, .state = {}, .recent = {}};
     broken.state.epoch = 3;
     broken.state.population.push_back({Tree{{Primitive::add, 0, 0.0}}, 0.0});
-    stranger->publish(broken);
-    stranger->publish(Migrants{data.run, {0, 7}, 1, {}});
-    stranger->publish(Migrants{data.run + 1, {0, 1}, 1, {}});
+    stranger.publish(broken);
+    stranger.publish(Migrants{data.run, {0, 7}, 1, {}});
+    stranger.publish(Migrants{data.run + 1, {0, 1}, 1, {}});
   });
+  EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
+  EXPECT_EQ(result.dropped, 2U);
+}
+
+/// What an island of the run would come to, had it other data to learn from.
+Checkpoint bred_elsewhere(const CalibrationData& data, IslandKey key) {
+  CalibrationData other = data;
+  for (double& target : other.tables[0].target) target = -target;
+  Island island(other.parameters, other.archipelago, other.tables[0], key, 99);
+  Checkpoint checkpoint;
+  while (!island.finished()) {
+    island.run_epoch({});
+    checkpoint.recent.push_back({data.run, key, island.state().epoch, island.emigrants(), {}});
+  }
+  checkpoint.run = data.run;
+  checkpoint.attempt = 1;
+  checkpoint.island = key;
+  checkpoint.state = island.state();
+  checkpoint.worker = "stranger";
+  return checkpoint;
+}
+
+TEST(EvolutionRun, SoundMessagesOfOneWhoWasGivenNothingChangeNothing) {
+  for (const Topology topology : {Topology::ring, Topology::full}) {
+    const CalibrationData data = small_run(13, topology);
+    const RunResult result = disturbed_by(data, "stranger", [&](Transport& stranger) {
+      for (const IslandKey key : islands(data.archipelago)) {
+        if (key.joint != 0) continue;
+        const Checkpoint forged = bred_elsewhere(data, key);
+        for (Migrants migrants : forged.recent) {
+          migrants.worker = "stranger";
+          stranger.publish(migrants);
+        }
+        stranger.publish(forged);
+        stranger.publish(Outcome{data.run, 1, key, "stranger", forged.state.generation, 1, 1, forged.state.front});
+      }
+    });
+    EXPECT_EQ(result.end, RunEnd::finished);
+    EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
+    EXPECT_EQ(result.dropped, 6U);
+  }
+}
+
+TEST(EvolutionRun, AWorkerThatTakesIslandsAndDoesNothingIsSetAside) {
+  const CalibrationData data = small_run(14);
+  const auto exchange = make_exchange();
+  const auto idler = join(exchange, Role::worker, "idler");
+  idler->publish(WorkerStatus{.worker = "idler", .host = "here", .slots = 4000, .version = "v"});
+  WorkerThread worker(exchange, "worker");
+  const auto transport = join(exchange, Role::coordinator, "coordinator");
+  RunObserver silent;
   const std::atomic<bool> interrupt{false};
-  const RunResult result = EvolutionRun(*transport, data, disturb).run(interrupt, {});
+  const RunResult result =
+      EvolutionRun(*transport, data, silent).run(interrupt, {.idle = std::chrono::milliseconds(200)});
+  EXPECT_EQ(result.end, RunEnd::finished);
   EXPECT_TRUE(same_fronts(run_in_memory(data, 1), result));
 }
 

@@ -85,8 +85,7 @@ TEST_P(Decoders, SurviveEveryBeginningOfASeed) {
 }
 
 TEST_P(Decoders, SurviveWhatOnceBrokeThem) {
-  const std::filesystem::path folder =
-      std::filesystem::path(DEMECAL_SOURCE_DIR) / "tests/fuzz/found" / GetParam().name;
+  const std::filesystem::path folder = std::filesystem::path(DEMECAL_SOURCE_DIR) / "tests/fuzz/found" / GetParam().name;
   if (!std::filesystem::exists(folder)) return;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     std::ifstream stream(file.path(), std::ios::binary);

@@ -33,7 +33,8 @@ void read_table(std::string_view bytes) {
   } catch (const InputError&) {
     return;
   }
-  for (const CsvRow& row : table.rows) demand(row.fields.size() == table.columns.size(), "rows are as wide as the header");
+  for (const CsvRow& row : table.rows)
+    demand(row.fields.size() == table.columns.size(), "rows are as wide as the header");
 }
 
 void read_event_lines(std::string_view bytes) {
@@ -61,7 +62,8 @@ void read_records_of(std::string_view bytes) {
   if (!job.identity) return;
   const std::string again = journal_of(*job.identity, job.evolutions);
   const RecordedJob reread = read_journal(again);
-  demand(reread.end == JournalEnd::clean && reread.evolutions.size() == job.evolutions.size(), "a journal is read again");
+  demand(reread.end == JournalEnd::clean && reread.evolutions.size() == job.evolutions.size(),
+         "a journal is read again");
 }
 
 /// Records are checked by their sums, which no mutation keeps: here each line of text is one, whatever it holds.
@@ -104,7 +106,9 @@ const std::string kEvents = R"json({"event": "format", "demecal_events": 1}
 }  // namespace
 
 std::vector<Target> text_targets() {
-  return {{"formula", {"0.004 * SIN(2 * theta - 1.2)", "(theta + q1) % -1e-3", "SQRTp(ABS(COS(s))) - SIGN(theta)"}, read_formula},
+  return {{"formula",
+           {"0.004 * SIN(2 * theta - 1.2)", "(theta + q1) % -1e-3", "SQRTp(ABS(COS(s))) - SIGN(theta)"},
+           read_formula},
           {"table", {"a,b\n1,2\n\"x\"\"y\", 3\r\n# no\n"}, read_table},
           {"events", {kEvents}, read_event_lines},
           {"journal", {some_journal()}, read_records_of},

@@ -63,13 +63,25 @@ void grow(const OfIsland& message) {
   state.result(RunEnd::interrupted);
   demand(!find_fault(state.task(message.island, 1, "w"), the_run()), "a task made of what was taken is sound");
 }
-void use(const Progress& message) { grow(message); }
-void use(const Checkpoint& message) { grow(message); }
-void use(const Outcome& message) { grow(message); }
+void use(const Progress& message) {
+  grow(message);
+}
+void use(const Checkpoint& message) {
+  grow(message);
+}
+void use(const Outcome& message) {
+  grow(message);
+}
 
-void use(const WorkerStatus& status) { demand(is_printable(status.worker) && is_printable(status.host), "printable"); }
-void use(const Control& control) { demand(is_printable(control.note), "printable"); }
-void use(const LoopNews& news) { demand(is_printable(news.text) && is_printable(news.label), "printable"); }
+void use(const WorkerStatus& status) {
+  demand(is_printable(status.worker) && is_printable(status.host), "printable");
+}
+void use(const Control& control) {
+  demand(is_printable(control.note), "printable");
+}
+void use(const LoopNews& news) {
+  demand(is_printable(news.text) && is_printable(news.label), "printable");
+}
 
 /// As Fast DDS hands it over, little endian or big as the bytes say.
 template <class Wire>
@@ -99,9 +111,7 @@ std::string sample_of(const Plain& message) {
 
 template <class Plain>
 Target target(const std::string& name, Topic topic, const std::vector<Plain>& messages) {
-  Target made{name, {}, [topic](std::string_view bytes) {
-                read_sample<decltype(encode(Plain{}))>(topic, bytes);
-              }};
+  Target made{name, {}, [topic](std::string_view bytes) { read_sample<decltype(encode(Plain{}))>(topic, bytes); }};
   for (const Plain& message : messages) made.seeds.push_back(sample_of(message));
   return made;
 }

@@ -21,6 +21,14 @@ const std::vector<Spoiling>& spoilings() {
       {"no run", [](auto& d) { d.run = 0; }},
       {"parameter out of its range", [](auto& d) { d.parameters.crossover_rate = 1.5; }},
       {"population of none", [](auto& d) { d.parameters.population_size = 0; }},
+      {"more individuals than are believed", [](auto& d) { d.parameters.population_size = kMostIndividuals + 1; }},
+      {"more generations than are believed", [](auto& d) { d.parameters.number_generations = kMostGenerations + 1; }},
+      {"more attempts than are believed", [](auto& d) { d.parameters.invalid_attempts = kMostAttempts + 1; }},
+      {"more rows than are believed",
+       [](auto& d) {
+         const std::vector<double> column(kMostRows + 1);
+         d.tables[0] = TrainingTable{{column}, column, column};
+       }},
       {"no joints",
        [](auto& d) {
          d.archipelago.joints.clear();

@@ -111,6 +111,7 @@ TEST(IslandFaults, EverySpoiltFieldOfACheckpointIsFound) {
 TEST(IslandFaults, EverySpoiltFieldOfATaskIsFound) {
   auto spoilings = wrong_islands<IslandTask>();
   spoilings.insert(spoilings.end(), {{"nobody's", [](auto& m) { m.worker.clear(); }},
+                                     {"attempt 0", [](auto& m) { m.attempt = 0; }},
                                      {"a population before the first epoch", [](auto& m) { m.start.epoch = 0; }},
                                      {"no population after it", [](auto& m) { m.start.population.clear(); }},
                                      {"emigrants of the future", [](auto& m) { m.recent.back().epoch += 1; }}});
@@ -129,7 +130,12 @@ TEST(IslandFaults, EverySpoiltFieldOfProgressIsFound) {
   auto spoilings = wrong_islands<Progress>();
   spoilings.insert(spoilings.end(), {{"nobody's", [](auto& m) { m.worker.clear(); }},
                                      {"an epoch after the last", [](auto& m) { m.epoch = kEpochsOfSmallRun + 1; }},
-                                     {"a generation after the last", [](auto& m) { m.generation = 8; }}});
+                                     {"a generation after the last", [](auto& m) { m.generation = 8; }},
+                                     {"a best that is no number", [](auto& m) { m.figures.best = std::nan(""); }},
+                                     {"a median below 0", [](auto& m) { m.figures.median = -1.0; }},
+                                     {"a diversity above 1", [](auto& m) { m.figures.diversity = 1.5; }},
+                                     {"a share that is no number", [](auto& m) { m.waited_share = std::nan(""); }},
+                                     {"a speed without end", [](auto& m) { m.evaluations_per_s = HUGE_VAL; }}});
   Progress progress;
   progress.run = run().run;
   progress.island = kSomeIsland;
@@ -144,8 +150,24 @@ TEST(IslandFaults, AWorkerNeedsANameAndASlot) {
   EXPECT_NE(find_fault(status), std::nullopt);
   status.worker = "a worker";
   EXPECT_EQ(find_fault(status), std::nullopt);
-  status.slots = 0;
-  EXPECT_NE(find_fault(status), std::nullopt);
+  for (const std::uint32_t slots : {0U, kMostSlots + 1}) {
+    status.slots = slots;
+    EXPECT_NE(find_fault(status), std::nullopt);
+  }
+  status.slots = 1;
+  for (const double share : {-0.1, 1.1, std::nan("")}) {
+    status.waited_share = share;
+    EXPECT_NE(find_fault(status), std::nullopt);
+  }
+}
+
+TEST(IslandFaults, ATreeWithMoreNodesThanAllowedIsFound) {
+  GpParameters parameters = run().parameters;
+  const Tree tree = apply(Primitive::add, variable_tree(0), variable_tree(0));
+  parameters.max_tree_nodes = 3;
+  EXPECT_EQ(find_fault(Population{{tree, 1.0}}, parameters, 1), std::nullopt);
+  parameters.max_tree_nodes = 2;
+  EXPECT_NE(find_fault(Population{{tree, 1.0}}, parameters, 1), std::nullopt);
 }
 
 TEST(IslandFaults, AnInfiniteFitnessIsAllowedInAPopulation) {

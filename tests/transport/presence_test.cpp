@@ -72,6 +72,19 @@ TEST_F(Presences, ARepeatedStatusIsNewsOnlyOfALostWorker) {
   EXPECT_EQ(arrived(), (Messages{status("one"), WorkerLost{"one"}, status("one"), WorkerLost{"one"}}));
 }
 
+TEST_F(Presences, NewsOfACalibrationComeFromOneWriterWhileItIsThere) {
+  Heralds heralds(mailbox);
+  LoopNews news;
+  news.calibration = 3;
+  EXPECT_TRUE(heralds.heard(kOne, news));
+  EXPECT_FALSE(heralds.heard(kTwo, news));
+  heralds.departed(kTwo);
+  heralds.departed(kOne);
+  EXPECT_EQ(arrived(), (Messages{news, CalibrationLost{3}}));
+  EXPECT_TRUE(heralds.heard(kTwo, news));
+  EXPECT_EQ(arrived(), Messages{news});
+}
+
 TEST_F(Presences, WritersThatSaidNothingAreNobody) {
   presence.fell_silent(kOne);
   presence.spoke_again(kOne);

@@ -1,0 +1,26 @@
+// Names stand for participants.
+#include "transport/participant_of.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace demecal {
+namespace {
+
+TEST(ParticipantOf, DiffersForNamesThatDifferLittle) {
+  std::set<ParticipantId> seen;
+  for (int process = 0; process < 300; ++process)
+    for (const std::string host : {"a", "b", "host-1"})
+      seen.insert(participant_of(host + "-" + std::to_string(process)));
+  EXPECT_EQ(seen.size(), 900U);
+}
+
+TEST(ParticipantOf, IsTheSameOnEveryHost) {
+  EXPECT_EQ(text_of(participant_of("worker")), text_of(participant_of(std::string("wor") + "ker")));
+  EXPECT_EQ(text_of(participant_of("worker")).substr(0, 6), "01.0f.");
+  EXPECT_EQ(text_of(participant_of("worker")).size(), 35U);
+}
+
+}  // namespace
+}  // namespace demecal
