@@ -1,0 +1,274 @@
+#include "expression/constant_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kStripRows = 128;  // the columns of a formula's parts and their slopes stay in the near caches
+constexpr NodeId kExpanded = NodeId{1} << 31;
+
+bool is_number(const SharedNode& node) {
+  return node.is_constant && std::isfinite(node.value);
+}
+
+// What is left of a formula once terms and factors that are constant are taken off its root.
+NodeId core_of(const NodeStore& store, NodeId root) {
+  for (;;) {
+    const SharedNode& node = store[root];
+    const bool linear = node.primitive == Primitive::add || node.primitive == Primitive::subtract ||
+                        node.primitive == Primitive::multiply;
+    if (node.is_constant || node.right == 0) return root;
+    if (linear && is_number(store[node.left])) {
+      root = node.right;
+    } else if ((linear || node.primitive == Primitive::divide) && is_number(store[node.right])) {
+      root = node.left;
+    } else {
+      return root;
+    }
+  }
+}
+
+Step step_for(Primitive primitive, const Operand& left, const Operand& right, double* out) {
+  return arity(primitive) == 1 ? step_of(primitive, left, out, false) : step_of(primitive, left, right, out, false);
+}
+
+}  // namespace
+
+ConstantModel::ConstantModel(Columns columns)
+    : columns_(columns),
+      strip_rows_(std::min(kStripRows, columns_.padded_rows())),
+      pool_(strip_rows_, std::numeric_limits<std::size_t>::max()),
+      ones_(strip_rows_, 1.0),
+      zeros_(strip_rows_, 0.0) {}
+
+std::size_t ConstantModel::rows_at(std::size_t begin) const {
+  return std::min(strip_rows_, columns_.padded_rows() - begin);
+}
+
+TreeExtent ConstantModel::extent(const NodeStore& store, NodeId root, Scaling scaling) {
+  TreeExtent extent = store[scaling == Scaling::linear ? core_of(store, root) : root].whole;
+  if (scaling == Scaling::none) return extent;
+  extent.nodes = static_cast<std::uint16_t>(extent.nodes + 4);
+  extent.terminals = static_cast<std::uint16_t>(extent.terminals + 2);
+  extent.depth = static_cast<std::uint8_t>(extent.depth + 2);
+  return extent;
+}
+
+double* ConstantModel::lend() {
+  double* const column = pool_.take();
+  lent_.push_back(column);
+  return column;
+}
+
+double* ConstantModel::lend(double fill) {
+  double* const column = lend();
+  std::fill_n(column, strip_rows_, fill);
+  return column;
+}
+
+void ConstantModel::bind(const NodeStore& store, NodeId root, Scaling scaling) {
+  for (std::size_t i = lent_.size(); i-- > 0;) pool_.give_back(lent_[i]);
+  lent_.clear();
+  parts_.clear();
+  constants_.clear();
+  constant_columns_.clear();
+  fixed_steps_.clear();
+  varying_steps_.clear();
+  jumps_ = fixed_known_ = varying_known_ = false;
+  if (scaling == Scaling::none) {
+    take_apart(store, root);
+  } else {
+    const std::uint32_t offset = add_constant(0, 0.0), factor = add_constant(0, 1.0);
+    take_apart(store, core_of(store, root));
+    const auto core = static_cast<std::uint32_t>(parts_.size() - 1);
+    add_function(Primitive::add, offset, add_function(Primitive::multiply, factor, core, 0), 0);
+  }
+  sweep_back();
+}
+
+void ConstantModel::take_apart(const NodeStore& store, NodeId root) {
+  if (known_.size() < store.end()) known_.resize(store.end());
+  ++formula_;
+  stack_.assign(1, root);
+  while (!stack_.empty()) {
+    const NodeId id = stack_.back() & ~kExpanded;
+    const bool expanded = stack_.back() != id;
+    stack_.pop_back();
+    const SharedNode& node = store[id];
+    if (expanded) {
+      known_[id] = {formula_, static_cast<std::uint32_t>(parts_.size())};
+      add_function(node.primitive, known_[node.left].part, node.right != 0 ? known_[node.right].part : 0, id);
+    } else if (known_[id].formula == formula_) {
+      continue;
+    } else if (node.is_constant || node.left == 0) {
+      known_[id] = {formula_, static_cast<std::uint32_t>(parts_.size())};
+      add_leaf(node, id);
+    } else {
+      stack_.push_back(id | kExpanded);
+      if (node.right != 0) stack_.push_back(node.right);
+      stack_.push_back(node.left);
+    }
+  }
+}
+
+void ConstantModel::add_leaf(const SharedNode& node, NodeId id) {
+  if (is_number(node)) {
+    add_constant(id, node.value);
+    return;
+  }
+  Part part;
+  part.id = id;
+  part.primitive = node.primitive;
+  part.value =
+      node.is_constant ? Operand{lend(node.value), 0.0, false} : Operand{columns_.column(node.variable), 0.0, true};
+  parts_.push_back(part);
+}
+
+std::uint32_t ConstantModel::add_constant(NodeId id, double value) {
+  Part part;
+  part.id = id;
+  part.varies = true;
+  part.constant = static_cast<std::uint32_t>(constants_.size());
+  double* const column = lend(value);
+  part.value = {column, 0.0, false};
+  constants_.push_back(value);
+  constant_columns_.push_back(column);
+  parts_.push_back(part);
+  return static_cast<std::uint32_t>(parts_.size() - 1);
+}
+
+std::uint32_t ConstantModel::add_function(Primitive primitive, std::uint32_t left, std::uint32_t right, NodeId id) {
+  Part part;
+  part.id = id;
+  part.primitive = primitive;
+  part.left = left;
+  part.right = right;
+  part.varies = parts_[left].varies || (arity(primitive) == 2 && parts_[right].varies);
+  double* const out = lend();
+  part.value = {out, 0.0, false};
+  (part.varies ? varying_steps_ : fixed_steps_)
+      .push_back(step_for(primitive, parts_[left].value, parts_[right].value, out));
+  parts_.push_back(part);
+  return static_cast<std::uint32_t>(parts_.size() - 1);
+}
+
+void ConstantModel::set(std::span<const double> constants) {
+  DEMECAL_CHECK(constants.size() == constants_.size(), constants.size() << " of " << constants_.size());
+  for (std::size_t i = 0; i < constants.size(); ++i) std::fill_n(constant_columns_[i], strip_rows_, constants[i]);
+  varying_known_ = false;
+}
+
+const double* ConstantModel::values(std::size_t begin) {
+  const std::size_t rows = rows_at(begin);
+  const bool same_rows = begin == begin_;
+  if (!fixed_known_ || !same_rows) run(fixed_steps_, begin, rows);
+  if (!varying_known_ || !same_rows) run(varying_steps_, begin, rows);
+  begin_ = begin;
+  fixed_known_ = varying_known_ = true;
+  const Operand& value = parts_.back().value;
+  return value.column + (value.whole ? begin : 0);
+}
+
+const double* ConstantModel::emit(Primitive primitive, const Operand& argument) {
+  double* const out = lend();
+  slope_steps_.push_back(step_of(primitive, argument, out, false));
+  return out;
+}
+
+const double* ConstantModel::emit(Primitive primitive, const Operand& left, const Operand& right) {
+  double* const out = lend();
+  slope_steps_.push_back(step_of(primitive, left, right, out, false));
+  return out;
+}
+
+const double* ConstantModel::negated(const double* column) {
+  return emit(Primitive::multiply, {column, 0.0, false}, {nullptr, -1.0, false});
+}
+
+void ConstantModel::send(std::uint32_t part, const double* slope) {
+  const double*& sum = parts_[part].slope;
+  sum = sum == nullptr ? slope : emit(Primitive::add, {sum, 0.0, false}, {slope, 0.0, false});
+}
+
+void ConstantModel::sweep_back() {
+  slope_steps_.clear();
+  parts_.back().slope = parts_.back().varies ? ones_.data() : nullptr;
+  for (std::size_t i = parts_.size(); i-- > 0;)
+    if (parts_[i].slope != nullptr && arity(parts_[i].primitive) > 0) sweep_back(parts_[i]);
+  slopes_.resize(constants_.size());
+  for (const Part& part : parts_)
+    if (part.varies && arity(part.primitive) == 0)
+      slopes_[part.constant] = part.slope != nullptr ? part.slope : zeros_.data();
+}
+
+// The chain rule at one part, towards those of its arguments that vary.
+void ConstantModel::sweep_back(const Part& part) {
+  const Operand slope{part.slope, 0.0, false};
+  const Operand& left = parts_[part.left].value;
+  const Operand& right = parts_[part.right].value;
+  const bool to_left = parts_[part.left].varies;
+  const bool to_right = arity(part.primitive) == 2 && parts_[part.right].varies;
+  const auto column = [](const double* of) { return Operand{of, 0.0, false}; };
+  const auto product = [&](const Operand& a, const Operand& b) { return emit(Primitive::multiply, a, b); };
+  switch (part.primitive) {
+    case Primitive::add:
+      if (to_left) send(part.left, part.slope);
+      if (to_right) send(part.right, part.slope);
+      break;
+    case Primitive::subtract:
+      if (to_left) send(part.left, part.slope);
+      if (to_right) send(part.right, negated(part.slope));
+      break;
+    case Primitive::multiply:
+      if (to_left) send(part.left, product(slope, right));
+      if (to_right) send(part.right, product(slope, left));
+      break;
+    case Primitive::divide: {
+      const double* const nonzero = emit(Primitive::absolute, column(emit(Primitive::sign, right)));
+      const double* const quotient = product(column(emit(Primitive::divide, slope, right)), column(nonzero));
+      if (to_left) send(part.left, quotient);
+      if (to_right) send(part.right, negated(product(column(quotient), part.value)));
+      break;
+    }
+    case Primitive::sine:
+      send(part.left, product(slope, column(emit(Primitive::cosine, left))));
+      break;
+    case Primitive::cosine:
+      send(part.left, negated(product(slope, column(emit(Primitive::sine, left)))));
+      break;
+    case Primitive::square_root: {
+      const double* const twice = emit(Primitive::add, part.value, part.value);
+      const double* const size = emit(Primitive::divide, slope, column(twice));
+      send(part.left, product(column(size), column(emit(Primitive::sign, left))));
+      break;
+    }
+    case Primitive::absolute:
+      send(part.left, product(slope, column(emit(Primitive::sign, left))));
+      break;
+    default:
+      jumps_ = true;
+  }
+}
+
+NodeId ConstantModel::rebuilt(NodeStore& store, std::span<const double> constants) {
+  rebuilt_.clear();
+  for (const Part& part : parts_) {
+    if (!part.varies)
+      rebuilt_.push_back(part.id);
+    else if (arity(part.primitive) == 0)
+      rebuilt_.push_back(store.terminal({Primitive::constant, 0, constants[part.constant]}));
+    else if (arity(part.primitive) == 1)
+      rebuilt_.push_back(store.function(part.primitive, rebuilt_[part.left]));
+    else
+      rebuilt_.push_back(store.function(part.primitive, rebuilt_[part.left], rebuilt_[part.right]));
+  }
+  return rebuilt_.back();
+}
+
+}  // namespace demecal
