@@ -11,28 +11,30 @@ struct CountKey {
   std::string_view key;
   int GpParameters::*value;
 };
-constexpr std::array<CountKey, 9> kCounts{{{"population_size", &GpParameters::population_size},
-                                           {"number_generations", &GpParameters::number_generations},
-                                           {"tournament_size", &GpParameters::tournament_size},
-                                           {"initial_max_tree_depth1", &GpParameters::initial_max_tree_depth1},
-                                           {"initial_max_tree_depth2", &GpParameters::initial_max_tree_depth2},
-                                           {"max_tree_depth", &GpParameters::max_tree_depth},
-                                           {"max_tree_nodes", &GpParameters::max_tree_nodes},
-                                           {"min_tree_depth", &GpParameters::min_tree_depth},
-                                           {"invalid_attempts", &GpParameters::invalid_attempts}}};
+constexpr std::array<CountKey, 10> kCounts{{{"population_size", &GpParameters::population_size},
+                                            {"number_generations", &GpParameters::number_generations},
+                                            {"tournament_size", &GpParameters::tournament_size},
+                                            {"initial_max_tree_depth1", &GpParameters::initial_max_tree_depth1},
+                                            {"initial_max_tree_depth2", &GpParameters::initial_max_tree_depth2},
+                                            {"max_tree_depth", &GpParameters::max_tree_depth},
+                                            {"max_tree_nodes", &GpParameters::max_tree_nodes},
+                                            {"min_tree_depth", &GpParameters::min_tree_depth},
+                                            {"invalid_attempts", &GpParameters::invalid_attempts},
+                                            {"constant_steps", &GpParameters::constant_steps}}};
 
 struct RateKey {
   std::string_view key;
   double GpParameters::*value;
 };
-constexpr std::array<RateKey, 5> kRates{{{"crossover_rate", &GpParameters::crossover_rate},
+constexpr std::array<RateKey, 6> kRates{{{"crossover_rate", &GpParameters::crossover_rate},
                                          {"mutation_rate", &GpParameters::mutation_rate},
                                          {"terminal_crossover_rate", &GpParameters::terminal_crossover_rate},
                                          {"terminal_mutation_rate", &GpParameters::terminal_mutation_rate},
-                                         {"shrink_mutation_rate", &GpParameters::shrink_mutation_rate}}};
+                                         {"shrink_mutation_rate", &GpParameters::shrink_mutation_rate},
+                                         {"constant_share", &GpParameters::constant_share}}};
 
 std::vector<std::string> known_keys() {
-  std::vector<std::string> keys{"functions", "constants_range"};
+  std::vector<std::string> keys{"functions", "constants_range", "constants", "linear_scaling"};
   for (const CountKey& count : kCounts) keys.emplace_back(count.key);
   for (const RateKey& rate : kRates) keys.emplace_back(rate.key);
   return keys;
@@ -50,7 +52,7 @@ Primitive function_of(const YamlNode& symbol) {
 
 /// The node that a parameter was read from, or the map where it kept its default.
 const YamlNode& source_of(const ParameterFault& fault, const YamlNode& node) {
-  const bool constants = fault.key.starts_with("constants");
+  const bool constants = fault.key.starts_with("constants_");
   const YamlNode* found = node.find(constants ? "constants_range" : fault.key);
   return found ? *found : node;
 }
@@ -84,6 +86,12 @@ GpParameters read_gp(const YamlNode& node) {
   if (const YamlNode* range = node.find("constants_range")) {
     std::tie(parameters.constants_lower, parameters.constants_upper) = range->range();
   }
+  if (const YamlNode* constants = node.find("constants")) {
+    parameters.constants = constants->one_of<ConstantPolicy>({{"none", ConstantPolicy::none},
+                                                              {"lamarckian", ConstantPolicy::lamarckian},
+                                                              {"baldwin", ConstantPolicy::baldwin}});
+  }
+  if (const YamlNode* scaling = node.find("linear_scaling")) parameters.linear_scaling = scaling->truth();
   check_together(parameters, node);
   return parameters;
 }

@@ -1,6 +1,7 @@
 #include "evolution/breeding.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "errors/check.hpp"
@@ -16,6 +17,7 @@ constexpr std::size_t kFewNodes = 4096;  // below as many, nothing is collected
 Breeder::Breeder(const GpParameters& parameters, const TrainingTable& table, std::size_t budget_bytes)
     : parameters_(parameters),
       fitness_(table, budget_bytes),
+      learning_(table, parameters),
       variation_(parameters, static_cast<int>(table.variables.size())) {}
 
 SharedPopulation Breeder::enter(const std::vector<Tree>& trees) {
@@ -24,7 +26,15 @@ SharedPopulation Breeder::enter(const std::vector<Tree>& trees) {
   fitness_.bind(store_, population.roots);
   fitness_.run();
   for (const NodeId root : population.roots) population.fitness.push_back(fitness_.of(root));
+  population.models = population.roots;
+  if (learning_.is_on()) learning_.learn(store_, {}, population);
   return population;
+}
+
+void Breeder::settle(NodeId root, SharedPopulation& population, std::size_t i) {
+  population.roots[i] = population.models[i] = root;
+  population.fitness[i] = fitness(root);
+  if (learning_.is_on() && std::isfinite(population.fitness[i])) learning_.learn(store_, population, i);
 }
 
 double Breeder::fitness(NodeId root) {
@@ -36,13 +46,19 @@ double Breeder::fitness(NodeId root) {
 std::uint64_t Breeder::breed(RandomStream& random, SharedPopulation& population) {
   vary(random, population);
   bind();
-  return evaluate(population);
+  const std::uint64_t evaluations = evaluate(population);
+  learn(population);
+  return evaluations;
 }
 
 // Whatever no parent needs any more makes way, once it may be more than half.
 void Breeder::collect(const SharedPopulation& parents) {
   if (store_.size() < std::max(kFewNodes, 2 * size_after_collection_)) return;
-  fitness_.forget(store_.collect(parents.roots));
+  live_ = parents.roots;
+  for (const NodeId model : parents.models)
+    if (model != 0) live_.push_back(model);
+  fitness_.forget(store_.collect(live_));
+  learning_.forget();
   size_after_collection_ = store_.size();
 }
 
@@ -68,13 +84,17 @@ void Breeder::make_pair(RandomStream& random, const SharedPopulation& parents, N
   if (random.chance(parameters_.mutation_rate)) variation_.mutate(random, store_, son);
 }
 
-std::uint64_t Breeder::evaluate(SharedPopulation& population) {
+std::uint64_t Breeder::evaluate(const SharedPopulation& parents) {
   fitness_.run();
   offspring_.fitness.resize(offspring_.roots.size());
   for (std::size_t i = 0; i < offspring_.roots.size(); ++i) offspring_.fitness[i] = fitness_.of(offspring_.roots[i]);
-  const std::uint64_t evaluations = count_new(population);
+  return count_new(parents);
+}
+
+void Breeder::learn(SharedPopulation& population) {
+  offspring_.models = offspring_.roots;
+  if (learning_.is_on()) learning_.learn(store_, population, offspring_);
   std::swap(population, offspring_);
-  return evaluations;
 }
 
 std::uint64_t Breeder::count_new(const SharedPopulation& parents) {

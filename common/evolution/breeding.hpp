@@ -4,19 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "evolution/individual.hpp"
+#include "evolution/constant_learning.hpp"
 #include "evolution/parameters.hpp"
 #include "evolution/shared_fitness.hpp"
+#include "evolution/shared_population.hpp"
 #include "evolution/variation.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
-
-/// A population whose formulas are in a breeder's store; fitness[i] is that of roots[i].
-struct SharedPopulation {
-  std::vector<NodeId> roots;
-  std::vector<double> fitness;
-};
 
 /// Breeds generations, keeping the formulas, what is known of them and its memory. Elitism 1: the fittest parent comes
 /// first, unchanged. All others are made in pairs by parents from two tournaments. CROSSOVER_RATE and MUTATION_RATE are
@@ -28,12 +23,15 @@ class Breeder {
   Breeder(const GpParameters& parameters, const TrainingTable& table,
           std::size_t budget_bytes = SharedFitness::kColumnBudgetBytes);
 
-  /// Enters formulas in the store and evaluates them.
+  /// Enters formulas in the store, evaluates them and has them learn.
   SharedPopulation enter(const std::vector<Tree>& trees);
   NodeId enter(const Tree& tree) { return store_.enter(tree); }
   double fitness(NodeId root);
+  /// Has a formula of the store take place i, and learn what constants it is fitted with, whatever the share.
+  void settle(NodeId root, SharedPopulation& population, std::size_t i);
   const NodeStore& store() const { return store_; }
   const SharedFitness& known() const { return fitness_; }
+  const ConstantLearning& learning() const { return learning_; }
 
   /// Replaces `population` by the next generation of the same size. Returns how many of its trees equal no parent and
   /// no earlier offspring: what a breeder without a memory has to evaluate.
@@ -43,8 +41,10 @@ class Breeder {
   void vary(RandomStream& random, const SharedPopulation& parents);
   /// then what their fitness takes is found out;
   void bind() { fitness_.bind(store_, offspring_.roots); }
-  /// then it is computed, and the offspring take their parents' place.
-  std::uint64_t evaluate(SharedPopulation& population);
+  /// then it is computed;
+  std::uint64_t evaluate(const SharedPopulation& parents);
+  /// then the offspring learn (see ConstantLearning) and take their parents' place.
+  void learn(SharedPopulation& population);
 
  private:
   void collect(const SharedPopulation& parents);
@@ -54,8 +54,10 @@ class Breeder {
   GpParameters parameters_;
   NodeStore store_;
   SharedFitness fitness_;
+  ConstantLearning learning_;
   Variation variation_;
   SharedPopulation offspring_;
+  std::vector<NodeId> live_;
   std::vector<std::uint64_t> seen_;  ///< by node: the last generation that had it as an individual
   std::uint64_t generation_ = 0;
   std::size_t size_after_collection_ = 0;

@@ -75,6 +75,7 @@ void Island::run_epoch(const Population& immigrants, const std::function<void()>
     if (after_generation) after_generation();
   }
   write_population();
+  forget_models();
   state_.front = std::move(front).release();
   state_.generation += generations;
   ++state_.epoch;
@@ -89,13 +90,22 @@ void Island::enter_population(RandomStream& random) {
   }
   for (const Individual& individual : state_.population) residents_.roots.push_back(breeder_.enter(individual.tree));
   residents_.fitness = fitness_of(state_.population);
+  residents_.models = residents_.roots;
+  forget_models();
+}
+
+// What individuals were fitted to does not leave the island with them: whoever goes on knows as much as this one.
+void Island::forget_models() {
+  if (parameters_.constants != ConstantPolicy::lamarckian && breeder_.learning().is_on())
+    std::fill(residents_.models.begin(), residents_.models.end(), NodeId{0});
 }
 
 void Island::offer_all(ParetoFront& front) const {
   for (std::size_t i = 0; i < residents_.roots.size(); ++i) {
-    const NodeId root = residents_.roots[i];
+    const NodeId model = residents_.models[i];
     const double fitness = residents_.fitness[i];
-    if (front.wants(breeder_.store()[root].whole.nodes, fitness)) front.offer({breeder_.store().tree(root), fitness});
+    if (model != 0 && front.wants(breeder_.store()[model].whole.nodes, fitness))
+      front.offer({breeder_.store().tree(model), fitness});
   }
 }
 
@@ -125,8 +135,7 @@ void Island::take_in(const Population& immigrants) {
     if (std::find(roots.begin(), roots.end(), root) != roots.end()) continue;
     ++taken;
     const std::size_t worst = ranked[ranked.size() - taken];
-    roots[worst] = root;
-    residents_.fitness[worst] = breeder_.fitness(root);
+    breeder_.settle(root, residents_, worst);
   }
   state_.evaluations += taken;
   state_.migrants_taken += taken;

@@ -66,6 +66,7 @@ class Island {
   void take_in(const Population& immigrants);
   void offer_all(ParetoFront& front) const;
   void write_population();
+  void forget_models();
   bool fits(const Tree& tree) const;
   std::uint32_t generations_of_epoch() const;
 

@@ -32,7 +32,8 @@ std::optional<ParameterFault> count_fault(const GpParameters& p) {
                        {"initial_max_tree_depth2", p.initial_max_tree_depth2},
                        {"max_tree_depth", p.max_tree_depth},
                        {"min_tree_depth", p.min_tree_depth},
-                       {"invalid_attempts", p.invalid_attempts}};
+                       {"invalid_attempts", p.invalid_attempts},
+                       {"constant_steps", p.constant_steps}};
   for (const auto& [key, value] : counts)
     if (value < 1) return ParameterFault{key, text_of(value), "must be at least 1"};
   return std::nullopt;
@@ -43,7 +44,8 @@ std::optional<ParameterFault> rate_fault(const GpParameters& p) {
                      {"mutation_rate", p.mutation_rate},
                      {"terminal_crossover_rate", p.terminal_crossover_rate},
                      {"terminal_mutation_rate", p.terminal_mutation_rate},
-                     {"shrink_mutation_rate", p.shrink_mutation_rate}};
+                     {"shrink_mutation_rate", p.shrink_mutation_rate},
+                     {"constant_share", p.constant_share}};
   for (const auto& [key, value] : rates)
     if (!(value >= 0.0 && value <= 1.0)) return ParameterFault{key, text_of(value), "must lie within 0 to 1"};
   return std::nullopt;
@@ -83,6 +85,8 @@ std::optional<ParameterFault> function_fault(const std::vector<Primitive>& funct
 }
 
 std::optional<ParameterFault> constants_fault(const GpParameters& p) {
+  if (p.constants > ConstantPolicy::baldwin)
+    return ParameterFault{"constants", text_of(static_cast<int>(p.constants)), "must be a known policy"};
   if (!std::isfinite(p.constants_lower))
     return ParameterFault{"constants_lower", text_of(p.constants_lower), "must be finite"};
   if (!std::isfinite(p.constants_upper))

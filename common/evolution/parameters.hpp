@@ -1,6 +1,7 @@
 // The parameters of genetic programming, by the names of the thesis's Table 5-8 with the values of Table 6-1.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@ namespace demecal {
 
 /// What max_tree_depth may be at most.
 inline constexpr int kDeepestTree = 15;
+
+/// Whether the constants of formulas are fitted, and what of it is inherited (thesis 7.1 v): with Lamarck the fitted
+/// constants, with Baldwin only what fitness they made possible.
+enum class ConstantPolicy : std::uint8_t { none, lamarckian, baldwin };
 
 struct GpParameters {
   int population_size = 300;
@@ -31,6 +36,10 @@ struct GpParameters {
                                    Primitive::sine, Primitive::cosine,   Primitive::sign,     Primitive::square_root};
   double constants_lower = 0.0;  ///< range of the ephemeral constant
   double constants_upper = 1.0;
+  ConstantPolicy constants = ConstantPolicy::none;
+  int constant_steps = 10;      ///< of Levenberg and Marquardt, on each formula that is fitted
+  double constant_share = 1.0;  ///< of each generation that is fitted: its fittest new formulas
+  bool linear_scaling = false;  ///< whether formulas are judged by the best a + b * formula
 
   bool operator==(const GpParameters&) const = default;
 };
@@ -45,7 +54,8 @@ struct ParameterFault {
 /// The first broken rule: counts positive, rates within 0 to 1, min_tree_depth <= initial_max_tree_depth1 <=
 /// initial_max_tree_depth2 <= max_tree_depth <= 15, max_tree_nodes 0 or enough for every tree of
 /// initial_max_tree_depth2, tournament no larger than the population, at least one function, no
-/// function twice, constants_lower < constants_upper and both finite. Nothing where all hold.
+/// function twice, constants_lower < constants_upper and both finite, a known policy for constants. Nothing where all
+/// hold.
 std::optional<ParameterFault> find_fault(const GpParameters& parameters);
 
 }  // namespace demecal

@@ -5,6 +5,30 @@
 namespace demecal {
 namespace {
 
+wire::ConstantPolicy encode(ConstantPolicy policy) {
+  switch (policy) {
+    case ConstantPolicy::none:
+      return wire::UNFITTED;
+    case ConstantPolicy::lamarckian:
+      return wire::LAMARCKIAN;
+    case ConstantPolicy::baldwin:
+      break;
+  }
+  return wire::BALDWIN;
+}
+
+std::optional<ConstantPolicy> decode(wire::ConstantPolicy policy) {
+  switch (policy) {
+    case wire::UNFITTED:
+      return ConstantPolicy::none;
+    case wire::LAMARCKIAN:
+      return ConstantPolicy::lamarckian;
+    case wire::BALDWIN:
+      return ConstantPolicy::baldwin;
+  }
+  return std::nullopt;
+}
+
 wire::GpParameters encode(const GpParameters& p) {
   wire::GpParameters encoded;
   encoded.population_size(p.population_size);
@@ -24,6 +48,10 @@ wire::GpParameters encode(const GpParameters& p) {
   for (const Primitive function : p.functions) encoded.functions().push_back(static_cast<std::uint8_t>(function));
   encoded.constants_lower(p.constants_lower);
   encoded.constants_upper(p.constants_upper);
+  encoded.constants(encode(p.constants));
+  encoded.constant_steps(p.constant_steps);
+  encoded.constant_share(p.constant_share);
+  encoded.linear_scaling(p.linear_scaling);
   return encoded;
 }
 
@@ -50,6 +78,12 @@ std::optional<GpParameters> decode(const wire::GpParameters& p) {
   }
   decoded.constants_lower = p.constants_lower();
   decoded.constants_upper = p.constants_upper();
+  const auto constants = decode(p.constants());
+  if (!constants) return std::nullopt;
+  decoded.constants = *constants;
+  decoded.constant_steps = p.constant_steps();
+  decoded.constant_share = p.constant_share();
+  decoded.linear_scaling = p.linear_scaling();
   return decoded;
 }
 

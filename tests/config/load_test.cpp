@@ -110,6 +110,18 @@ TEST(LoadJob, ReadsEveryKey) {
   EXPECT_THAT(job.closed_loop.ratios, ElementsAre(161.0, 211.5));
 }
 
+TEST(LoadJob, ReadsHowConstantsAreFitted) {
+  const Samples samples;
+  const char* const kText =
+      "demecal_job: 1\ndata: d.yaml\n"
+      "gp: {constants: baldwin, constant_steps: 6, constant_share: 0.2, linear_scaling: true}\n";
+  const Job job = load_job(samples.folder.write("fitted.yaml", kText));
+  EXPECT_EQ(job.gp.constants, ConstantPolicy::baldwin);
+  EXPECT_EQ(job.gp.constant_steps, 6);
+  EXPECT_EQ(job.gp.constant_share, 0.2);
+  EXPECT_TRUE(job.gp.linear_scaling);
+}
+
 TEST(LoadJob, DeclaresByTheSameWordsFromACommandLine) {
   const std::vector<std::string> words{"tool", "joint_corrections"};
   const DeclaredModel declared = declared_of(words);

@@ -19,6 +19,21 @@ TEST(EvolutionRun, EveryIslandReturnsAFrontAndBreedsAllGenerations) {
   EXPECT_GT(result.evaluations, 6U * 40U);
 }
 
+TEST(EvolutionRun, IsTheSameForAnyNumberOfWorkersWhereConstantsAreFitted) {
+  CalibrationData data = small_run(2, Topology::ring, true);
+  data.parameters.constant_share = 0.3;
+  data.parameters.linear_scaling = true;
+  RunResult before;
+  for (const ConstantPolicy policy : {ConstantPolicy::none, ConstantPolicy::lamarckian, ConstantPolicy::baldwin}) {
+    data.parameters.constants = policy;
+    const RunResult alone = run_in_memory(data, 1);
+    EXPECT_TRUE(same_fronts(alone, run_in_memory(data, 3, 2)));
+    EXPECT_TRUE(same_fronts(alone, run_in_memory(data, 6)));
+    EXPECT_FALSE(same_fronts(alone, before));
+    before = alone;
+  }
+}
+
 TEST(EvolutionRun, IsTheSameForAnyNumberOfWorkersAndSlots) {
   for (const Topology topology : {Topology::none, Topology::ring, Topology::full}) {
     const CalibrationData data = small_run(2, topology, topology == Topology::ring);

@@ -103,6 +103,10 @@ class RandomMessages {
     GpParameters p{count(), count(), count(), count(), count(), count(), count(), count(), count(),
                    real(),  real(),  real(),  real(),  real(),  {},      real(),  real()};
     p.functions.assign(random_.index(8), Primitive::cosine);
+    p.constants = static_cast<ConstantPolicy>(random_.index(3));
+    p.constant_steps = count();
+    p.constant_share = real();
+    p.linear_scaling = random_.chance(0.5);
     return p;
   }
 

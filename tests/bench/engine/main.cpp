@@ -3,10 +3,12 @@
 
 #include "machine_rates.hpp"
 #include "output.hpp"
+#include "workload.hpp"
 
 namespace {
 
 using namespace demecal::bench::engine;
+using demecal::GpParameters;
 
 struct Options {
   std::vector<std::size_t> rows{30, 300, 3000, 30000};
@@ -15,11 +17,11 @@ struct Options {
   bool json = false;
 };
 
-EngineRow measure_row(std::size_t rows, int threads, const Options& options, const RunFigures& parts,
-                      double tree_walk_per_s) {
+EngineRow measure_row(const std::string& workload, const GpParameters& gp, std::size_t rows, int threads,
+                      const Options& options, const RunFigures& parts, double tree_walk_per_s) {
   std::cerr << '\r' << rows << " rows, " << threads << " threads   " << std::flush;
   const int runs = rows > 10'000 ? std::min(options.runs, 2) : options.runs;
-  return {rows, threads, measure_runs(rows, threads, runs), tree_walk_per_s, parts};
+  return {workload, rows, threads, measure_runs(gp, rows, threads, runs), tree_walk_per_s, parts};
 }
 
 }  // namespace
@@ -42,11 +44,14 @@ int main(int argc, char** argv) {
   const double error_rows_per_s = measured_error_rows_per_s();
   std::vector<EngineRow> measured;
   for (const std::size_t rows : options.rows) {
-    const RunFigures parts = measure_parts(rows, rows > 10'000 ? 1 : options.runs, error_rows_per_s);
+    const RunFigures parts = measure_parts(parameters(), rows, rows > 10'000 ? 1 : options.runs, error_rows_per_s);
     const double tree_walk_per_s = measure_tree_walk(rows);
     for (const int threads : options.threads)
-      measured.push_back(measure_row(rows, threads, options, parts, tree_walk_per_s));
+      measured.push_back(measure_row("run", parameters(), rows, threads, options, parts, tree_walk_per_s));
   }
+  const RunFigures parts = measure_parts(fitting_parameters(), 30, std::min(options.runs, 3), error_rows_per_s);
+  for (const int threads : options.threads)
+    measured.push_back(measure_row("run_lm10", fitting_parameters(), 30, threads, options, parts, 0.0));
   std::cerr << '\n';
   if (options.json) {
     write_json(std::cout, measured, machine);

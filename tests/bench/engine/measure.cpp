@@ -45,8 +45,7 @@ void count_offspring(const Breeder& breeder, const SharedPopulation& population,
   }
 }
 
-RunFigures run_in_parts(const TrainingTable& table, double error_rows_per_s) {
-  const GpParameters gp = parameters();
+RunFigures run_in_parts(const GpParameters& gp, const TrainingTable& table, double error_rows_per_s) {
   RunFigures figures;
   Stopwatch watch;
   RandomStream random{kSeed};
@@ -65,6 +64,9 @@ RunFigures run_in_parts(const TrainingTable& table, double error_rows_per_s) {
     watch.lap();
     scored += static_cast<double>(breeder.evaluate(population));
     figures.seconds.evaluation += watch.lap();
+    breeder.learn(population);
+    figures.seconds.fitting += watch.lap();
+    figures.fits = static_cast<double>(breeder.learning().fits());
     count_offspring(breeder, population, figures);
   }
   figures.functions_made = static_cast<double>(breeder.store().functions_made() - made_at_start);
@@ -75,8 +77,8 @@ RunFigures run_in_parts(const TrainingTable& table, double error_rows_per_s) {
   return figures;
 }
 
-void run_island(const TrainingTable& table, std::uint64_t seed) {
-  Island island(parameters(), alone(), table, {0, 0}, seed);
+void run_island(const GpParameters& gp, const TrainingTable& table, std::uint64_t seed) {
+  Island island(gp, alone(), table, {0, 0}, seed);
   while (!island.finished()) island.run_epoch({});
 }
 
@@ -92,19 +94,19 @@ double walk(const Node*& node, double theta) {
 
 }  // namespace
 
-RunFigures measure_parts(std::size_t rows, int runs, double error_rows_per_s) {
+RunFigures measure_parts(const GpParameters& gp, std::size_t rows, int runs, double error_rows_per_s) {
   const TrainingTable table = smooth_table(rows);
-  RunFigures best = run_in_parts(table, error_rows_per_s);
+  RunFigures best = run_in_parts(gp, table, error_rows_per_s);
   for (int run = 1; run < runs; ++run) {
-    const RunFigures figures = run_in_parts(table, error_rows_per_s);
+    const RunFigures figures = run_in_parts(gp, table, error_rows_per_s);
     if (figures.seconds.total() < best.seconds.total()) best = figures;
   }
   return best;
 }
 
-Speed measure_runs(std::size_t rows, int threads, int runs) {
+Speed measure_runs(const GpParameters& gp, std::size_t rows, int threads, int runs) {
   const TrainingTable table = smooth_table(rows);
-  const auto count = static_cast<double>(evaluations(parameters()));
+  const auto count = static_cast<double>(evaluations(gp));
   Speed best;
   for (int run = 0; run < runs; ++run) {
     std::vector<double> seconds(static_cast<std::size_t>(threads));
@@ -114,7 +116,7 @@ Speed measure_runs(std::size_t rows, int threads, int runs) {
       workers.emplace_back([&] {
         start.arrive_and_wait();
         const double begin = thread_seconds();
-        run_island(table, kSeed);
+        run_island(gp, table, kSeed);
         own = thread_seconds() - begin;
       });
     }

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "evolution/parameters.hpp"
+
 namespace demecal::bench::engine {
 
 /// Seconds that the parts of a run took.
@@ -19,11 +21,12 @@ struct RunFigures {
   double functions_made = 0.0;      ///< of those, not found in the store
   double functions_computed = 0.0;  ///< over all rows
   double nodes = 0.0;               ///< of all offspring as trees, terminals included
+  double fits = 0.0;                ///< formulas whose constants were fitted, equal ones once
   std::size_t bytes = 0;            ///< of store, columns and what is known of nodes
 };
 
 /// The best of `runs` runs; `error_rows_per_s` divides the time of evaluation into values and fitness.
-RunFigures measure_parts(std::size_t rows, int runs, double error_rows_per_s);
+RunFigures measure_parts(const GpParameters& gp, std::size_t rows, int runs, double error_rows_per_s);
 
 /// Whole runs of Island, one a thread, side by side: evaluations per second of processor time (one thread's) and of
 /// the wall clock (all threads'), the best of `runs`.
@@ -31,7 +34,7 @@ struct Speed {
   double per_thread_second = 0.0;
   double per_wall_second = 0.0;
 };
-Speed measure_runs(std::size_t rows, int threads, int runs);
+Speed measure_runs(const GpParameters& gp, std::size_t rows, int threads, int runs);
 
 /// Evaluations per second of the formulas of one run's last population by a recursive evaluator, row by row.
 double measure_tree_walk(std::size_t rows);

@@ -27,17 +27,19 @@ void write_table(std::ostream& out, const std::vector<EngineRow>& rows, const Ma
       "One core: {:.2g} fused multiply-adds/s, {:.2g} sines/s (the C library's: {:.2g}/s).\n"
       "Evaluations are offspring made, equal ones included; a whole run makes 51,000.\n\n",
       machine.fma_per_s, machine.sin_per_s, machine.library_sin_per_s);
-  out << "                 evaluations/s           tree     node x rows/s   of     found\n"
-         "  rows threads     wall  per thread      walk  computed   meant  sines in store   start variation binding "
+  out << "workload                    evaluations/s           tree     node x rows/s   of     found\n"
+         "             rows threads     wall  per thread      walk  computed   meant  sines in store   start variation "
+         "binding "
          "values fitness fitting  memory\n";
   for (const EngineRow& row : rows) {
     const RunFigures& parts = row.parts;
     const TimeSplit& seconds = parts.seconds;
     out << fmt::format(
-        "{:>6} {:>7} {:>8.0f} {:>11.0f} {:>9.0f} {:>9.2g} {:>7.2g} {:>6.2f} {:>7.0f}% {:>6.0f}% {:>8.0f}% {:>6.0f}% "
+        "{:<10} {:>6} {:>7} {:>8.0f} {:>11.0f} {:>9.0f} {:>9.2g} {:>7.2g} {:>6.2f} {:>7.0f}% {:>6.0f}% {:>8.0f}% "
+        "{:>6.0f}% "
         "{:>5.0f}% {:>6.0f}% {:>6.0f}% {:>4.1f} MB\n",
-        row.rows, row.threads, row.speed.per_wall_second, row.speed.per_thread_second, row.tree_walk_per_s,
-        node_rows_per_s(row), parts.nodes * static_cast<double>(row.rows) / seconds.total(),
+        row.workload, row.rows, row.threads, row.speed.per_wall_second, row.speed.per_thread_second,
+        row.tree_walk_per_s, node_rows_per_s(row), parts.nodes * static_cast<double>(row.rows) / seconds.total(),
         node_rows_per_s(row) / machine.sin_per_s, 100.0 * found_in_store(parts), 100.0 * share(seconds.start, parts),
         100.0 * share(seconds.variation, parts), 100.0 * share(seconds.binding, parts),
         100.0 * share(seconds.evaluation, parts), 100.0 * share(seconds.fitness, parts),
@@ -49,7 +51,7 @@ void write_json(std::ostream& out, const std::vector<EngineRow>& rows, const Mac
   for (const EngineRow& row : rows) {
     const RunFigures& parts = row.parts;
     const TimeSplit& seconds = parts.seconds;
-    out << nlohmann::ordered_json{{"workload", "run"},
+    out << nlohmann::ordered_json{{"workload", row.workload},
                                   {"rows", row.rows},
                                   {"threads", row.threads},
                                   {"evaluations_per_s", row.speed.per_wall_second},
@@ -69,6 +71,7 @@ void write_json(std::ostream& out, const std::vector<EngineRow>& rows, const Mac
                                     {"evaluation", share(seconds.evaluation, parts)},
                                     {"fitness", share(seconds.fitness, parts)},
                                     {"fitting", share(seconds.fitting, parts)}}},
+                                  {"fits", parts.fits},
                                   {"memory_bytes", parts.bytes}}
                .dump()
         << '\n';

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "measure.hpp"
@@ -15,6 +16,7 @@ struct MachineRates {
 };
 
 struct EngineRow {
+  std::string workload = "run";
   std::size_t rows = 0;
   int threads = 1;
   Speed speed;

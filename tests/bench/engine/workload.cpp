@@ -27,6 +27,14 @@ GpParameters parameters() {
   return parameters;
 }
 
+GpParameters fitting_parameters() {
+  GpParameters fitting = parameters();
+  fitting.constants = ConstantPolicy::lamarckian;
+  fitting.constant_steps = 10;
+  fitting.constant_share = 1.0;
+  return fitting;
+}
+
 std::size_t evaluations(const GpParameters& parameters) {
   return static_cast<std::size_t>(parameters.population_size) *
          (1 + static_cast<std::size_t>(parameters.number_generations));

@@ -14,6 +14,8 @@ TrainingTable smooth_table(std::size_t rows);
 /// Population 1000, 50 generations, tournament 5, depth 9, at most 64 nodes, {+ - * % SIN COS SQRTp ABS}; all else as
 /// the program's defaults.
 GpParameters parameters();
+/// The same with ten steps of Levenberg and Marquardt on the constants of every individual, which inherits them.
+GpParameters fitting_parameters();
 
 /// Offspring of a run and its first population, equal formulas included.
 std::size_t evaluations(const GpParameters& parameters);
