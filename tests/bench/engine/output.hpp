@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy.hpp"
 #include "measure.hpp"
 
 namespace demecal::bench::engine {
@@ -31,5 +32,9 @@ double node_rows_per_s(const EngineRow& row);
 
 void write_table(std::ostream& out, const std::vector<EngineRow>& rows, const MachineRates& machine);
 void write_json(std::ostream& out, const std::vector<EngineRow>& rows, const MachineRates& machine);
+
+void write_table(std::ostream& out, const std::vector<AccuracyFigures>& seeds);
+/// `ms_to_target` is null where the target was never reached.
+void write_json(std::ostream& out, const std::vector<AccuracyFigures>& seeds);
 
 }  // namespace demecal::bench::engine

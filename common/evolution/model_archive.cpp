@@ -1,0 +1,78 @@
+#include "evolution/model_archive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kNear = 4.0;  // times the least mean square
+
+void append(std::vector<double>& column, const std::vector<double>& more) {
+  column.insert(column.end(), more.begin(), more.end());
+}
+
+TrainingTable joined(TrainingTable rows, const TrainingTable& more) {
+  DEMECAL_CHECK(rows.variables.size() == more.variables.size(), rows.variables.size() << ", " << more.variables.size());
+  for (std::size_t i = 0; i < rows.variables.size(); ++i) append(rows.variables[i], more.variables[i]);
+  append(rows.target, more.target);
+  append(rows.weight, more.weight);
+  return rows;
+}
+
+}  // namespace
+
+double message_nats(const Tree& tree, double square, double rows) {
+  double nats = 0.5 * rows * std::log(square);
+  for (const Node& node : tree) nats += node.primitive == Primitive::constant ? 1.0 + 0.5 * std::log(rows) : 1.0;
+  return nats;
+}
+
+ModelArchive::ModelArchive(const TrainingTable& training, const TrainingTable& validation,
+                           const GpParameters& parameters)
+    : fit_(training, parameters),
+      rows_(joined(training, validation)),
+      weights_(std::accumulate(rows_.weight.begin(), rows_.weight.end(), 0.0)),
+      evaluate_(rows_.variables) {}
+
+double ModelArchive::mean_square(const Tree& tree) {
+  const std::span<const double> values = evaluate_(tree);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double error = rows_.target[i] - values[i];
+    sum += rows_.weight[i] * error * error;
+  }
+  return sum / weights_;
+}
+
+double ModelArchive::offer(const Tree& tree) {
+  const double square = mean_square(tree);
+  front_.offer({tree, square});
+  return square;
+}
+
+void ModelArchive::offer(const Population& front) {
+  std::vector<std::pair<std::size_t, double>> offered;
+  for (const Individual& member : front) {
+    offered.emplace_back(member.tree.size(), member.fitness);
+    if (std::binary_search(last_.begin(), last_.end(), offered.back())) continue;
+    const double square = offer(member.tree);
+    if (front_.members().empty() || square > kNear * front_.members().back().fitness) continue;
+    NodeStore store;
+    offer(store.tree(fit_.by_squares(store, store.enter(member.tree)).root));
+  }
+  last_ = std::move(offered);
+}
+
+const Individual* ModelArchive::chosen() const {
+  const Population& members = front_.members();
+  const auto nats = [this](const Individual& one) { return message_nats(one.tree, one.fitness, weights_); };
+  const auto briefest = std::min_element(members.begin(), members.end(),
+                                         [&](const Individual& a, const Individual& b) { return nats(a) < nats(b); });
+  return briefest == members.end() ? nullptr : &*briefest;
+}
+
+}  // namespace demecal

@@ -1,0 +1,42 @@
+// Which of the formulas that islands found is reported: the one that describes measured and unseen rows most briefly.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "evolution/constant_fit.hpp"
+#include "evolution/individual.hpp"
+
+namespace demecal {
+
+/// Nats that it takes to write down the errors, normal and of unknown size, of a formula with mean square `square` over
+/// `rows` rows, and the formula: one for every node and log(rows) / 2 more for every constant (after Rissanen 1978).
+double message_nats(const Tree& tree, double square, double rows);
+
+/// Keeps the best formula of each length by its weighted mean squared error over the rows that evolution learnt from
+/// and as many as it never saw: for the ones a formula may be fitted too well, for the others only chosen too well.
+class ModelArchive {
+ public:
+  ModelArchive(const TrainingTable& training, const TrainingTable& validation, const GpParameters& parameters);
+
+  /// Offers the front of an island of the training table: each member as it is and, where it comes near the best, with
+  /// its constants fitted to the training rows by least squares. Members of the front offered last are passed over.
+  void offer(const Population& front);
+
+  /// The formula of least message_nats(), with its mean square as fitness; null where no formula was offered that
+  /// is finite on all rows.
+  const Individual* chosen() const;
+
+ private:
+  double mean_square(const Tree& tree);
+  double offer(const Tree& tree);
+
+  ConstantFit fit_;
+  TrainingTable rows_;
+  double weights_ = 0.0;
+  ColumnEvaluator evaluate_;
+  ParetoFront front_;
+  std::vector<std::pair<std::size_t, double>> last_;  ///< length and fitness of the members offered last
+};
+
+}  // namespace demecal
