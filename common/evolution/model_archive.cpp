@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "errors/check.hpp"
+#include "expression/simplify.hpp"
 
 namespace demecal {
 namespace {
@@ -59,10 +60,11 @@ void ModelArchive::offer(const Population& front) {
   for (const Individual& member : front) {
     offered.emplace_back(member.tree.size(), member.fitness);
     if (std::binary_search(last_.begin(), last_.end(), offered.back())) continue;
-    const double square = offer(member.tree);
+    const Tree tree = simplified(member.tree);
+    const double square = offer(tree);
     if (front_.members().empty() || square > kNear * front_.members().back().fitness) continue;
     NodeStore store;
-    offer(store.tree(fit_.by_squares(store, store.enter(member.tree)).root));
+    offer(store.tree(fit_.by_squares(store, store.enter(tree)).root));
   }
   last_ = std::move(offered);
 }

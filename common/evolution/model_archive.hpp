@@ -19,8 +19,9 @@ class ModelArchive {
  public:
   ModelArchive(const TrainingTable& training, const TrainingTable& validation, const GpParameters& parameters);
 
-  /// Offers the front of an island of the training table: each member as it is and, where it comes near the best, with
-  /// its constants fitted to the training rows by least squares. Members of the front offered last are passed over.
+  /// Offers the front of an island of the training table: each member simplified and, where it comes near the best,
+  /// with its constants fitted to the training rows by least squares. Members of the front offered last are passed
+  /// over.
   void offer(const Population& front);
 
   /// The formula of least message_nats(), with its mean square as fitness; null where no formula was offered that

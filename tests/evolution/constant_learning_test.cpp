@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <utility>
 
 #include "allocation_count.hpp"
 #include "evolution/island.hpp"
@@ -159,6 +160,31 @@ TEST_P(LearningIsland, DoesBetterThanOneThatDoesNotLearn) {
   parameters.constants = ConstantPolicy::none;
   parameters.linear_scaling = false;
   EXPECT_LT(learnt, finished({0, 0}).figures().best);
+}
+
+std::uint64_t bits_of(const Population& population) {
+  std::uint64_t bits = 0;
+  const auto add = [&bits](double number) { bits = (bits ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3; };
+  for (const Individual& individual : population) {
+    for (const Node& node : individual.tree) add(node.primitive == Primitive::constant ? node.value : 0.0);
+    add(individual.fitness);
+  }
+  return bits;
+}
+
+// Written down once; what it was does not matter, but that vector units of every width, and none, give it.
+TEST(ConstantLearning, GivesTheSameBitsOnEveryHost) {
+  for (const auto& [policy, bits] : {std::pair{ConstantPolicy::lamarckian, std::uint64_t{16613584369645031142U}},
+                                     std::pair{ConstantPolicy::baldwin, std::uint64_t{5043647133263849937U}}}) {
+    const GpParameters parameters = learning(policy, 0.5, true);
+    Archipelago archipelago;
+    archipelago.joints = {0};
+    RandomStream random{95};
+    TrainingTable table = two_variable_lesson(random, 300);
+    Island island(parameters, archipelago, table, {0, 0}, 5);
+    while (!island.finished()) island.run_epoch({});
+    EXPECT_EQ(bits_of(island.state().population), bits);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, LearningIsland,
