@@ -1,7 +1,5 @@
 #include "coordinator/evolutions.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -11,12 +9,6 @@
 
 namespace demecal {
 namespace {
-
-/// A new name for every run: who started it, and when. It tells runs apart and has no part in the result.
-RunId new_run() {
-  const auto moment = std::chrono::system_clock::now().time_since_epoch().count();
-  return (static_cast<RunId>(moment) << 16) ^ static_cast<RunId>(::getpid()) ^ 1U;
-}
 
 /// Without a run's number yet.
 CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings, bool asynchronous) {
@@ -119,19 +111,20 @@ RunState Evolutions::start_of(const CalibrationData& data) {
 /// Goes on from the state as a new run: workers may still be at the one that it comes from, which is over.
 RunResult Evolutions::evolve(RunState state, bool shown) {
   while (true) {
-    const RunId left = state.data().run;
-    state.rename(new_run());
-    RunResult result = attempt(state, left, shown);
+    RunResult result = attempt(state, shown);
     if (result.end != RunEnd::stuck) return result;
     state = RunState(state.data());
   }
 }
 
-RunResult Evolutions::attempt(const RunState& state, RunId left, bool shown) {
+/// Under a number that shows whose the run is.
+RunResult Evolutions::attempt(RunState& state, bool shown) {
+  const std::unique_ptr<Fleet> fleet = make_fleet_();
+  const RunId left = state.data().run;
+  state.rename(fleet->transport().new_run());
   ProgressDisplay display(stderr, state.data(), options_.quiet || !shown);
   for (const Progress& progress : state.progress()) display.on_progress(progress);
   Recorded observer(display, options_.chronicle, options_.journal);
-  const std::unique_ptr<Fleet> fleet = make_fleet_();
   if (options_.journal != nullptr) options_.journal->begin(state.data());
   if (left != 0) fleet->transport().publish(Control{left, Control::State::cancelled, state.data().job});
   if (options_.chronicle != nullptr) options_.chronicle->run_begins(state.data(), state.progress());

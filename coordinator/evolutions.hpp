@@ -30,7 +30,7 @@ class Evolutions {
  private:
   RunState start_of(const CalibrationData& data);
   RunResult evolve(RunState state, bool shown);
-  RunResult attempt(const RunState& state, RunId left, bool shown);
+  RunResult attempt(RunState& state, bool shown);
   void note(RunResult& result, bool shown);
 
   const Job& job_;

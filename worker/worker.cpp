@@ -116,8 +116,11 @@ void Worker::take(const Migrants& migrants) {
 
 void Worker::take(const Control& control) {
   if (control.state == Control::State::running) return;
-  ended_.insert(control.run);
-  if (ended_.size() > kMostEnded) ended_.erase(ended_.begin());  // numbers of runs grow with time
+  if (ended_.insert(control.run).second) ended_in_order_.push_back(control.run);
+  if (ended_in_order_.size() > kMostEnded) {
+    ended_.erase(ended_in_order_.front());
+    ended_in_order_.pop_front();
+  }
   forget_run(control.run);
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -63,7 +64,8 @@ class Worker {
   std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
   std::map<Place, std::uint32_t> attempts_;  ///< highest seen, ours or another's
   std::set<std::shared_ptr<Tenancy>> busy_;
-  std::set<RunId> ended_;  ///< the last ones
+  std::set<RunId> ended_;
+  std::deque<RunId> ended_in_order_;  ///< the last ones are remembered
   Slots<std::shared_ptr<Tenancy>> slots_;
   std::uint64_t beats_seen_ = 0;
   WaitedShare slots_waited_;

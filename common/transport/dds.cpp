@@ -1,6 +1,7 @@
 #include "transport/dds.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -17,6 +18,13 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
+
+/// Another for every run of this process, and most likely of an earlier one that had its number.
+std::uint16_t new_serial() {
+  static std::atomic<std::uint64_t> count{0};
+  const auto now_s = std::chrono::system_clock::now().time_since_epoch() / std::chrono::seconds(1);
+  return static_cast<std::uint16_t>(static_cast<std::uint64_t>(now_s) + count++);
+}
 
 class DdsTransport final : public Transport {
  public:
@@ -39,6 +47,7 @@ class DdsTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override;
   void assert_alive() override;
   bool flush(milliseconds patience) override;
+  RunId new_run() override { return run_of(participant_.id(), new_serial()); }
   void drop(const std::string& source, const std::string& why) override { inbox_.dropped.note(source, why); }
   std::uint64_t dropped() const override { return inbox_.dropped.count(); }
 

@@ -95,6 +95,12 @@ bool DdsParticipant::is_of_this_process(const eprosima::fastrtps::rtps::Instance
   return eprosima::fastrtps::rtps::iHandle2GUID(publication).is_on_same_process_as(participant_->guid());
 }
 
+ParticipantId DdsParticipant::id() const {
+  ParticipantId id{};
+  std::ranges::copy(participant_->guid().guidPrefix.value, id.begin());
+  return id;
+}
+
 dds::Topic* DdsParticipant::topic(demecal::Topic which, std::uint32_t joint) {
   const std::string name = topic_name(which, joint);
   Owned<dds::Topic>& topic = topics_[name];

@@ -41,6 +41,7 @@ class DdsParticipant {
   bool is_own(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
   /// Whether the writer is of this process: of a participant whose GUID is not made of a name.
   bool is_of_this_process(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) const;
+  ParticipantId id() const;
   /// What a participant that is there calls itself; its GUID prefix where it is not known.
   std::string name_of(const ParticipantId& participant) { return refusals_.name_of(participant); }
 

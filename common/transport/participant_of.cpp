@@ -3,6 +3,9 @@
 namespace demecal {
 namespace {
 
+constexpr std::uint64_t kShows = 1ULL << 63;
+constexpr int kSerialBits = 16;
+
 /// FNV-1a (Fowler, Noll, Vo; 64 bits), and a finish by which every bit of the text reaches every bit of the number
 /// (splitmix64, Steele et al. 2014).
 std::uint64_t hash(std::string_view text, std::uint64_t salt) {
@@ -23,6 +26,19 @@ ParticipantId participant_of(std::string_view worker) {
     id[i] = static_cast<std::uint8_t>(source >> (8 * (i % 8)));
   }
   return id;
+}
+
+std::uint64_t run_of(const ParticipantId& publisher, std::uint16_t serial) {
+  return kShows | (hash({reinterpret_cast<const char*>(publisher.data()), publisher.size()}, 0) << kSerialBits) |
+         serial;
+}
+
+bool shows_publisher(std::uint64_t run) {
+  return (run & kShows) != 0;
+}
+
+bool may_publish(const ParticipantId& publisher, std::uint64_t run) {
+  return !shows_publisher(run) || run == run_of(publisher, static_cast<std::uint16_t>(run));
 }
 
 std::string text_of(const ParticipantId& participant) {

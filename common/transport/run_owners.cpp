@@ -26,10 +26,8 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cali
   const std::lock_guard lock(mutex_);
   const RunId run = data.run;
   const auto known = runs_.find(run);
-  if (known != runs_.end() && known->second.owner != source) {
-    dropped_.note(name, "data of a run that is another's");
-    return;
-  }
+  const bool may_own = known == runs_.end() ? may_publish(source, run) : known->second.owner == source;
+  if (!may_own) return dropped_.note(name, "data of a run that is another's");
   if (known == runs_.end() && !has_room(source)) return dropped_.note(name, "more runs than one may have at a time");
   Run& owned = runs_.try_emplace(run, Run{source, false, false, ++order_, {}}).first->second;
   owned.owner_gone = false;
@@ -43,7 +41,7 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Isla
   const RunId run = task.run;
   Message message(std::move(task));
   if (is_settled(source, name, message, run)) return;
-  if (runs_.contains(run)) return dropped_.note(name, "a task of a run that is another's");
+  if (runs_.contains(run) || !may_publish(source, run)) return dropped_.note(name, "a task of a run that is another's");
   wait(source, name, std::move(message), now);
 }
 
@@ -51,8 +49,8 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cont
   const std::lock_guard lock(mutex_);
   if (is_settled(source, name, control, control.run)) return;
   const auto known = runs_.find(control.run);
-  if (known == runs_.end()) return wait(source, name, std::move(control), now);
-  if (control.state == Control::State::running || known->second.end_from_elsewhere) {
+  if (known == runs_.end() && may_publish(source, control.run)) return wait(source, name, std::move(control), now);
+  if (known == runs_.end() || control.state == Control::State::running || known->second.end_from_elsewhere) {
     return dropped_.note(name, "control of a run that is another's");
   }
   if (known->second.owner_gone) return put(source, name, std::move(control));

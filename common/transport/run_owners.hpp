@@ -14,13 +14,12 @@
 
 namespace demecal {
 
-/// Puts data, tasks and control into a mailbox. A run belongs to the participant whose data come first; whatever others
-/// say of it is dropped. Tasks and control that come before the data wait for them. An end from elsewhere waits until
-/// the owner is gone: a coordinator that resumes a job ends the run that its dead forerunner left. A run that ends
-/// without data is over: its data were withdrawn. Any thread may call.
+/// Puts data, tasks and control into a mailbox. A run belongs to the participant that its number shows, or else to the
+/// one whose data come first; whatever others say of it is dropped. Tasks and control that come before the data wait
+/// for them. An end from elsewhere waits until the owner is gone: a coordinator that resumes a job ends the run that
+/// its dead forerunner left. A run that ends without data is over: its data were withdrawn. Any thread may call.
 ///
-/// A stranger that publishes data of a run under its number where this participant has not heard of the owner yet is
-/// taken for the owner: that keeps this participant from the run, and no one else.
+/// Numbers that show nobody serve tests alone: whoever is quick could take such a run.
 class RunOwners {
  public:
   using Time = std::chrono::steady_clock::time_point;

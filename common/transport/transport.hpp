@@ -40,6 +40,8 @@ class Transport {
   /// Whether all that was published has reached those who read it, within `patience`; save for data and progress, since
   /// whoever still reads those only watches.
   virtual bool flush(std::chrono::milliseconds patience) = 0;
+  /// A number for a run that this participant will publish: different every time, and on every host.
+  virtual RunId new_run();
   /// Counts a message from `source` (a worker's name, or words for another) that its receiver does not act on, and why;
   /// told on standard error once for each source, and not of one without a name.
   virtual void drop(const std::string& /*source*/, const std::string& /*why*/) {}

@@ -16,6 +16,19 @@ TEST(ParticipantOf, DiffersForNamesThatDifferLittle) {
   EXPECT_EQ(seen.size(), 900U);
 }
 
+TEST(RunOf, ShowsItsPublisherAndNoOther) {
+  const ParticipantId one = participant_of("one"), two = participant_of("two");
+  for (const std::uint16_t serial : {0, 1, 65535}) {
+    const std::uint64_t run = run_of(one, serial);
+    EXPECT_TRUE(shows_publisher(run));
+    EXPECT_TRUE(may_publish(one, run));
+    EXPECT_FALSE(may_publish(two, run));
+  }
+  EXPECT_NE(run_of(one, 1), run_of(one, 2));
+  EXPECT_TRUE(may_publish(two, 5));
+  EXPECT_FALSE(shows_publisher(5));
+}
+
 TEST(ParticipantOf, IsTheSameOnEveryHost) {
   EXPECT_EQ(text_of(participant_of("worker")), text_of(participant_of(std::string("wor") + "ker")));
   EXPECT_EQ(text_of(participant_of("worker")).substr(0, 6), "01.0f.");

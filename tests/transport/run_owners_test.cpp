@@ -76,6 +76,22 @@ TEST_F(Owners, AnEndFromElsewhereCountsWhenTheOwnerIsGone) {
   }
 }
 
+TEST_F(Owners, ARunWhoseNumberShowsItsPublisherIsNobodyElses) {
+  const RunId run = run_of(kOwner, 7);
+  owners.heard(kStranger, "stranger", data(run, 2), kNow);
+  owners.heard(kStranger, "stranger", task(run, 9), kNow);
+  owners.heard(kStranger, "stranger", end(run), kNow);
+  owners.release(kNow + 10 * RunOwners::kBelated);
+  EXPECT_TRUE(arrived().empty());
+  EXPECT_EQ(dropped.count(), 3U);
+  const CalibrationData of_run = data(run);
+  owners.heard(kOwner, "owner", of_run, kNow);
+  EXPECT_EQ(arrived(), Messages{of_run});
+  owners.heard(kStranger, "a coordinator that resumes", end(run), kNow);
+  owners.departed(kOwner);
+  EXPECT_EQ(arrived(), Messages{end(run)});
+}
+
 TEST_F(Owners, AnOwnerThatComesBackIsTheOwnerAgain) {
   const CalibrationData of_run = data(5);
   owners.heard(kOwner, "owner", of_run, kNow);
