@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "effects/error_figures.hpp"
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
@@ -92,6 +94,10 @@ ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std
     // A formula may predict no number at all; such a pose is infinitely far off, and can be sorted.
     errors_mm.push_back(std::isnan(error_mm) ? std::numeric_limits<double>::infinity() : error_mm);
   }
+  return error_figures(std::move(errors_mm));
+}
+
+ErrorFigures error_figures(std::vector<double> errors_mm) {
   if (errors_mm.empty()) return {kNone, kNone, kNone, kNone};
   std::sort(errors_mm.begin(), errors_mm.end());
   const auto count = static_cast<double>(errors_mm.size());

@@ -1,0 +1,90 @@
+#include "config/load_preparation.hpp"
+
+#include <sstream>
+
+#include "config/load_robot.hpp"
+#include "config/named_file.hpp"
+#include "config/read_instrument.hpp"
+#include "config/read_yaml.hpp"
+#include "kinematics/units.hpp"
+#include "programs/read_program.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kTolerance_mm = 5.0;  // above what robots are off by over a local frame, below what mixed-up points are
+
+std::string text_at(const YamlNode& node, std::string_view key) {
+  const YamlNode* found = node.find(key);
+  return found ? found->text() : "";
+}
+
+PointFile read_points(const YamlNode& node, const Chain& arm) {
+  return read_named(node, [&](const std::filesystem::path& path) {
+    PointFile file{read_file(path), {}};
+    const auto language = language_of(file.text, path.string());
+    if (!language) node.fail(path.string(), "is a program in no language that can be told (VAL II, CSV, ...)");
+    file.program = read_program(*language, file.text, path.string(), arm);
+    return file;
+  });
+}
+
+Readings read_readings_at(const YamlNode& node, const std::optional<CordInstrument>& cords) {
+  return read_named(node, [&](const std::filesystem::path& path) {
+    std::istringstream text(read_file(path));
+    return read_readings(read_csv(text, path.string()), cords);
+  });
+}
+
+RobotPoints read_robot_points(const YamlNode& node, const std::string& points, const Robot& robot) {
+  if (node.kind == YamlNode::Kind::scalar) return robot_points(read_points(node, robot.chain).program, points, robot);
+  if (node.kind != YamlNode::Kind::list) node.fail("", "must be a file or a list of three points [x, y, z] in mm");
+  ThreePoints points_m;
+  for (std::size_t i = 0; i < 3; ++i) points_m[i] = metres(1.0) * node.list(3)[i].vector3();
+  return robot_points(points_m, node.file);
+}
+
+TaughtPoints read_local_frame(const YamlNode& node, const Robot& robot, const std::optional<CordInstrument>& cords) {
+  node.with_keys({"robot", "points", "instrument", "tolerance_mm"});
+  const YamlNode* tolerance = node.find("tolerance_mm");
+  return taught_points(read_robot_points(node.at("robot"), text_at(node, "points"), robot),
+                       read_readings_at(node.at("instrument"), cords),
+                       metres(tolerance ? tolerance->positive() : kTolerance_mm));
+}
+
+RawSet read_set(const YamlNode& node, const Chain& arm, const std::optional<CordInstrument>& cords) {
+  node.with_keys({"set", "joints", "points", "poses", "pose_points", "readings"});
+  RawSet set;
+  set.set = node.at("set").one_of<PoseSet>({{"calibration", PoseSet::calibration},
+                                            {"validation", PoseSet::validation},
+                                            {"accept", PoseSet::accept}});
+  set.joints = read_points(node.at("joints"), arm);
+  set.points = text_at(node, "points");
+  if (const YamlNode* poses = node.find("poses")) set.poses = read_points(*poses, arm);
+  set.pose_points = text_at(node, "pose_points");
+  set.readings = read_readings_at(node.at("readings"), cords);
+  return set;
+}
+
+}  // namespace
+
+RawMeasurements load_preparation(const std::filesystem::path& path) {
+  const YamlNode root = read_yaml(path);
+  root.of_version("preparation", 1)
+      .with_keys({"demecal_preparation", "name", "robot", "instrument", "local_frame", "repeats", "sets"});
+  RawMeasurements raw;
+  raw.name = root.find("name") ? root.at("name").text() : path.stem().string();
+  raw.file = path.string();
+  raw.robot = read_named(root.at("robot"), load_robot);
+  const std::optional<CordInstrument> cords = read_instrument(root.at("instrument"));
+  if (const YamlNode* frame = root.find("local_frame")) raw.local_frame = read_local_frame(*frame, raw.robot, cords);
+  if (const YamlNode* repeats = root.find("repeats")) {
+    raw.repeats = repeats->one_of<Repeats>({{"average", Repeats::average}, {"keep", Repeats::keep}});
+  }
+  const YamlNode& sets = root.at("sets");
+  if (sets.list().empty()) sets.fail("", "must name one set of measurements at least");
+  for (const YamlNode& set : sets.children) raw.sets.push_back(read_set(set, raw.robot.chain, cords));
+  return raw;
+}
+
+}  // namespace demecal

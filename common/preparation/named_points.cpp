@@ -1,0 +1,116 @@
+#include "preparation/named_points.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "data/lower_case.hpp"
+#include "data/nearest_name.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+/// In small letters, without the mark of a precision point.
+std::string plain(std::string_view name) {
+  if (name.starts_with('#')) name.remove_prefix(1);
+  return lower_case(name);
+}
+
+NamedPoint point_of(const Target& target, std::size_t index, std::size_t ordinal) {
+  const std::string name = plain(target.name);
+  NamedPoint point{.target = index, .name = target.name, .array = name, .key = name};
+  const std::size_t bracket = name.find('[');
+  if (bracket != std::string::npos && name.ends_with(']')) {
+    point.array = name.substr(0, bracket);
+    point.key = name.substr(bracket + 1, name.size() - bracket - 2);
+  } else if (name.empty()) {
+    point.name = point.key = std::to_string(ordinal);
+  }
+  return point;
+}
+
+bool same_numbers(const std::vector<Cell>& one, const std::vector<Cell>& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const Cell& a, const Cell& b) { return a.inside() == b.inside(); });
+}
+
+bool same_numbers(const Target& one, const Target& other) {
+  return same_numbers(one.joints, other.joints) && same_numbers(one.position, other.position);
+}
+
+[[noreturn]] void fail_none(const Program& program, PointKind kind, const std::string& points) {
+  std::vector<std::string> arrays;
+  for (std::size_t i = 0; i < program.targets.size(); ++i) arrays.push_back(point_of(program.targets[i], i, i).array);
+  std::string rule = kind == PointKind::joints ? "has no points of joints" : "has no points of poses";
+  if (!points.empty()) rule += " of that name";
+  if (!points.empty() && !arrays.empty()) rule += "; the nearest is '" + nearest_name(points, arrays) + "'";
+  throw InputError({program.file, 0}, points, rule);
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::vector<NamedPoint> named_points(const Program& program, PointKind kind, const std::string& points) {
+  std::vector<NamedPoint> found;
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t i = 0; i < program.targets.size(); ++i) {
+    const Target& target = program.targets[i];
+    if (target.is_pose() != (kind == PointKind::poses)) continue;
+    NamedPoint point = point_of(target, i, found.size() + 1);
+    if (!points.empty() && point.array != plain(points)) continue;
+    const auto [before, is_new] = seen.emplace(plain(point.name), i);
+    if (is_new) {
+      found.push_back(std::move(point));
+    } else if (!same_numbers(target, program.targets[before->second])) {
+      throw InputError({program.file, target.place.line}, point.name,
+                       "stands with other numbers in line " +
+                           std::to_string(program.targets[before->second].place.line));
+    }
+  }
+  if (found.empty()) fail_none(program, kind, points);
+  return found;
+}
+
+std::vector<std::vector<std::size_t>> rows_of_points(const Readings& readings, const std::vector<NamedPoint>& points,
+                                                     const std::string& of_file) {
+  std::vector<std::vector<std::size_t>> rows(points.size());
+  if (!readings.named) {
+    if (readings.rows.size() != points.size()) {
+      throw InputError({readings.file, 0}, "",
+                       "has " + counted(readings.rows.size(), "reading") + ", but " + of_file + " has " +
+                           counted(points.size(), "point") +
+                           "; without a column `pose` every point needs one reading, in their order");
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = {i};
+    return rows;
+  }
+  std::map<std::string, std::size_t> by_name, by_key;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    by_name.emplace(plain(points[i].name), i);
+    if (!by_key.emplace(points[i].key, i).second) by_key[points[i].key] = points.size();  // of several arrays
+    names.push_back(points[i].name);
+  }
+  for (std::size_t row = 0; row < readings.rows.size(); ++row) {
+    const std::string pose = plain(readings.rows[row].pose);
+    const auto named = by_name.find(pose), keyed = by_key.find(pose);
+    const std::size_t point = named != by_name.end() ? named->second : keyed != by_key.end() ? keyed->second : ~0ul;
+    if (point < points.size()) {
+      rows[point].push_back(row);
+      continue;
+    }
+    throw InputError({readings.file, readings.rows[row].line}, readings.rows[row].pose,
+                     point == points.size() ? "is the number of several points of " + of_file + "; give the whole name"
+                                            : "is no point of " + of_file + "; the nearest is '" +
+                                                  nearest_name(readings.rows[row].pose, names) + "'");
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].empty()) throw InputError({readings.file, 0}, points[i].name, "is a point of " + of_file + " without a reading");
+  }
+  return rows;
+}
+
+}  // namespace demecal

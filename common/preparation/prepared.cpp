@@ -1,0 +1,184 @@
+#include "preparation/prepared.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "data/plausible_units.hpp"
+#include "data/pose_rules.hpp"
+#include "errors/check.hpp"
+#include "errors/input_error.hpp"
+#include "kinematics/forward.hpp"
+#include "preparation/programmed_poses.hpp"
+
+namespace demecal {
+namespace {
+
+Eigen::Vector3d position_of(const Target& target) {
+  return {target.position[0].inside(), target.position[1].inside(), target.position[2].inside()};
+}
+
+MeasuredPose commanded(const Target& target, const RawSet& set) {
+  MeasuredPose pose;
+  pose.joints.resize(static_cast<Eigen::Index>(target.joints.size()));
+  for (Eigen::Index i = 0; i < pose.joints.size(); ++i) {
+    pose.joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
+  }
+  pose.approach = target.approach;
+  pose.payload_kg = target.payload_kg;
+  pose.temperature_celsius = target.temperature_celsius;
+  pose.time_s = target.time_s;
+  pose.set = set.set;
+  pose.line = target.place.line;
+  if (pose.payload_kg.value_or(0.0) < 0.0) {
+    throw InputError({set.joints.program.file, pose.line}, number_text(*pose.payload_kg),
+                     "column payload_kg must not be negative: it is a mass");
+  }
+  return pose;
+}
+
+/// Columns as they would be called in a data set, for the rules that data sets are held to.
+ColumnMap columns_of(const Chain& chain) {
+  ColumnMap columns;
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const bool revolute = chain.joints[i].type == JointType::revolute;
+    columns.joints.push_back({"q" + std::to_string(i + 1) + (revolute ? "_deg" : "_mm"), {}});
+  }
+  for (const char* name : {"x_mm", "y_mm", "z_mm"}) columns.position.push_back({name, {}});
+  return columns;
+}
+
+/// A set that breaks these rules would be written, but not load again.
+void check_set(const RawSet& set, const Robot& robot, const PreparedPose* poses, std::size_t count) {
+  std::vector<MeasuredPose> measured;
+  for (std::size_t i = 0; i < count; ++i) {
+    measured.push_back(poses[i].commanded);
+    measured.back().position_m = poses[i].measured.point_m;
+  }
+  const ColumnMap columns = columns_of(robot.chain);
+  const CsvTable joints{set.joints.program.file, 0, {}, {}}, readings{set.readings.file, 0, {}, {}};
+  check_joint_units(measured, columns, {}, robot.chain, {}, joints);
+  check_joint_limits(measured, columns, robot.chain, joints.file);
+  check_position_units(measured, columns, {}, robot.chain, {}, readings);
+}
+
+void add_set(const RawMeasurements& raw, std::size_t entry, Prepared& prepared) {
+  const RawSet& set = raw.sets[entry];
+  const std::vector<NamedPoint> points = named_points(set.joints.program, PointKind::joints, set.points);
+  const auto rows = rows_of_points(set.readings, points, set.joints.program.file);
+  const auto poses = programmed_poses(set, points);
+  const std::size_t first = prepared.poses.size();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    PreparedPose pose{.entry = entry,
+                      .id = points[i].name,
+                      .commanded = commanded(set.joints.program.targets[points[i].target], set),
+                      .pose_target = poses[i],
+                      .nominal_m = {},
+                      .measured = average(set.readings, rows[i])};
+    const Eigen::Vector3d at_joints_m = tool_position(raw.robot.chain, pose.commanded.joints);
+    pose.nominal_m = poses[i] ? position_of(file_of_poses(set).program.targets[*poses[i]]) : at_joints_m;
+    prepared.programmed_from_joints_m =
+        std::max(prepared.programmed_from_joints_m, (pose.nominal_m - at_joints_m).norm());
+    prepared.poses.push_back(std::move(pose));
+  }
+  check_set(set, raw.robot, &prepared.poses[first], points.size());
+}
+
+/// Names that several sets use get the number of their set before them.
+void tell_apart(std::vector<PreparedPose>& poses) {
+  std::map<std::string, std::size_t> uses;
+  for (const PreparedPose& pose : poses) ++uses[pose.id];
+  const bool shared = std::any_of(uses.begin(), uses.end(), [](const auto& use) { return use.second > 1; });
+  for (PreparedPose& pose : poses) {
+    if (shared) pose.id = std::to_string(pose.entry + 1) + ":" + pose.id;
+  }
+}
+
+struct Pairs {
+  std::vector<Eigen::Vector3d> measured_m, nominal_m;
+};
+
+Pairs pairs_of(const Prepared& prepared, bool calibration_only) {
+  Pairs pairs;
+  for (const PreparedPose& pose : prepared.poses) {
+    if (calibration_only && pose.commanded.set != PoseSet::calibration) continue;
+    pairs.measured_m.push_back(pose.measured.point_m);
+    pairs.nominal_m.push_back(pose.nominal_m);
+  }
+  return pairs;
+}
+
+void fit(const RawMeasurements& raw, Prepared& prepared) {
+  const Pairs all = pairs_of(prepared, false), calibration = pairs_of(prepared, true);
+  if (mirrored(all.measured_m, all.nominal_m)) {
+    throw InputError({raw.file, 0}, "",
+                     "the measured points are the nominal ones in a mirror; check instrument.cords.side, which cord "
+                     "is a, b and c, and that coordinates are right-handed");
+  }
+  prepared.best_fit = best_fit(calibration.measured_m, calibration.nominal_m);
+  prepared.fitted_to_calibration = prepared.best_fit.has_value();
+  if (!prepared.best_fit) prepared.best_fit = best_fit(all.measured_m, all.nominal_m);
+}
+
+/// Whether every pose has it.
+template <typename Member>
+bool all_have(const Prepared& prepared, Member member) {
+  return std::all_of(prepared.poses.begin(), prepared.poses.end(),
+                     [&](const PreparedPose& pose) { return (pose.commanded.*member).has_value(); });
+}
+
+}  // namespace
+
+std::string_view word_of(FrameKind kind) {
+  return kind == FrameKind::three_points ? "three_points" : "best_fit";
+}
+
+Prepared prepare_measurements(const RawMeasurements& raw) {
+  Prepared prepared;
+  for (std::size_t entry = 0; entry < raw.sets.size(); ++entry) add_set(raw, entry, prepared);
+  tell_apart(prepared.poses);
+  if (raw.local_frame) prepared.three_points = raw.local_frame->base_from_instrument();
+  fit(raw, prepared);
+  return prepared;
+}
+
+std::vector<Eigen::Vector3d> differences(const Prepared& prepared, FrameKind kind) {
+  DEMECAL_CHECK(prepared.frame(kind), "no frame by " << word_of(kind));
+  std::vector<Eigen::Vector3d> found;
+  for (const PreparedPose& pose : prepared.poses) {
+    found.emplace_back(*prepared.frame(kind) * pose.measured.point_m - pose.nominal_m);
+  }
+  return found;
+}
+
+DataSet data_set_of(const RawMeasurements& raw, const Prepared& prepared, std::optional<FrameKind> kind) {
+  DataSet data;
+  data.name = raw.name;
+  data.robot = raw.robot;
+  data.frame = kind ? Frame::base : Frame::sensor;
+  const bool approach = all_have(prepared, &MeasuredPose::approach);
+  const bool payload = all_have(prepared, &MeasuredPose::payload_kg);
+  const bool temperature = all_have(prepared, &MeasuredPose::temperature_celsius);
+  const bool time = all_have(prepared, &MeasuredPose::time_s);
+  for (const PreparedPose& from : prepared.poses) {
+    MeasuredPose pose = from.commanded;
+    pose.pose_id = from.id;
+    if (!approach) pose.approach.reset();
+    if (!payload) pose.payload_kg.reset();
+    if (!temperature) pose.temperature_celsius.reset();
+    if (!time) pose.time_s.reset();
+    std::vector<Eigen::Vector3d> points_m{from.measured.point_m};
+    if (raw.repeats == Repeats::keep) {
+      points_m.clear();
+      for (const std::size_t row : from.measured.rows) {
+        points_m.push_back(raw.sets[from.entry].readings.rows[row].point_m);
+      }
+    }
+    for (const Eigen::Vector3d& point_m : points_m) {
+      pose.position_m = kind ? Eigen::Vector3d(*prepared.frame(*kind) * point_m) : point_m;
+      data.poses.push_back(pose);
+    }
+  }
+  return data;
+}
+
+}  // namespace demecal

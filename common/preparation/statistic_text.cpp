@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "preparation/statistic.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string figures_text(const std::optional<FrameFigures>& figures) {
+  if (!figures) return fmt::format("  {:>8}{:>8}{:>8}{:>8}", "-", "-", "-", "-");
+  const ErrorFigures& error = figures->error;
+  return fmt::format("  {:>8.3f}{:>8.3f}{:>8.3f}{:>8.3f}", error.mean_mm, error.rms_mm, error.p95_mm, error.max_mm);
+}
+
+std::string frames_sentence(const FramesApart& apart) {
+  return fmt::format(
+      "  The three-point frame places the measured points {:.3f} mm (mean; {:.3f} mm at most) from where\n"
+      "  the best fit places them, and is turned by {:.4f} deg against it. It carries the errors of its\n"
+      "  three points alone: calibration takes that difference for the robot's, unless it fits the base.\n",
+      apart.mean_mm, apart.max_mm, apart.turn_deg);
+}
+
+std::string readings_sentence(const SetStatistic& set) {
+  std::string text;
+  if (set.spread_mm) {
+    text += fmt::format("  {}: one reading is {:.3f} mm (standard deviation) off its pose's mean; {} of {} poses.\n",
+                        word_of(set.set), *set.spread_mm, set.readings, set.poses);
+  }
+  if (set.standard_error_mm) {
+    text += fmt::format("  {}: by the cords' standard error a point is {:.3f} mm off (root mean square).\n",
+                        word_of(set.set), *set.standard_error_mm);
+  }
+  return text;
+}
+
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const std::optional<FrameFigures>& figures) {
+  if (!figures) return nullptr;
+  const ErrorFigures& error = figures->error;
+  const Eigen::Vector3d& mean = figures->mean_difference_mm;
+  return {{"mean", error.mean_mm},
+          {"rms", error.rms_mm},
+          {"p95", error.p95_mm},
+          {"max", error.max_mm},
+          {"mean_difference", Json::array({mean.x(), mean.y(), mean.z()})}};
+}
+
+}  // namespace
+
+std::string statistic_table(const Statistic& statistic, const std::string& name) {
+  std::string text = fmt::format("{}: measured - nominal before calibration, mm\n", name);
+  text += fmt::format("  {:<12}{:>6}  {:<32}  {}\n", "", "", "  three-point frame", "  best fit");
+  text += fmt::format("  {:<12}{:>6}  {:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>8}{:>8}\n", "set", "poses", "mean", "rms",
+                      "P95", "max", "mean", "rms", "P95", "max");
+  for (const SetStatistic& set : statistic.sets) {
+    text += fmt::format("  {:<12}{:>6}", word_of(set.set), set.poses) + figures_text(set.three_points) +
+            figures_text(set.best_fit) + '\n';
+  }
+  if (statistic.apart) text += frames_sentence(*statistic.apart);
+  if (statistic.taught_difference_mm) {
+    text += fmt::format("  The distances between the three points differ by up to {:.3f} mm in the two frames.\n",
+                        *statistic.taught_difference_mm);
+  }
+  if (!statistic.fitted_to_calibration) {
+    text += "  The best fit is of the poses of all sets: those for calibration alone are too few or on a line.\n";
+  }
+  for (const SetStatistic& set : statistic.sets) text += readings_sentence(set);
+  return text;
+}
+
+std::string statistic_json(const Statistic& statistic, const std::string& name, const std::string& frame,
+                           const std::vector<std::string>& files) {
+  Json json{{"name", name}, {"frame", frame}, {"sets", Json::object()}};
+  for (const SetStatistic& set : statistic.sets) {
+    json["sets"][std::string(word_of(set.set))] = {{"poses", set.poses},
+                                                   {"readings", set.readings},
+                                                   {"spread_mm", json_of(set.spread_mm)},
+                                                   {"standard_error_mm", json_of(set.standard_error_mm)},
+                                                   {"three_points", json_of(set.three_points)},
+                                                   {"best_fit", json_of(set.best_fit)}};
+  }
+  json["frames_apart"] = nullptr;
+  if (const auto& apart = statistic.apart) {
+    json["frames_apart"] = {{"mean_mm", apart->mean_mm}, {"max_mm", apart->max_mm}, {"turn_deg", apart->turn_deg}};
+  }
+  json["taught_difference_mm"] = json_of(statistic.taught_difference_mm);
+  json["best_fit_of"] = statistic.fitted_to_calibration ? "calibration" : "all";
+  json["files"] = files;
+  return json.dump() + '\n';
+}
+
+}  // namespace demecal

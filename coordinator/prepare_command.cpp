@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "config/files.hpp"
+#include "config/load_preparation.hpp"
+#include "config/write_data_set.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "errors/input_error.hpp"
+#include "preparation/false_targets.hpp"
+#include "preparation/statistic.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kFar_mm = 1.0;  // between a programmed point and the nominal arm's: more than rounding explains
+
+struct Request {
+  std::string file, out, frame;
+  bool json = false;
+};
+
+/// The frame of the data set; empty: the instrument's own.
+std::optional<FrameKind> frame_asked(const Request& request, const RawMeasurements& raw, const Prepared& prepared) {
+  if (request.frame == "instrument" || (request.frame.empty() && !raw.local_frame)) return std::nullopt;
+  if (request.frame == "best_fit") {
+    if (prepared.best_fit) return FrameKind::best_fit;
+    throw InputError({request.file, 0}, request.frame,
+                     "is no frame here: the measured poses are fewer than three, or on a line");
+  }
+  if (prepared.three_points) return FrameKind::three_points;
+  throw InputError({request.file, 0}, request.frame, "is no frame here: the file has no local_frame");
+}
+
+/// The frame in which errors are stated: the data set's or, where that is the instrument's own, the best there is.
+std::optional<FrameKind> frame_of_errors(std::optional<FrameKind> asked, const Prepared& prepared) {
+  if (asked) return asked;
+  for (const FrameKind kind : kFrameKinds) {
+    if (prepared.frame(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
+std::vector<WrittenFile> files_beside(const RawMeasurements& raw, const Prepared& prepared,
+                                      std::optional<FrameKind> errors) {
+  if (!errors) return {};
+  std::vector<WrittenFile> files = false_targets(raw, prepared, *errors);
+  files.push_back(errors_file(prepared, *errors));
+  return files;
+}
+
+void warn(const Request& request, const RawMeasurements& raw, const Prepared& prepared) {
+  if (!raw.local_frame && !prepared.best_fit) {
+    fmt::print(stderr, "{}: no frame joins robot and instrument, so that no errors are stated\n", request.file);
+  }
+  if (1e3 * prepared.programmed_from_joints_m > kFar_mm) {
+    fmt::print(stderr,
+               "{}: programmed poses stand up to {:.3f} mm from where the nominal robot's tool is at their joints; "
+               "check that the program's tool and base are those of the robot file\n",
+               request.file, 1e3 * prepared.programmed_from_joints_m);
+  }
+}
+
+ExitCode run(const Request& request) {
+  const RawMeasurements raw = load_preparation(request.file);
+  const Prepared prepared = prepare_measurements(raw);
+  const std::optional<FrameKind> asked = frame_asked(request, raw, prepared);
+  const std::optional<FrameKind> errors = frame_of_errors(asked, prepared);
+  const DataSet data = data_set_of(raw, prepared, asked);
+  const std::vector<WrittenFile> files = files_beside(raw, prepared, errors);
+  const Statistic statistic = statistic_of(raw, prepared);
+  warn(request, raw, prepared);
+
+  make_writable(request.out);
+  write_data_set(data, request.out, "Prepared from raw measurements: " + raw.name);
+  std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml"};
+  for (const WrittenFile& file : files) {
+    write_file(request.out + "/" + file.name, file.text);
+    names.push_back(file.name);
+  }
+  const std::string frame(asked ? word_of(*asked) : "instrument");
+  if (request.json) {
+    fmt::print("{}", statistic_json(statistic, raw.name, frame, names));
+    return ExitCode::done;
+  }
+  fmt::print("{}", statistic_table(statistic, raw.name));
+  fmt::print("{} rows in the frame `{}`; {}: {}\n", data.poses.size(), frame, request.out, fmt::join(names, ", "));
+  if (errors && errors != asked) fmt::print("errors.csv and false targets are by the frame `{}`\n", word_of(*errors));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_prepare(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command =
+      app.add_subcommand("prepare", "raw measurements, taught points and programs to a data set and its errors");
+  command->add_option("preparation", request->file, "PREPARATION.yaml")->required();
+  command->add_option("--out", request->out, "folder for the data set")->required();
+  command
+      ->add_option("--frame", request->frame,
+                   "of the data set's positions: the base by the three taught points (where there are any, unless "
+                   "told otherwise), the base by the best fit of all points, or the instrument's own")
+      ->check(CLI::IsMember({"three_points", "best_fit", "instrument"}));
+  command->add_flag("--json", request->json, "the statistic as one line of JSON");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

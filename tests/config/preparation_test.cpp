@@ -1,0 +1,105 @@
+// The preparation that is shipped loads, and every fault in its files is named with file, line, value and rule.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "config/load_data_set.hpp"
+#include "config/load_preparation.hpp"
+#include "config/write_data_set.hpp"
+#include "preparation/statistic.hpp"
+#include "sample_files.hpp"
+#include "temporary_folder.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kShipped = std::filesystem::path(DEMECAL_SOURCE_DIR) / "configs/preparation";
+constexpr const char* kFile = "puma761-cords.yaml";
+
+TEST(Preparation, ThatIsShippedGivesADataSetThatLoads) {
+  const RawMeasurements raw = load_preparation(kShipped / kFile);
+  const Prepared prepared = prepare_measurements(raw);
+  for (const auto frame : {std::optional<FrameKind>(), {FrameKind::three_points}, {FrameKind::best_fit}}) {
+    const TemporaryFolder folder;
+    const DataSet data = data_set_of(raw, prepared, frame);
+    const DataSet back = load_data_set(write_data_set(data, folder.path(), "prepared"));
+    ASSERT_EQ(back.poses.size(), 36u);
+    EXPECT_EQ(back.frame, frame ? Frame::base : Frame::sensor);
+    for (std::size_t i = 0; i < back.poses.size(); ++i) {
+      EXPECT_EQ(*back.poses[i].position_m, *data.poses[i].position_m);
+      EXPECT_EQ(back.poses[i].joints, data.poses[i].joints);
+    }
+  }
+  EXPECT_LT(prepared.programmed_from_joints_m, 1e-4);
+  const Statistic statistic = statistic_of(raw, prepared);
+  ASSERT_EQ(statistic.sets.size(), 2u);
+  EXPECT_EQ(statistic.sets[0].readings, 72u);
+  EXPECT_GT(statistic.sets[0].best_fit->error.rms_mm, 0.3);
+  EXPECT_LT(statistic.sets[0].best_fit->error.rms_mm, statistic.sets[0].three_points->error.rms_mm);
+  EXPECT_LT(*statistic.sets[0].spread_mm, 0.5);
+}
+
+/// A change to one of the files, and what the user must be told.
+struct Bad {
+  const char* name;
+  const char* file;
+  const char* from;  ///< what stands there once
+  const char* to;
+  const char* where;  ///< "FILE:LINE" or "FILE" of the fault
+  const char* rule;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Bad& bad) {
+  return stream << bad.name;
+}
+
+class BadPreparations : public ::testing::TestWithParam<Bad> {};
+
+TEST_P(BadPreparations, AreNamedWithFileLineValueAndRule) {
+  const Bad& bad = GetParam();
+  const TemporaryFolder folder;
+  folder.write("robots/puma761.yaml", read_file(kShipped / "../robots/puma761.yaml"));
+  for (const auto& entry : std::filesystem::directory_iterator(kShipped)) {
+    const std::string name = entry.path().filename().string(), text = read_file(entry.path());
+    folder.write("preparation/" + name, name == bad.file ? changed(text, bad.from, bad.to) : text);
+  }
+  const std::filesystem::path at = folder.path() / "preparation";
+  const std::string said = complaint([&] { prepare_measurements(load_preparation(at / kFile)); });
+  EXPECT_THAT(said, HasSubstr((at / bad.where).string() + ": "));
+  EXPECT_THAT(said, HasSubstr(bad.rule));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadPreparations,
+    ::testing::Values(
+        Bad{"Version", kFile, "demecal_preparation: 1", "demecal_preparation: 2", "puma761-cords.yaml:2", "must be 1"},
+        Bad{"UnknownKey", kFile, "top_cords_mm", "topcords_mm", "puma761-cords.yaml:8", "nearest is 'top_cords_mm'"},
+        Bad{"UnknownSetKey", kFile, "points: vp,", "point: vp,", "puma761-cords.yaml:18", "'point': is no key"},
+        Bad{"NoTriangle", kFile, "ab: 1420", "ab: 2800", "puma761-cords.yaml:7", "'2800, 1385.5, 1310.25': are the sides"},
+        Bad{"FlatTriangle", kFile, "ab: 1420", "ab: 2695.75", "puma761-cords.yaml:7", "as flat as a line"},
+        Bad{"NoSuchSide", kFile, "side: above", "side: up", "puma761-cords.yaml:10", "'up': "},
+        Bad{"WrongSide", kFile, "side: above", "side: below", "puma761-cords.yaml", "in a mirror"},
+        Bad{"CountsOfTwoKinds", kFile, "bar_mm: 500,", "bar_mm: 500, counts_per_mm: [1, 1, 1],",
+            "puma761-cords.yaml:9", "must give either bar_mm and bar_counts or counts_per_mm"},
+        Bad{"NoCounts", kFile, "encoders: {bar_mm: 500, bar_counts: [9937, 9956, 9926]}", "", "local-frame.csv:2",
+            "has no instrument.cords.encoders"},
+        Bad{"NoFile", kFile, "local-frame.csv", "frame.csv", "puma761-cords.yaml:14", "names a file that does not exist"},
+        Bad{"NoSuchSet", kFile, "set: validation", "set: test", "puma761-cords.yaml:18", "'test': "},
+        Bad{"NoSuchArray", kFile, "points: cp", "points: ccp", "calibration.v2", "the nearest is 'cp'"},
+        Bad{"Tolerance", kFile, "tolerance_mm: 5 ", "tolerance_mm: 0.001 ", "local-frame.csv",
+            "must agree within 0.001 mm (local_frame.tolerance_mm)"},
+        Bad{"CordsThatDoNotMeet", "calibration.csv", "\n1,38622,", "\n1,386,", "calibration.csv:3", "do not meet"},
+        Bad{"MissingCell", "validation.csv", "pose,a_counts,b_counts,c_counts\n1,", "pose,a_counts,b_counts,c_counts\n1,,",
+            "validation.csv:3", "has 5 fields, but the header has 4"},
+        Bad{"NotANumber", "validation.csv", "c_counts\n1,", "c_counts\n1,nan,1,2\n2,", "validation.csv:3",
+            "'nan': column a_counts must be a finite number"},
+        Bad{"PoseThatIsNone", "validation.csv", "c_counts\n1,", "c_counts\n13,", "validation.csv:3",
+            "'13': is no point of "},
+        Bad{"SpoiledProgram", "validation.v2", "#vp[1] ", "#vp[1] x ", "validation.v2:21", "'x': must be a number"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace demecal
