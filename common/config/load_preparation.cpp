@@ -12,7 +12,8 @@
 namespace demecal {
 namespace {
 
-constexpr double kTolerance_mm = 5.0;  // above what robots are off by over a local frame, below what mixed-up points are
+constexpr double kTolerance_mm =
+    5.0;  // above what robots are off by over a local frame, below what mixed-up points are
 
 std::string text_at(const YamlNode& node, std::string_view key) {
   const YamlNode* found = node.find(key);
@@ -55,9 +56,8 @@ TaughtPoints read_local_frame(const YamlNode& node, const Robot& robot, const st
 RawSet read_set(const YamlNode& node, const Chain& arm, const std::optional<CordInstrument>& cords) {
   node.with_keys({"set", "joints", "points", "poses", "pose_points", "readings"});
   RawSet set;
-  set.set = node.at("set").one_of<PoseSet>({{"calibration", PoseSet::calibration},
-                                            {"validation", PoseSet::validation},
-                                            {"accept", PoseSet::accept}});
+  set.set = node.at("set").one_of<PoseSet>(
+      {{"calibration", PoseSet::calibration}, {"validation", PoseSet::validation}, {"accept", PoseSet::accept}});
   set.joints = read_points(node.at("joints"), arm);
   set.points = text_at(node, "points");
   if (const YamlNode* poses = node.find("poses")) set.poses = read_points(*poses, arm);

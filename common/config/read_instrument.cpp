@@ -23,8 +23,7 @@ CordCorners read_triangle(const YamlNode& node) {
                               metres(node.at("ca").positive())};
   const auto corners = cord_corners(triangle);
   if (!corners) {
-    node.fail(number_text(millimetres(triangle.ab_m)) + ", " + number_text(millimetres(triangle.bc_m)) + ", " +
-                  number_text(millimetres(triangle.ca_m)),
+    node.fail(node.at("ab").scalar + ", " + node.at("bc").scalar + ", " + node.at("ca").scalar,
               "are the sides of no triangle, or of one as flat as a line; each must be shorter than the other two "
               "together");
   }

@@ -94,13 +94,13 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
 }
 
 WrittenFile errors_file(const Prepared& prepared, FrameKind kind) {
-  CsvTable table{"", 0,
+  CsvTable table{"",
+                 0,
                  {"set", "pose", "nominal_x_mm", "nominal_y_mm", "nominal_z_mm", "measured_x_mm", "measured_y_mm",
                   "measured_z_mm", "error_x_mm", "error_y_mm", "error_z_mm", "error_mm", "readings", "spread_mm"},
                  {}};
-  const bool stated = std::all_of(prepared.poses.begin(), prepared.poses.end(), [](const PreparedPose& pose) {
-    return pose.measured.standard_error_m.has_value();
-  });
+  const bool stated = std::all_of(prepared.poses.begin(), prepared.poses.end(),
+                                  [](const PreparedPose& pose) { return pose.measured.standard_error_m.has_value(); });
   for (const char* name : {"standard_error_x_mm", "standard_error_y_mm", "standard_error_z_mm"}) {
     if (stated) table.columns.emplace_back(name);
   }

@@ -40,7 +40,9 @@ bool same_numbers(const Target& one, const Target& other) {
 
 [[noreturn]] void fail_none(const Program& program, PointKind kind, const std::string& points) {
   std::vector<std::string> arrays;
-  for (std::size_t i = 0; i < program.targets.size(); ++i) arrays.push_back(point_of(program.targets[i], i, i).array);
+  for (const Target& target : program.targets) {
+    if (target.is_pose() == (kind == PointKind::poses)) arrays.push_back(point_of(target, 0, 0).array);
+  }
   std::string rule = kind == PointKind::joints ? "has no points of joints" : "has no points of poses";
   if (!points.empty()) rule += " of that name";
   if (!points.empty() && !arrays.empty()) rule += "; the nearest is '" + nearest_name(points, arrays) + "'";
@@ -65,9 +67,9 @@ std::vector<NamedPoint> named_points(const Program& program, PointKind kind, con
     if (is_new) {
       found.push_back(std::move(point));
     } else if (!same_numbers(target, program.targets[before->second])) {
-      throw InputError({program.file, target.place.line}, point.name,
-                       "stands with other numbers in line " +
-                           std::to_string(program.targets[before->second].place.line));
+      throw InputError(
+          {program.file, target.place.line}, point.name,
+          "stands with other numbers in line " + std::to_string(program.targets[before->second].place.line));
     }
   }
   if (found.empty()) fail_none(program, kind, points);
@@ -108,7 +110,8 @@ std::vector<std::vector<std::size_t>> rows_of_points(const Readings& readings, c
                                                   nearest_name(readings.rows[row].pose, names) + "'");
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].empty()) throw InputError({readings.file, 0}, points[i].name, "is a point of " + of_file + " without a reading");
+    if (rows[i].empty())
+      throw InputError({readings.file, 0}, points[i].name, "is a point of " + of_file + " without a reading");
   }
   return rows;
 }

@@ -19,18 +19,18 @@ inline constexpr std::array<FrameKind, 2> kFrameKinds{FrameKind::three_points, F
 std::string_view word_of(FrameKind kind);
 
 struct PreparedPose {
-  std::size_t entry = 0;  ///< in RawMeasurements::sets
-  std::string id;         ///< no two poses share it
-  MeasuredPose commanded;  ///< joints, circumstances, set and line; nothing measured
+  std::size_t entry = 0;                   ///< in RawMeasurements::sets
+  std::string id;                          ///< no two poses share it
+  MeasuredPose commanded;                  ///< joints, circumstances, set and line; nothing measured
   std::optional<std::size_t> pose_target;  ///< the programmed pose, where there is one: in Program::targets
   Eigen::Vector3d nominal_m;               ///< the programmed point, or that of the nominal arm at the joints; base
   AveragedReading measured;                ///< instrument's frame
 };
 
 struct Prepared {
-  std::vector<PreparedPose> poses;  ///< by entry, in the order of its file of joints
+  std::vector<PreparedPose> poses;                          ///< by entry, in the order of its file of joints
   std::optional<Eigen::Isometry3d> three_points, best_fit;  ///< base_from_instrument
-  bool fitted_to_calibration = true;   ///< the best fit is of calibration poses; false: of all, there being too few
+  bool fitted_to_calibration = true;    ///< the best fit is of calibration poses; false: of all, there being too few
   double programmed_from_joints_m = 0;  ///< largest distance of a programmed point from the nominal arm's at its joints
 
   const std::optional<Eigen::Isometry3d>& frame(FrameKind kind) const {

@@ -1,4 +1,5 @@
-// What an instrument read, as points in its own frame: cord lengths or coordinates, several readings of a pose averaged.
+// What an instrument read, as points in its own frame: cord lengths or coordinates, several readings of a pose
+// averaged.
 #pragma once
 
 #include <optional>
@@ -15,9 +16,9 @@ struct CordInstrument {
   CordCorners corners;
   PlaneSide side = PlaneSide::above;
   Eigen::Vector3d top_cords_m = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> counts_per_m;             ///< of the encoders, from the calibration bar
+  std::optional<Eigen::Vector3d> counts_per_m;            ///< of the encoders, from the calibration bar
   Eigen::Vector3d zero_counts = Eigen::Vector3d::Zero();  ///< where nothing of the cord is out
-  std::optional<double> standard_error_m;                  ///< of a cord's length
+  std::optional<double> standard_error_m;                 ///< of a cord's length
 };
 
 /// One row of a file of readings.

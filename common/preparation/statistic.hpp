@@ -12,7 +12,7 @@ namespace demecal {
 
 /// The errors of a set as one frame shows them.
 struct FrameFigures {
-  ErrorFigures error{};                                        ///< of the distances, mm
+  ErrorFigures error{};                                          ///< of the distances, mm
   Eigen::Vector3d mean_difference_mm = Eigen::Vector3d::Zero();  ///< measured - nominal, base axes
 };
 

@@ -66,8 +66,7 @@ RobotPoints robot_points(const ThreePoints& in_base_m, const std::string& file) 
 double largest_difference_m(const TaughtPoints& points) {
   double largest = 0.0;
   for (const auto& pair : kPairs) {
-    largest =
-        std::max(largest, std::abs(distance(points.in_base_m, pair) - distance(points.in_instrument_m, pair)));
+    largest = std::max(largest, std::abs(distance(points.in_base_m, pair) - distance(points.in_instrument_m, pair)));
   }
   return largest;
 }

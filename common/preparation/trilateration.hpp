@@ -25,8 +25,8 @@ std::optional<CordCorners> cord_corners(const CordTriangle& triangle);
 enum class PlaneSide { above, below };
 
 struct CordPoint {
-  double height_squared_m2 = 0.0;                       ///< z^2; not positive: the cords do not meet off the plane
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();    ///< in the instrument's frame
+  double height_squared_m2 = 0.0;                        ///< z^2; not positive: the cords do not meet off the plane
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();     ///< in the instrument's frame
   Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();  ///< of x, y, z (rows) by the lengths of a, b, c (columns)
 
   bool meets() const { return height_squared_m2 > 0.0; }

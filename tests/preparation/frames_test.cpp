@@ -94,7 +94,7 @@ TEST(BestFit, RefusesLinesAndTooFewPoints) {
   EXPECT_FALSE(best_fit({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}));
   EXPECT_LT(relative_height({line[0], line[1], line[2]}), kLeastRelativeHeight);
   EXPECT_EQ(relative_height({spread[0], spread[0], spread[1]}), 0.0);
-  EXPECT_EQ(relative_height({spread[0], spread[1], spread[2]}), std::sqrt(0.5));
+  EXPECT_NEAR(relative_height({spread[0], spread[1], spread[2]}), std::sqrt(0.5), 1e-15);
 }
 
 TEST(BestFit, TellsAMirrorFromNoise) {

@@ -203,8 +203,9 @@ TEST(TaughtPoints, NameTheFault) {
   };
   EXPECT_EQ(teach("0,0,0\n400,0,1\n0,300,0\n"), "");
   EXPECT_THAT(teach("0,0,0\n400,0,0\n800,0,0\n"), HasSubstr("readings.csv: the three points of the local frame stand"));
-  EXPECT_THAT(teach("0,0,0\n400,0,0\n0,303,0\n"),
-              HasSubstr("points 3 and 1 of the local frame are 303.000 mm apart as measured, but 300.000 mm in p.yaml"));
+  EXPECT_THAT(
+      teach("0,0,0\n400,0,0\n0,303,0\n"),
+      HasSubstr("points 3 and 1 of the local frame are 303.000 mm apart as measured, but 300.000 mm in p.yaml"));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Triangles, points and rigid motions drawn at random, and what an instrument would read of them.
 #pragma once
 
-#include <cmath>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>

@@ -85,7 +85,8 @@ TEST(Readings, NameTheirFaults) {
   EXPECT_THAT(complaint("q,w\n1,2\n", {}), HasSubstr("readings.csv:1: the header has none of the columns"));
   EXPECT_THAT(complaint("x_mm,y_mm,z_mm,a_mm\n1,2,3,4\n", {}), HasSubstr("stands beside a_mm"));
   EXPECT_THAT(complaint("x_mm,y_mm,z_mm\n1,,3\n", {}), HasSubstr("readings.csv:2: column y_mm is empty"));
-  EXPECT_THAT(complaint("x_mm,y_mm,z_mm\n1,nan,3\n", {}), HasSubstr("readings.csv:2: 'nan': column y_mm must be a fin"));
+  EXPECT_THAT(complaint("x_mm,y_mm,z_mm\n1,nan,3\n", {}),
+              HasSubstr("readings.csv:2: 'nan': column y_mm must be a fin"));
   EXPECT_THAT(complaint("pose,x_mm,y_mm,z_mm\n,1,2,3\n", {}), HasSubstr("column pose is empty"));
   EXPECT_THAT(complaint("a_mm,b_mm,c_mm\n800,800,800\n", {}), HasSubstr("describes no instrument.cords"));
   EXPECT_THAT(complaint("a_counts,b_counts,c_counts\n1,2,3\n", uncounted), HasSubstr("no instrument.cords.encoders"));

@@ -27,7 +27,8 @@ TEST(Prepare, LeadsToADataSetThatIsDiagnosedAndEvaluated) {
   ASSERT_EQ(prepared.code, 0) << prepared.err;
   EXPECT_NE(prepared.out.find("three-point frame"), std::string::npos) << prepared.out;
   EXPECT_EQ(prepared.err, "");
-  for (const char* file : {"dataset.yaml", "poses.csv", "robot.yaml", "corrected.v2", "corrected-validation.v2", "errors.csv"}) {
+  for (const char* file :
+       {"dataset.yaml", "poses.csv", "robot.yaml", "corrected.v2", "corrected-validation.v2", "errors.csv"}) {
     EXPECT_FALSE(job.text(std::string("prepared/") + file).empty()) << file;
   }
   const Ended diagnosed =
