@@ -23,9 +23,9 @@ CordCorners read_triangle(const YamlNode& node) {
                               metres(node.at("ca").positive())};
   const auto corners = cord_corners(triangle);
   if (!corners) {
-    node.fail(node.at("ab").scalar + ", " + node.at("bc").scalar + ", " + node.at("ca").scalar,
-              "are the sides of no triangle, or of one as flat as a line; each must be shorter than the other two "
-              "together");
+    node.fail(
+        node.at("ab").scalar + ", " + node.at("bc").scalar + ", " + node.at("ca").scalar,
+        "must be the sides of a triangle that is not as flat as a line: each shorter than the other two together");
   }
   return *corners;
 }

@@ -33,7 +33,7 @@ TEST(Prepare, LeadsToADataSetThatIsDiagnosedAndEvaluated) {
   }
   const Ended diagnosed =
       run("demecal", {"diagnose", job.path("prepared/dataset.yaml"), "--declare", "registration,joint_offset",
-                      "--candidates", "gear_harmonic", "--out", job.path("model")});
+                      "--candidates", "gain", "--out", job.path("model")});
   ASSERT_EQ(diagnosed.code, 0) << diagnosed.err;
   const Ended evaluated =
       run("demecal", {"evaluate", job.path("model/model.yaml"), job.path("prepared/dataset.yaml"), "--json"});
