@@ -26,9 +26,8 @@ std::string frames_sentence(const FramesApart& apart) {
 std::string readings_sentence(const SetStatistic& set) {
   std::string text;
   if (set.spread_mm) {
-    text += fmt::format(
-        "  {}: one reading is {:.3f} mm (standard deviation) off its pose's mean ({} readings of {} poses).\n",
-        word_of(set.set), *set.spread_mm, set.readings, set.poses);
+    text += fmt::format("  {}: one reading is {:.3f} mm (standard deviation) off its pose's mean ({} readings).\n",
+                        word_of(set.set), *set.spread_mm, set.readings);
   }
   if (set.standard_error_mm) {
     text += fmt::format("  {}: by the cords' standard error a point is {:.3f} mm off (root mean square).\n",

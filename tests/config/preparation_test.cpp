@@ -9,6 +9,7 @@
 #include "config/load_preparation.hpp"
 #include "config/load_robot.hpp"
 #include "config/write_data_set.hpp"
+#include "data/number.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "preparation/statistic.hpp"
