@@ -7,6 +7,7 @@
 #include "config/read_instrument.hpp"
 #include "config/read_yaml.hpp"
 #include "kinematics/units.hpp"
+#include "preparation/marked_names.hpp"
 #include "programs/read_program.hpp"
 
 namespace demecal {
@@ -32,7 +33,7 @@ PointFile read_points(const YamlNode& node, const Chain& arm) {
 
 Readings read_readings_at(const YamlNode& node, const std::optional<CordInstrument>& cords) {
   return read_named(node, [&](const std::filesystem::path& path) {
-    std::istringstream text(read_file(path));
+    std::istringstream text(with_marked_names(read_file(path), path.string()));
     return read_readings(read_csv(text, path.string()), cords);
   });
 }

@@ -4,6 +4,7 @@
 
 #include "data/number.hpp"
 #include "errors/input_error.hpp"
+#include "preparation/marked_names.hpp"
 #include "preparation/readings.hpp"
 #include "random_measurements.hpp"
 
@@ -75,6 +76,22 @@ TEST(Readings, OfOnePoseAreAveragedWithTheirSpread) {
   EXPECT_TRUE(mean.standard_error_m->isApprox(Eigen::Vector3d(0.3, 0.2, 0.1) / std::sqrt(7.0), 1e-14));
   EXPECT_FALSE(average(readings, {3}).spread_m());
   EXPECT_EQ(average(readings, {3}).point_m, readings.rows[3].point_m);
+}
+
+TEST(Readings, MayBeNamedAsPrecisionPointsAre) {
+  const std::string rows = "pose,x_mm,y_mm,z_mm\n# a comment, this\n#cp[1],1,2,3\r\n#cp[2],4,5,6\n";
+  const Readings readings = read_readings(table_of(with_marked_names(rows, "readings.csv")), {});
+  ASSERT_EQ(readings.rows.size(), 2u);
+  EXPECT_EQ(readings.rows[0].pose, "#cp[1]");
+  EXPECT_EQ(readings.rows[1].line, 4u);
+  const std::string plain = "pose,x_mm,y_mm,z_mm\n# a, comment\ncp[1],1,2,3\n";
+  EXPECT_EQ(with_marked_names(plain, "readings.csv"), plain);
+  try {
+    with_marked_names(plain + "#cp[2],4,5,6\n", "readings.csv");
+    ADD_FAILURE() << "rows that may have been taken out are read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("readings.csv:4: begins with # as comments do, and other rows do not"));
+  }
 }
 
 TEST(Readings, NameTheirFaults) {
