@@ -63,9 +63,11 @@ AlignedColumn padded_column(const std::vector<double>& column) {
 ConstantFit::ConstantFit(const TrainingTable& table, const GpParameters& parameters)
     : target_(padded_column(table.target)),
       weight_(padded_column(table.weight)),
-      errors_(table.target, table.weight),
+      errors_(table.target, table.weight, table.loss),
       parameters_(parameters),
-      model_(table.variables) {
+      model_(table.variables),
+      own_loss_(table.loss),
+      loss_kind_(table.loss) {
   for (const double weight : table.weight) weights_ += weight;
 }
 
@@ -86,12 +88,12 @@ double ConstantFit::loss_at(std::span<const double> constants) {
   for (std::size_t begin = 0; begin < model_.padded_rows(); begin += model_.rows_at(begin)) {
     const std::size_t rows = model_.rows_at(begin);
     const double* const values = model_.values(begin);
-    if (loss_kind_ == Loss::absolute)
+    if (loss_kind_ == own_loss_)
       errors_.add(sums, begin, values, rows);
     else
       squares += sum_of_squares(target_.data() + begin, weight_.data() + begin, values, rows);
   }
-  return loss_kind_ == Loss::absolute ? ErrorSum::total(sums) : squares;
+  return loss_kind_ == own_loss_ ? ErrorSum::total(sums) : squares;
 }
 
 // The straight line from the formula's values to the targets, by weighted least squares.
@@ -179,7 +181,7 @@ void ConstantFit::search_jumps() {
 }
 
 FittedFormula ConstantFit::operator()(NodeStore& store, NodeId root, double fitness) {
-  loss_kind_ = Loss::absolute;
+  loss_kind_ = own_loss_;
   const ConstantModel::Scaling scaling = scaling_for(store, root);
   model_.bind(store, root, scaling);
   constants_.assign(model_.constants().begin(), model_.constants().end());

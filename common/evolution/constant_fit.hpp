@@ -22,8 +22,9 @@ struct FittedFormula {
   double fitness = 0.0;
 };
 
-/// Fits one formula at a time to what fitness is: the weighted sum of absolute errors, by least squares whose weights
-/// are divided by the size of each row's error (Schlossmacher 1973). A step that does not lower that sum is taken back.
+/// Fits one formula at a time to what fitness is: the weighted sum of squared errors or, where the table's loss is
+/// absolute, of absolute ones, by least squares whose weights are divided by the size of each row's error (Schlossmacher
+/// 1973). A step that does not lower that sum is taken back.
 /// What comes out is a function of table, parameters and formula.
 class ConstantFit {
  public:
@@ -39,8 +40,6 @@ class ConstantFit {
   FittedFormula by_squares(NodeStore& store, NodeId root);
 
  private:
-  enum class Loss { absolute, squared };
-
   ConstantModel::Scaling scaling_for(const NodeStore& store, NodeId root) const;
   double loss_at(std::span<const double> constants);
   void scale();
@@ -57,7 +56,7 @@ class ConstantFit {
   ConstantModel model_;
   NormalEquations equations_;
   SimplexSearch simplex_;
-  Loss loss_kind_ = Loss::absolute;
+  Loss own_loss_, loss_kind_;  ///< the table's, and that of the present fit
   std::vector<double> constants_, trial_, step_;
   std::vector<const double*> slopes_;
   std::size_t unknowns_ = 0;

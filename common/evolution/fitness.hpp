@@ -1,4 +1,4 @@
-// How well a formula fits: the weighted sum of absolute errors over a joint's calibration rows (thesis eq. 4.12).
+// How well a formula fits: the weighted sum of errors over a joint's calibration rows.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,8 @@ struct TrainingTable {
   std::vector<std::vector<double>> variables;  ///< one column per variable; direct learning has theta alone, rad
   std::vector<double> target;
   std::vector<double> weight;  ///< 0 to 1: poses near a singularity count less
+  Loss loss = Loss::absolute;  ///< what fitness sums
+  std::vector<Tree> seeds{};   ///< formulas that every first population holds, where they fit its limits
 
   bool operator==(const TrainingTable&) const = default;
 };
@@ -24,7 +26,7 @@ void check_columns(const TrainingTable& table);
 class Fitness {
  public:
   explicit Fitness(const TrainingTable& table);
-  /// sum_k weight_k |target_k - tree(row k)|; infinite where any row is not finite.
+  /// sum_k weight_k |target_k - tree(row k)|, or of the squares, as the table says; infinite where any row is not finite.
   double operator()(const Tree& tree);
 
  private:

@@ -38,6 +38,7 @@ Island::Island(const GpParameters& parameters, const Archipelago& archipelago, c
     : parameters_(parameters),
       archipelago_(archipelago),
       variables_(static_cast<int>(table.variables.size())),
+      seeds_(table.seeds),
       breeder_(parameters, table),
       key_(key),
       seed_(seed) {
@@ -81,10 +82,18 @@ void Island::run_epoch(const Population& immigrants, const std::function<void()>
   ++state_.epoch;
 }
 
+std::vector<Tree> Island::first_trees(RandomStream& random) const {
+  std::vector<Tree> trees = ramped_half_and_half(random, parameters_, variables_);
+  std::size_t place = trees.size();
+  for (const Tree& seed : seeds_)
+    if (place > 1 && fits(seed)) trees[--place] = seed;  // the first is the neutral model
+  return trees;
+}
+
 // The first population, or that of a state another worker reached.
 void Island::enter_population(RandomStream& random) {
   if (state_.epoch == 0) {
-    residents_ = breeder_.enter(ramped_half_and_half(random, parameters_, variables_));
+    residents_ = breeder_.enter(first_trees(random));
     state_.evaluations += residents_.roots.size();
     return;
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "evolution/archipelago.hpp"
 #include "evolution/breeding.hpp"
@@ -43,7 +44,8 @@ class Island {
          std::uint64_t seed);
 
   IslandKey key() const { return key_; }
-  /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1), no generation is bred. Later:
+  /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1), the table's seeds in place of the
+  /// last of it; no generation is bred. Later:
   /// `immigrants` replace the worst individuals, then migration_interval generations are bred, or as many as remain.
   /// Immigrants are evaluated on this island's table; duplicates of residents and trees that do not fit it (too deep,
   /// or of variables it lacks) are left out; the best resident is never replaced. Must not be finished.
@@ -62,6 +64,7 @@ class Island {
   void restore(IslandState state);
 
  private:
+  std::vector<Tree> first_trees(RandomStream& random) const;
   void enter_population(RandomStream& random);
   void take_in(const Population& immigrants);
   void offer_all(ParetoFront& front) const;
@@ -73,6 +76,7 @@ class Island {
   GpParameters parameters_;
   Archipelago archipelago_;
   int variables_;
+  std::vector<Tree> seeds_;
   Breeder breeder_;
   SharedPopulation residents_;  ///< the population during an epoch, and after it; empty where it is not known yet
   IslandKey key_;

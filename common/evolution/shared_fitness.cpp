@@ -12,7 +12,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 SharedFitness::SharedFitness(const TrainingTable& table, std::size_t budget_bytes)
-    : errors_(table.target, table.weight), evaluator_(table.variables, budget_bytes) {
+    : errors_(table.target, table.weight, table.loss), evaluator_(table.variables, budget_bytes) {
   check_columns(table);
 }
 

@@ -32,7 +32,7 @@ bool is_finite_column(const std::vector<double>& column, std::size_t rows) {
   return column.size() == rows && std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); });
 }
 
-Fault table_fault(const TrainingTable& table) {
+Fault table_fault(const TrainingTable& table, const GpParameters& parameters) {
   const std::size_t rows = table.target.size();
   if (rows == 0 || rows > kMostRows) return "a table without rows, or with too many";
   if (table.variables.empty() || table.variables.size() > kMostVariables)
@@ -43,6 +43,11 @@ Fault table_fault(const TrainingTable& table) {
   if (!is_finite_column(table.weight, rows)) return "a weight is not finite, or there is not one per row";
   if (std::any_of(table.weight.begin(), table.weight.end(), [](double w) { return w < 0.0 || w > 1.0; }))
     return "a weight lies outside 0 to 1";
+  if (table.loss != Loss::absolute && table.loss != Loss::squared) return "an unknown loss";
+  if (table.seeds.size() > static_cast<std::size_t>(parameters.population_size)) return "more seeds than individuals";
+  const auto variables = static_cast<int>(table.variables.size());
+  if (!std::all_of(table.seeds.begin(), table.seeds.end(), [&](const Tree& seed) { return is_valid(seed, variables); }))
+    return "a seed is no complete formula";
   return std::nullopt;
 }
 
@@ -57,7 +62,7 @@ Fault find_fault(const CalibrationData& data) {
     return "more migrants than individuals";
   if (data.tables.size() != data.archipelago.joints.size()) return "not one table per joint";
   for (const TrainingTable& table : data.tables)
-    if (auto fault = table_fault(table)) return fault;
+    if (auto fault = table_fault(table, data.parameters)) return fault;
   return std::nullopt;
 }
 

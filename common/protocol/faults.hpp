@@ -22,7 +22,8 @@ inline constexpr std::size_t kMostRows = 1'000'000;
 inline constexpr std::uint32_t kMostSlots = 4096;  ///< of one worker
 
 /// Parameters hold their rules and the bounds above; joints ascending and below kMostJoints; counts positive; one table
-/// per joint whose columns are finite and as long as each other, with weights from 0 to 1.
+/// per joint whose columns are finite and as long as each other, with weights from 0 to 1 and no more seeds than a
+/// population holds.
 Fault find_fault(const CalibrationData& data);
 
 /// The island is one of the run's, worker named, the start state consistent, recent emigrations its own. As for all

@@ -141,14 +141,34 @@ wire::TrainingTable encode(const TrainingTable& table) {
   for (std::size_t i = 0; i < table.variables.size(); ++i) encoded.variables()[i].values(table.variables[i]);
   encoded.target_scaled(table.target);
   encoded.weight(table.weight);
+  encoded.loss(table.loss == Loss::absolute ? wire::ABSOLUTE_ERROR : wire::SQUARED_ERROR);
+  for (const Tree& seed : table.seeds) encoded.seeds().push_back(encode(seed));
   return encoded;
 }
 
-TrainingTable decode(const wire::TrainingTable& table) {
+std::optional<Loss> decode(wire::Loss loss) {
+  switch (loss) {
+    case wire::ABSOLUTE_ERROR:
+      return Loss::absolute;
+    case wire::SQUARED_ERROR:
+      return Loss::squared;
+  }
+  return std::nullopt;
+}
+
+std::optional<TrainingTable> decode(const wire::TrainingTable& table) {
   TrainingTable decoded;
   for (const wire::Column& column : table.variables()) decoded.variables.push_back(column.values());
   decoded.target = table.target_scaled();
   decoded.weight = table.weight();
+  const auto loss = decode(table.loss());
+  if (!loss) return std::nullopt;
+  decoded.loss = *loss;
+  for (const wire::Formula& formula : table.seeds()) {
+    auto seed = decode(formula);
+    if (!seed) return std::nullopt;
+    decoded.seeds.push_back(std::move(*seed));
+  }
   return decoded;
 }
 
@@ -171,7 +191,11 @@ std::optional<CalibrationData> decode(const wire::CalibrationData& message) {
   if (!parameters || !archipelago || message.run() == 0) return std::nullopt;
   CalibrationData decoded{message.run(),          decode_text(message.job()), message.seed(),
                           std::move(*parameters), std::move(*archipelago),    {}};
-  for (const wire::TrainingTable& table : message.tables()) decoded.tables.push_back(decode(table));
+  for (const wire::TrainingTable& wired : message.tables()) {
+    auto table = decode(wired);
+    if (!table) return std::nullopt;
+    decoded.tables.push_back(std::move(*table));
+  }
   return decoded;
 }
 

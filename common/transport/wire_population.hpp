@@ -9,6 +9,9 @@
 
 namespace demecal {
 
+wire::Formula encode(const Tree& tree);
+std::optional<Tree> decode(const wire::Formula& formula);
+
 std::optional<Individual> decode(const wire::Individual& individual);
 std::vector<wire::Individual> encode(const Population& population);
 std::optional<Population> decode(const std::vector<wire::Individual>& population);

@@ -32,6 +32,28 @@ TEST(Fitness, IsTheWeightedSumOfAbsoluteErrors) {
   EXPECT_GT(finite, 450);
 }
 
+TEST(Fitness, IsTheWeightedSumOfSquaresWhereTheTableSaysSo) {
+  RandomStream random{22};
+  TrainingTable table = two_variable_lesson(random, 37);
+  table.loss = Loss::squared;
+  const NodeSet nodes = node_set(GpParameters{}, 2);
+  Fitness fitness(table);
+  int finite = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Tree tree;
+    append_grown(random, nodes, 5, tree);
+    double expected = 0.0;
+    for (std::size_t row = 0; row < table.target.size(); ++row) {
+      const std::vector<double> point{table.variables[0][row], table.variables[1][row]};
+      expected += table.weight[row] * std::pow(table.target[row] - evaluate(tree, point), 2);
+    }
+    if (!std::isfinite(expected)) continue;
+    ++finite;
+    ASSERT_NEAR(fitness(tree), expected, 1e-12 * expected);
+  }
+  EXPECT_GT(finite, 150);
+}
+
 TEST(Fitness, OfTheNeutralModelIsTheSizeOfTheTarget) {
   const TrainingTable table{{{1.0, 2.0, 3.0}}, {0.5, -1.0, 2.0}, {1.0, 1.0, 0.5}};
   EXPECT_DOUBLE_EQ(Fitness(table)(neutral_tree()), 2.5);

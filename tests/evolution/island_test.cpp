@@ -52,6 +52,17 @@ TEST_F(IslandTest, BeginsWithAPopulationThatHoldsTheNeutralModel) {
   EXPECT_TRUE(holds(one.state().population, neutral_tree()));
 }
 
+TEST_F(IslandTest, BeginsWithTheTablesSeedsThatFitItsLimits) {
+  const Tree sine = apply(Primitive::sine, variable_tree(0)), foreign = apply(Primitive::sine, variable_tree(1));
+  table.seeds = {sine, foreign};
+  Island one = island({0, 0});
+  one.run_epoch({});
+  EXPECT_TRUE(holds(one.state().population, sine));
+  EXPECT_FALSE(holds(one.state().population, foreign));
+  EXPECT_TRUE(holds(one.state().population, neutral_tree()));
+  EXPECT_EQ(one.state().population.size(), 60u);
+}
+
 TEST_F(IslandTest, BreedsExactlyItsGenerations) {
   Island one = island({0, 0});
   std::vector<std::uint32_t> generations;

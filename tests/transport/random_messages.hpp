@@ -56,7 +56,12 @@ class RandomMessages {
   CalibrationData data() {
     CalibrationData data{number(), text(), number(), parameters(), archipelago(), {}};
     data.tables.resize(random_.index(7));
-    for (TrainingTable& table : data.tables) table = {{column(), column()}, column(), column()};
+    for (TrainingTable& table : data.tables) {
+      table = {{column(), column()}, column(), column()};
+      table.loss = random_.chance(0.5) ? Loss::squared : Loss::absolute;
+      table.seeds.resize(random_.index(3));
+      for (Tree& seed : table.seeds) seed = tree();
+    }
     return data;
   }
 
