@@ -23,7 +23,7 @@ class Passes {
         deciding_(deciding_poses(data)),
         closed_{first.robot, first, {}} {}
 
-  ClosedCalibration run(const Evolve& evolve, const RoundWatcher& watch);
+  ClosedCalibration run(const Evolve& evolve, const RoundWatcher& watch, const LearnCorrections& learn);
 
  private:
   void keep(DiagnosedModel model);
@@ -33,7 +33,7 @@ class Passes {
   void look_for_formulas(const Evolve& evolve, const RoundWatcher& watch);
   void settle(const DiagnosisData& of, DiagnosedModel& model) const;
   std::vector<Candidate> library() const;
-  bool evolve_anew(const Evolve& evolve);
+  bool evolve_anew(const LearnCorrections& learn);
   void fit_at_last();
   bool is_better(const CorrectedRobot& robot) const;
   bool may_look_again() const {
@@ -100,15 +100,16 @@ bool Passes::look(const RoundWatcher& watch) {
 }
 
 /// Whether the model with the corrections evolved anew is the better one, and kept.
-bool Passes::evolve_anew(const Evolve& evolve) {
+bool Passes::evolve_anew(const LearnCorrections& learn) {
   const CorrectedRobot& present = closed_.calibration.robot;
   const Preparation again = prepare_again(data_, preparation_, present);
   if (again.training.empty()) return false;
-  auto candidates = evolve(again.training, Sought::corrections);
+  auto candidates = learn(again);
   if (!candidates) return false;
   for (JointCandidates& joint : *candidates) {
     const std::size_t at = joint.training.joint;
-    joint.others = {present.corrections[at], first_.robot.corrections[at]};
+    joint.others.push_back(present.corrections[at]);
+    joint.others.push_back(first_.robot.corrections[at]);
   }
   Calibration evolved = conclude(data_, job_, again, *candidates);
   count_from(first_, evolved);
@@ -174,8 +175,8 @@ void Passes::look_for_formulas(const Evolve& evolve, const RoundWatcher& watch) 
   keep(std::move(found.model));
 }
 
-ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch) {
-  while (look(watch) && job_.declared.joint_corrections && evolve_anew(evolve) && may_look_again()) ++pass_;
+ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch, const LearnCorrections& learn) {
+  while (look(watch) && job_.declared.joint_corrections && evolve_anew(learn) && may_look_again()) ++pass_;
   const bool asked = asks_for_formulas(closed_.loop, closed_.calibration.robot, job_.closed_loop);
   if (asked && !stopped_) look_for_formulas(evolve, watch);
   tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
@@ -187,8 +188,10 @@ ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch) {
 }  // namespace
 
 ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
-                                    const Calibration& first, const Evolve& evolve, const RoundWatcher& watch) {
-  return Passes(data, job, preparation, first).run(evolve, watch);
+                                    const Calibration& first, const Evolve& evolve, const RoundWatcher& watch,
+                                    const LearnCorrections& learn) {
+  const LearnCorrections directly = [&](const Preparation& of) { return evolve(of.training, Sought::corrections); };
+  return Passes(data, job, preparation, first).run(evolve, watch, learn ? learn : directly);
 }
 
 }  // namespace demecal

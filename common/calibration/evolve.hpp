@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/selection.hpp"
+#include "calibration/calibration.hpp"
 
 namespace demecal {
 
@@ -18,5 +18,8 @@ enum class Sought {
 
 /// Evolves candidates for every joint of a training; nothing where that could not be done to the end.
 using Evolve = std::function<std::optional<std::vector<JointCandidates>>(const std::vector<JointTraining>&, Sought)>;
+
+/// Evolves joint corrections for what stands before them; nothing where that could not be done to the end.
+using LearnCorrections = std::function<std::optional<std::vector<JointCandidates>>(const Preparation&)>;
 
 }  // namespace demecal

@@ -36,6 +36,15 @@ struct ClosedLoopOptions {
   std::vector<double> ratios;           ///< of gears, beyond the scan
 };
 
+/// In which order joints learn from the whole model's error (thesis 4.4): all at once, round by round, each against what
+/// the others left in the round before, or one at a time as in Figure 4-6.
+enum class DistalForm { parallel, sequential };
+
+struct DistalOptions {
+  DistalForm form = DistalForm::parallel;
+  int rounds = 8;  ///< of the parallel form, into which the generations are divided
+};
+
 struct Job {
   std::string name;       ///< the job file's stem
   std::string data_file;  ///< path of the data set, resolved
@@ -45,6 +54,7 @@ struct Job {
   GpParameters gp;
   IslandOptions islands;
   ClosedLoopOptions closed_loop;
+  DistalOptions distal;
 };
 
 }  // namespace demecal

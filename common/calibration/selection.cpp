@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/jury.hpp"
+#include "fitting/median.hpp"
 
 namespace demecal {
 namespace {
@@ -22,8 +23,9 @@ struct Trial {
 /// The target error that one row in twenty exceeds: the largest ones are often poses near a singularity.
 double large_target_rad(const JointTraining& training) {
   std::vector<double> sizes;
+  const double least = training.table.loss == Loss::squared ? median(training.table.weight) : 1.0;
   for (std::size_t row = 0; row < training.table.target.size(); ++row) {
-    if (training.table.weight[row] == 1.0) sizes.push_back(std::abs(training.table.target[row]));
+    if (training.table.weight[row] >= least) sizes.push_back(std::abs(training.table.target[row]));
   }
   if (sizes.empty()) return 0.0;
   const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
@@ -31,7 +33,7 @@ double large_target_rad(const JointTraining& training) {
   return *place * training.scale_rad;
 }
 
-bool is_bounded(const JointCorrection& correction, double large_rad) {
+bool is_below(const JointCorrection& correction, double large_rad) {
   return magnitude_bound(correction.formula(), correction.range_rad()) <= kMostOverTarget * large_rad;
 }
 
@@ -40,7 +42,7 @@ std::vector<Trial> trials_of(const JointCandidates& candidates) {
   std::vector<Trial> trials;
   const double large_rad = large_target_rad(candidates.training);
   const auto add = [&](const JointCorrection& correction, std::size_t length) {
-    if (is_bounded(correction, large_rad)) trials.push_back({correction, length, {}, 0.0});
+    if (is_below(correction, large_rad)) trials.push_back({correction, length, {}, 0.0});
   };
   for (const Individual& individual : candidates.front) {
     add(correction_from(candidates.training, individual.tree), individual.tree.size());
@@ -136,7 +138,7 @@ CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates
     const double large_rad = large_target_rad(joint.training);
     for (const Individual& individual : joint.front) {  // falling fitness: the last one that is bounded stays
       const JointCorrection correction = correction_from(joint.training, individual.tree);
-      if (is_bounded(correction, large_rad)) robot.corrections[joint.training.joint] = correction;
+      if (is_below(correction, large_rad)) robot.corrections[joint.training.joint] = correction;
     }
   }
   return robot;
@@ -145,7 +147,7 @@ CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates
 /// Every joint with its candidate from elsewhere at place `set`, where it has one.
 CorrectedRobot with_others(CorrectedRobot robot, std::span<const JointCandidates> candidates, std::size_t set) {
   for (const JointCandidates& joint : candidates) {
-    if (set >= joint.others.size() || !is_bounded(joint.others[set], large_target_rad(joint.training))) continue;
+    if (set >= joint.others.size() || !is_bounded(joint.others[set], joint.training)) continue;
     robot.corrections[joint.training.joint] = joint.others[set];
   }
   return robot;
@@ -160,6 +162,10 @@ std::vector<CorrectedRobot> starts_of(const CorrectedRobot& declared, std::span<
 }
 
 }  // namespace
+
+bool is_bounded(const JointCorrection& correction, const JointTraining& training) {
+  return is_below(correction, large_target_rad(training));
+}
 
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
                              std::span<const std::size_t> deciding, const CorrectedRobot& declared,

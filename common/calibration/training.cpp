@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "errors/check.hpp"
+
 namespace demecal {
 namespace {
 
 constexpr double kLeastMotionRad = 1e-3;
-
-double round_scale(double mean_absolute) {
-  if (!(mean_absolute > 1e-12)) return 1e-12;
-  const double power = std::pow(10.0, std::floor(std::log10(mean_absolute)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * power <= mean_absolute) return step * power;
-  }
-  return power;
-}
 
 JointTraining training_table(const JointTargets& targets, int joint) {
   JointTraining training;
@@ -40,6 +33,15 @@ JointTraining training_table(const JointTargets& targets, int joint) {
 
 }  // namespace
 
+double round_scale(double mean_absolute) {
+  if (!(mean_absolute > 1e-12)) return 1e-12;
+  const double power = std::pow(10.0, std::floor(std::log10(mean_absolute)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * power <= mean_absolute) return step * power;
+  }
+  return power;
+}
+
 std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets) {
   std::vector<JointTraining> tables;
   if (targets.poses.empty()) return tables;
@@ -53,6 +55,14 @@ std::vector<JointTraining> training_tables(const Chain& chain, const JointTarget
 
 JointCorrection correction_from(const JointTraining& training, const Tree& evolved) {
   return {apply(Primitive::multiply, constant_tree(training.scale_rad), evolved), training.branch, training.range_rad};
+}
+
+Tree evolved_tree(const JointCorrection& correction) {
+  const Tree& product = correction.formula();  // of the scale, one node, and the tree
+  DEMECAL_CHECK(product.size() > 2 && product[0].primitive == Primitive::multiply &&
+                    product[1].primitive == Primitive::constant,
+                "a formula of " << product.size() << " nodes");
+  return {product.begin() + 2, product.end()};
 }
 
 }  // namespace demecal

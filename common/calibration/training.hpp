@@ -21,7 +21,12 @@ struct JointTraining {
 /// Tables of every revolute joint that moves over the targets' poses by more than 1 mrad; the others stay neutral.
 std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets);
 
+/// The largest 1, 2 or 5 times a power of ten that `mean_absolute` reaches, at least 1e-12.
+double round_scale(double mean_absolute);
+
 /// The evolved tree times the scale, over the joint's calibrated range: g(theta) in rad.
 JointCorrection correction_from(const JointTraining& training, const Tree& evolved);
+/// The tree that correction_from() made a correction of.
+Tree evolved_tree(const JointCorrection& correction);
 
 }  // namespace demecal

@@ -1,0 +1,113 @@
+#include "calibration/distal_rounds.hpp"
+
+#include <algorithm>
+
+#include "evolution/fitness.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kSeedShare = 4;  ///< one in so many individuals may be a seed
+
+/// Trees of a front, the fittest last.
+std::vector<Tree> trees_of(const Population& front) {
+  std::vector<Tree> trees;
+  for (const Individual& individual : front) trees.push_back(individual.tree);
+  return trees;
+}
+
+class Rounds {
+ public:
+  Rounds(const DistalIndex& index, const Preparation& preparation, const Job& job)
+      : index_(index),
+        job_(job),
+        trainings_(preparation.training),
+        outcome_{without_corrections(preparation.declared.robot), 0.0} {
+    outcome_.index_mm2 = index_(outcome_.robot);
+    trees_.resize(trainings_.size());
+  }
+
+  DistalOutcome run(const EvolveRound& evolve);
+
+ private:
+  void prepare();
+  std::vector<Tree> seeds_of(std::size_t i) const;
+  bool round(const EvolveRound& evolve, const RoundTerms& terms);
+
+  const DistalIndex& index_;
+  const Job& job_;
+  std::vector<JointTraining> trainings_;  ///< of the present round; their scales stay
+  std::vector<std::vector<Tree>> trees_;  ///< by training: the fronts of the last round
+  bool first_ = true;
+  std::uint32_t generation_ = 0;
+  DistalOutcome outcome_;
+};
+
+/// The fittest of the last front, as many as may be, and the formula in use.
+std::vector<Tree> Rounds::seeds_of(std::size_t i) const {
+  const auto most = static_cast<std::size_t>(job_.gp.population_size) / kSeedShare;
+  std::vector<Tree> seeds;
+  const JointCorrection& present = outcome_.robot.corrections[trainings_[i].joint];
+  if (!present.is_neutral()) seeds.push_back(evolved_tree(present));
+  for (auto tree = trees_[i].rbegin(); tree != trees_[i].rend() && seeds.size() < most; ++tree) {
+    if (seeds.empty() || *tree != seeds.front()) seeds.push_back(*tree);
+  }
+  return seeds;
+}
+
+void Rounds::prepare() {
+  const std::vector<LinearisedPose> poses = index_.linearised(outcome_.robot);
+  for (std::size_t i = 0; i < trainings_.size(); ++i) {
+    JointTraining& training = trainings_[i];
+    training = distal_training(training, poses, first_ ? std::nullopt : std::optional(training.scale_rad));
+    training.table.seeds = seeds_of(i);
+  }
+  first_ = false;
+}
+
+/// Whether another may follow.
+bool Rounds::round(const EvolveRound& evolve, const RoundTerms& terms) {
+  prepare();
+  const auto candidates = evolve(trainings_, terms);
+  if (!candidates) return false;
+  generation_ += static_cast<std::uint32_t>(terms.generations);
+  for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of((*candidates)[i].front);
+  const std::size_t before = outcome_.steps.size();
+  take_candidates(index_, *candidates, generation_, outcome_);
+  return outcome_.steps.size() > before;
+}
+
+DistalOutcome Rounds::run(const EvolveRound& evolve) {
+  const int rounds = std::min(job_.distal.rounds, job_.gp.number_generations), all = job_.gp.number_generations;
+  for (int number = 0; number < rounds && !trainings_.empty(); ++number) {
+    // Rounds differ in their random numbers as seeds do.
+    const std::uint64_t seed = job_.seed + (static_cast<std::uint64_t>(number) << 32U);
+    if (!round(evolve, {seed, all / rounds + (number < all % rounds ? 1 : 0)})) break;
+  }
+  offer_for_choice(index_, trainings_, trees_, outcome_);
+  return std::move(outcome_);
+}
+
+}  // namespace
+
+DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
+                              const EvolveRound& evolve) {
+  return Rounds(index, preparation, job).run(evolve);
+}
+
+void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,
+                      const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome) {
+  const std::vector<LinearisedPose> poses = index.linearised(outcome.robot);
+  outcome.candidates.clear();
+  for (std::size_t i = 0; i < trainings.size(); ++i) {
+    JointCandidates joint{distal_training(trainings[i], poses, trainings[i].scale_rad), {}};
+    Fitness fitness(joint.training.table);
+    ParetoFront front;
+    for (const Tree& tree : trees[i]) front.offer({tree, fitness(tree)});
+    joint.front = std::move(front).release();
+    joint.others = {outcome.robot.corrections[trainings[i].joint]};
+    outcome.candidates.push_back(std::move(joint));
+  }
+}
+
+}  // namespace demecal

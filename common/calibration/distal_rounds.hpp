@@ -1,0 +1,37 @@
+// Distal learning of all joints at once, in rounds: each joint against what the others left in the round before.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/distal_steps.hpp"
+
+namespace demecal {
+
+/// What one round's evolution has of its own.
+struct RoundTerms {
+  std::uint64_t seed = 0;
+  int generations = 0;
+};
+
+/// Evolves candidates for every joint of a training; nothing where that could not be done to the end.
+using EvolveRound =
+    std::function<std::optional<std::vector<JointCandidates>>(const std::vector<JointTraining>&, const RoundTerms&)>;
+
+/// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
+/// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts of
+/// the round before; then the model takes candidates (see take_candidates), so that its exact index never rises. Ends
+/// with the rounds, with the first in which no joint gains, or where evolution is cut off. A function of data, job and
+/// what `evolve` finds.
+DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
+                              const EvolveRound& evolve);
+
+/// The outcome's candidates: of every training's joint what is best of each length among `trees`, by the table against
+/// what the final model leaves, and the model's own correction.
+void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,
+                      const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome);
+
+}  // namespace demecal

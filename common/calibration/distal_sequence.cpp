@@ -1,0 +1,134 @@
+#include "calibration/distal_sequence.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "calibration/distal_rounds.hpp"
+#include "evolution/breeding.hpp"
+#include "evolution/selection.hpp"
+#include "evolution/tree_generation.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kPatience = 40;             ///< generations without gain before a population begins anew
+constexpr std::size_t kTried = 5;         ///< of the fittest: some may be unbounded
+constexpr std::uint64_t kSequence = 406;  ///< what the random stream is for
+
+class Sequence {
+ public:
+  Sequence(const DistalIndex& index, const Preparation& preparation, const Job& job,
+           const std::function<bool()>& may_go_on)
+      : index_(index),
+        job_(job),
+        may_go_on_(may_go_on),
+        random_{job.seed, kSequence},
+        trainings_(preparation.training),
+        trees_(preparation.training.size()) {
+    outcome_.learnt.robot = without_corrections(preparation.declared.robot);
+    outcome_.learnt.index_mm2 = index_(outcome_.learnt.robot);
+  }
+
+  SequenceOutcome run();
+
+ private:
+  std::size_t select(std::span<const LinearisedPose> poses) const;
+  void evolve(std::size_t i, std::span<const LinearisedPose> poses);
+  SharedPopulation enter(Breeder& breeder, const std::vector<Tree>& trees);
+  std::vector<Tree> begun_anew(const Breeder& breeder, const SharedPopulation& population);
+  double present_fitness(Breeder& breeder, const JointTraining& training) const;
+  bool take_fittest(const Breeder& breeder, const SharedPopulation& population, const JointTraining& training,
+                    double present, std::set<double>& tried);
+  bool may_go_on() const {
+    return outcome_.generations < static_cast<std::uint32_t>(job_.gp.number_generations) && may_go_on_();
+  }
+
+  const DistalIndex& index_;
+  const Job& job_;
+  const std::function<bool()>& may_go_on_;
+  RandomStream random_;
+  std::vector<JointTraining> trainings_;
+  std::vector<std::vector<Tree>> trees_;  ///< by training: its population; empty where it has not been selected yet
+  SequenceOutcome outcome_;
+};
+
+std::size_t Sequence::select(std::span<const LinearisedPose> poses) const {
+  const Eigen::VectorXd potentials = compensation_potentials(poses);
+  const auto potential = [&](const JointTraining& one) { return potentials[static_cast<Eigen::Index>(one.joint)]; };
+  const auto most = std::ranges::max_element(trainings_, {}, potential);
+  return static_cast<std::size_t>(most - trainings_.begin());
+}
+
+Tree formula_of(const Breeder& breeder, const SharedPopulation& population, std::size_t i) {
+  return breeder.store().tree(population.models[i] != 0 ? population.models[i] : population.roots[i]);
+}
+
+/// What the formula in use is worth beside those that are bred.
+double Sequence::present_fitness(Breeder& breeder, const JointTraining& training) const {
+  const JointCorrection& present = outcome_.learnt.robot.corrections[training.joint];
+  return breeder.fitness(breeder.enter(present.is_neutral() ? neutral_tree() : evolved_tree(present)));
+}
+
+SharedPopulation Sequence::enter(Breeder& breeder, const std::vector<Tree>& trees) {
+  outcome_.evaluations += trees.size();
+  return breeder.enter(trees);
+}
+
+std::vector<Tree> Sequence::begun_anew(const Breeder& breeder, const SharedPopulation& population) {
+  std::vector<Tree> trees = ramped_half_and_half(random_, job_.gp, 1);
+  trees.back() = breeder.store().tree(population.roots[fittest(population.fitness)]);
+  return trees;
+}
+
+/// Whether the model took one of the fittest that were not tried before.
+bool Sequence::take_fittest(const Breeder& breeder, const SharedPopulation& population, const JointTraining& training,
+                            double present, std::set<double>& tried) {
+  std::vector<std::size_t> ranked = ranking(population.fitness);
+  ranked.resize(std::min(ranked.size(), kTried));
+  for (const std::size_t i : ranked) {
+    if (!(population.fitness[i] < present)) return false;
+    if (!tried.insert(population.fitness[i]).second) continue;
+    const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
+    if (take_correction(index_, training, correction, outcome_.generations, outcome_.learnt)) return true;
+  }
+  return false;
+}
+
+/// Breeds one joint's population until the index falls.
+void Sequence::evolve(std::size_t i, std::span<const LinearisedPose> poses) {
+  const bool is_new = trees_[i].empty();
+  trainings_[i] = distal_training(trainings_[i], poses, is_new ? std::nullopt : std::optional(trainings_[i].scale_rad));
+  const JointTraining& training = trainings_[i];
+  if (is_new) trees_[i] = ramped_half_and_half(random_, job_.gp, 1);
+  Breeder breeder(job_.gp, training.table);
+  SharedPopulation population = enter(breeder, trees_[i]);
+  const double present = present_fitness(breeder, training);
+  std::set<double> tried;
+  for (int without_gain = 0; may_go_on();) {
+    ++outcome_.generations;
+    outcome_.evaluations += breeder.breed(random_, population);
+    if (take_fittest(breeder, population, training, present, tried)) break;
+    if (++without_gain < kPatience) continue;
+    population = enter(breeder, begun_anew(breeder, population));
+    without_gain = 0;
+  }
+  for (std::size_t k = 0; k < trees_[i].size(); ++k) trees_[i][k] = breeder.store().tree(population.roots[k]);
+}
+
+SequenceOutcome Sequence::run() {
+  while (!trainings_.empty() && may_go_on()) {
+    const std::vector<LinearisedPose> poses = index_.linearised(outcome_.learnt.robot);
+    evolve(select(poses), poses);
+  }
+  offer_for_choice(index_, trainings_, trees_, outcome_.learnt);
+  return std::move(outcome_);
+}
+
+}  // namespace
+
+SequenceOutcome learn_in_sequence(const DistalIndex& index, const Preparation& preparation, const Job& job,
+                                  const std::function<bool()>& may_go_on) {
+  return Sequence(index, preparation, job, may_go_on).run();
+}
+
+}  // namespace demecal

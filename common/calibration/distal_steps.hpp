@@ -1,0 +1,45 @@
+// Learning from the error of the whole model: what each joint learns from, and which candidate the model takes next.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "calibration/distal_index.hpp"
+#include "calibration/selection.hpp"
+
+namespace demecal {
+
+/// The model took a correction: a row of the thesis's Table 4-1.
+struct DistalStep {
+  int joint = 0;                 ///< from 0
+  std::uint32_t generation = 0;  ///< when it emerged, counted over the whole learning
+  JointCorrection correction;
+  double index_mm2 = 0.0;  ///< of the model with it
+};
+
+/// What distal learning made of a model.
+struct DistalOutcome {
+  CorrectedRobot robot;
+  double index_mm2 = 0.0;
+  std::vector<DistalStep> steps{};            ///< of falling index
+  std::vector<JointCandidates> candidates{};  ///< for conclude(): the last fronts, and the model's own corrections
+};
+
+/// The table of `like`'s joint against what all corrections leave: the squared rows of a pose are, as far as they are
+/// linear in this joint's correction g, a (g - b)^2 + c with a = |J|^2 and b = present g + J' left / a, so that b is the
+/// target and a the weight. Fitness is then the linearised index but for a constant and a factor. The unit of the target
+/// is `scale_rad` or, where none is given, of the size of its weighted mean. Rows of `like` and `poses` belong together.
+JointTraining distal_training(const JointTraining& like, std::span<const LinearisedPose> poses,
+                              std::optional<double> scale_rad = std::nullopt);
+
+/// Has the model take the candidate that lowers the linearised index most, of whichever joint, again and again,
+/// linearised anew each time: each only if it is bounded and the exact index falls. Adds a step for each.
+void take_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, std::uint32_t generation,
+                     DistalOutcome& outcome);
+
+/// Tries one correction the same way. Whether the model took it.
+bool take_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
+                     std::uint32_t generation, DistalOutcome& outcome);
+
+}  // namespace demecal
