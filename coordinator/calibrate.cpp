@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "calibration/closed_calibration.hpp"
+#include "coordinator/distal_learning.hpp"
 #include "coordinator/evolutions.hpp"
 #include "coordinator/loop_display.hpp"
 
@@ -15,6 +16,16 @@ std::string words_for(Sought sought, int luck) {
   if (sought == Sought::corrections) return "evolving the joint corrections anew beside the effects";
   if (sought == Sought::formulas) return "evolving formulas over all circumstances on what is left";
   return "the same search on permuted poses, to know what luck finds: number " + std::to_string(luck);
+}
+
+/// What islands or this process evolved for every joint, by the job's method; the run's end is in `evolutions`.
+std::vector<JointCandidates> learn(const DataSet& data, const Job& job, Evolutions& evolutions,
+                                   CalibrateResult& result) {
+  const Preparation& preparation = result.preparation;
+  if (job.method != Method::distal) return evolutions.run(preparation.training);
+  DistalOutcome outcome = learn_distally(data, job, preparation, evolutions);
+  result.distal = std::move(outcome.steps);
+  return std::move(outcome.candidates);
 }
 
 /// Closes the loop around result.calibration.
@@ -34,7 +45,15 @@ void close_the_loop(const DataSet& data, const Job& job, Evolutions& evolutions,
     if (evolutions.end() != RunEnd::finished) candidates.reset();
     return candidates;
   };
-  ClosedCalibration closed = close_calibration(data, job, result.preparation, result.calibration, evolve, watch);
+  LearnCorrections distally = [&](const Preparation& of) -> std::optional<std::vector<JointCandidates>> {
+    display.say(words_for(Sought::corrections, 0));
+    DistalOutcome outcome = learn_distally(data, job, of, evolutions);
+    if (evolutions.end() != RunEnd::finished) return std::nullopt;
+    return std::move(outcome.candidates);
+  };
+  if (job.method != Method::distal) distally = nullptr;
+  ClosedCalibration closed =
+      close_calibration(data, job, result.preparation, result.calibration, evolve, watch, distally);
   result.before = std::move(closed.before);
   result.calibration = std::move(closed.calibration);
   result.loop = std::move(closed.loop);
@@ -64,7 +83,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   CalibrateResult result;
   result.preparation = prepare(data, job);
   Evolutions evolutions(job, make_fleet, interrupt, options);
-  const std::vector<JointCandidates> candidates = evolutions.run(result.preparation.training);
+  const std::vector<JointCandidates> candidates = learn(data, job, evolutions, result);
   result.end = evolutions.end();
   result.calibration = conclude(data, job, result.preparation, candidates);
   result.before = result.calibration.robot;

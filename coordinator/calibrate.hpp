@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "calibration/distal_steps.hpp"
 #include "calibration/job.hpp"
 #include "coordinator/chronicle.hpp"
 #include "coordinator/evolution_run.hpp"
@@ -42,6 +43,7 @@ struct CalibrateResult {
   CorrectedRobot before;  ///< what the closed loop started from
   LoopOutcome loop;
   std::vector<Progress> history;
+  std::vector<DistalStep> distal;  ///< of distal learning, before the loop
   RunFacts facts;
 };
 

@@ -11,11 +11,13 @@ namespace demecal {
 namespace {
 
 /// Without a run's number yet.
-CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings, bool asynchronous) {
+CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings, const RoundTerms& terms,
+                                 bool asynchronous) {
   CalibrationData data;
   data.job = job.name;
-  data.seed = job.seed;
+  data.seed = terms.seed;
   data.parameters = job.gp;
+  data.parameters.number_generations = terms.generations;
   data.archipelago.demes_per_joint = job.islands.per_joint;
   data.archipelago.topology = job.islands.topology;
   data.archipelago.migration_interval = job.islands.migration_interval;
@@ -94,11 +96,16 @@ Control::State state_told(RunEnd end) {
 }  // namespace
 
 std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training, bool shown) {
+  return run(training, {job_.seed, job_.gp.number_generations}, shown);
+}
+
+std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training, const RoundTerms& terms,
+                                             bool shown) {
   if (training.empty()) return {};
-  RunState state = start_of(believable(calibration_data(job_, training, options_.asynchronous)));
+  RunState state = start_of(believable(calibration_data(job_, training, terms, options_.asynchronous)));
   RunResult result = state.all_finished() ? state.result(RunEnd::finished) : evolve(std::move(state), shown);
   std::vector<JointCandidates> candidates = candidates_of(training, result);
-  note(result, shown);
+  note(result, terms.generations, shown);
   return candidates;
 }
 
@@ -136,11 +143,17 @@ RunResult Evolutions::attempt(RunState& state, bool shown) {
   return result;
 }
 
-void Evolutions::note(RunResult& result, bool shown) {
+void Evolutions::note_own(std::uint32_t generations, std::uint64_t evaluations) {
+  end_ = interrupt_ ? RunEnd::interrupted : RunEnd::finished;
+  facts_.generations += generations;
+  facts_.evaluations += evaluations;
+}
+
+void Evolutions::note(RunResult& result, int generations, bool shown) {
   end_ = result.end;
   for (Progress& progress : result.history) {
     if (!shown) break;
-    progress.generation += runs_ * static_cast<std::uint32_t>(job_.gp.number_generations);
+    progress.generation += generations_shown_;
     history_.push_back(std::move(progress));
   }
   facts_.workers = std::max(facts_.workers, result.workers);
@@ -150,7 +163,7 @@ void Evolutions::note(RunResult& result, bool shown) {
   facts_.migrations += result.migrations;
   facts_.dropped_samples += result.dropped;
   facts_.waited_share.merge(result.waited_share);
-  if (shown) ++runs_;
+  if (shown) generations_shown_ += static_cast<std::uint32_t>(generations);
 }
 
 }  // namespace demecal

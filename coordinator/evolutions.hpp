@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "calibration/distal_rounds.hpp"
 #include "calibration/selection.hpp"
 #include "coordinator/calibrate.hpp"
 
@@ -22,6 +23,12 @@ class Evolutions {
   /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. `shown`: to
   /// people, in a display and the history.
   std::vector<JointCandidates> run(const std::vector<JointTraining>& training, bool shown = true);
+  /// The same with a seed and a number of generations of its own.
+  std::vector<JointCandidates> run(const std::vector<JointTraining>& training, const RoundTerms& terms,
+                                   bool shown = true);
+  /// Counts what this process evolved itself.
+  void note_own(std::uint32_t generations, std::uint64_t evaluations);
+  bool is_interrupted() const { return interrupt_; }
   RunEnd end() const { return end_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
@@ -31,7 +38,7 @@ class Evolutions {
   RunState start_of(const CalibrationData& data);
   RunResult evolve(RunState state, bool shown);
   RunResult attempt(RunState& state, bool shown);
-  void note(RunResult& result, bool shown);
+  void note(RunResult& result, int generations, bool shown);
 
   const Job& job_;
   const std::function<std::unique_ptr<Fleet>()>& make_fleet_;
@@ -40,7 +47,7 @@ class Evolutions {
   RunEnd end_ = RunEnd::finished;
   std::vector<Progress> history_;
   RunFacts facts_;
-  std::uint32_t runs_ = 0;
+  std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
 };
 
 }  // namespace demecal

@@ -1,7 +1,6 @@
 #include "calibration/distal_sequence.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "calibration/distal_rounds.hpp"
 #include "evolution/breeding.hpp"
@@ -12,7 +11,6 @@ namespace demecal {
 namespace {
 
 constexpr int kPatience = 40;             ///< generations without gain before a population begins anew
-constexpr std::size_t kTried = 5;         ///< of the fittest: some may be unbounded
 constexpr std::uint64_t kSequence = 406;  ///< what the random stream is for
 
 class Sequence {
@@ -38,7 +36,7 @@ class Sequence {
   std::vector<Tree> begun_anew(const Breeder& breeder, const SharedPopulation& population);
   double present_fitness(Breeder& breeder, const JointTraining& training) const;
   bool take_fittest(const Breeder& breeder, const SharedPopulation& population, const JointTraining& training,
-                    double present, std::set<double>& tried);
+                    double& best);
   bool may_go_on() const {
     return outcome_.generations < static_cast<std::uint32_t>(job_.gp.number_generations) && may_go_on_();
   }
@@ -80,18 +78,14 @@ std::vector<Tree> Sequence::begun_anew(const Breeder& breeder, const SharedPopul
   return trees;
 }
 
-/// Whether the model took one of the fittest that were not tried before.
+/// Whether the model took the fittest, where that is fitter than `best`, the fittest tried so far.
 bool Sequence::take_fittest(const Breeder& breeder, const SharedPopulation& population, const JointTraining& training,
-                            double present, std::set<double>& tried) {
-  std::vector<std::size_t> ranked = ranking(population.fitness);
-  ranked.resize(std::min(ranked.size(), kTried));
-  for (const std::size_t i : ranked) {
-    if (!(population.fitness[i] < present)) return false;
-    if (!tried.insert(population.fitness[i]).second) continue;
-    const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
-    if (take_correction(index_, training, correction, outcome_.generations, outcome_.learnt)) return true;
-  }
-  return false;
+                            double& best) {
+  const std::size_t i = fittest(population.fitness);
+  if (!(population.fitness[i] < best)) return false;
+  best = population.fitness[i];
+  const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
+  return take_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
 }
 
 /// Breeds one joint's population until the index falls.
@@ -102,12 +96,11 @@ void Sequence::evolve(std::size_t i, std::span<const LinearisedPose> poses) {
   if (is_new) trees_[i] = ramped_half_and_half(random_, job_.gp, 1);
   Breeder breeder(job_.gp, training.table);
   SharedPopulation population = enter(breeder, trees_[i]);
-  const double present = present_fitness(breeder, training);
-  std::set<double> tried;
+  double best = present_fitness(breeder, training);
   for (int without_gain = 0; may_go_on();) {
     ++outcome_.generations;
     outcome_.evaluations += breeder.breed(random_, population);
-    if (take_fittest(breeder, population, training, present, tried)) break;
+    if (take_fittest(breeder, population, training, best)) break;
     if (++without_gain < kPatience) continue;
     population = enter(breeder, begun_anew(breeder, population));
     without_gain = 0;

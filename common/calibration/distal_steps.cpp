@@ -76,8 +76,7 @@ bool take_correction(const DistalIndex& index, const JointTraining& training, co
   JointCorrection& present = outcome.robot.corrections[training.joint];
   JointCorrection before = std::exchange(present, correction);
   const double index_mm2 = index(outcome.robot);
-  const bool falls = index_mm2 < (1.0 - kLeastFall) * outcome.index_mm2;
-  if (!falls || !is_bounded(correction, training)) {
+  if (!(index_mm2 < (1.0 - kLeastFall) * outcome.index_mm2)) {
     present = std::move(before);
     return false;
   }
@@ -96,7 +95,10 @@ void take_candidates(const DistalIndex& index, std::span<const JointCandidates> 
     const auto best = std::min_element(change.begin(), change.end());
     if (!(*best < -kLeastFall * outcome.index_mm2)) return;
     const auto offer = offers.begin() + (best - change.begin());
-    take_correction(index, *offer->training, correction_from(*offer->training, *offer->tree), generation, outcome);
+    const JointCorrection correction = correction_from(*offer->training, *offer->tree);
+    if (is_bounded(correction, *offer->training)) {
+      take_correction(index, *offer->training, correction, generation, outcome);
+    }
     offers.erase(offer);
   }
 }

@@ -38,7 +38,7 @@ JointTraining distal_training(const JointTraining& like, std::span<const Lineari
 void take_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, std::uint32_t generation,
                      DistalOutcome& outcome);
 
-/// Tries one correction the same way. Whether the model took it.
+/// Has the model take one correction of the training's joint if the exact index falls, and adds a step. Whether it did.
 bool take_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
                      std::uint32_t generation, DistalOutcome& outcome);
 

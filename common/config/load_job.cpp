@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t kMostDemes = 1000;
 constexpr std::int64_t kMostEffects = 1000;
+constexpr std::int64_t kMostRounds = 1000;
 constexpr std::int64_t kHighestRatio = 10000;
 
 struct DeclaredWord {
@@ -52,6 +53,19 @@ IslandOptions read_islands(const YamlNode& node, int population_size) {
   }
   if (const YamlNode* between = node.find("between_joints")) islands.between_joints = between->truth();
   return islands;
+}
+
+DistalOptions read_distal(const YamlNode& node) {
+  node.with_keys({"form", "rounds"});
+  DistalOptions distal;
+  if (const YamlNode* form = node.find("form")) {
+    distal.form =
+        form->one_of<DistalForm>({{"parallel", DistalForm::parallel}, {"sequential", DistalForm::sequential}});
+  }
+  if (const YamlNode* rounds = node.find("rounds")) {
+    distal.rounds = static_cast<int>(rounds->whole_number(1, kMostRounds));
+  }
+  return distal;
 }
 
 std::vector<std::string> read_candidates(const YamlNode& list) {
@@ -104,7 +118,7 @@ DeclaredModel declared_of(std::span<const std::string> words) {
 Job load_job(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
   root.of_version("job", 1).with_keys(
-      {"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop"});
+      {"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop", "distal"});
   Job job;
   job.name = path.stem().string();
   job.data_file = resolve(path, root.at("data").text()).string();
@@ -118,6 +132,7 @@ Job load_job(const std::filesystem::path& path) {
   if (const YamlNode* gp = root.find("gp")) job.gp = read_gp(*gp);
   if (const YamlNode* islands = root.find("islands")) job.islands = read_islands(*islands, job.gp.population_size);
   if (const YamlNode* loop = root.find("closed_loop")) job.closed_loop = read_closed_loop(*loop);
+  if (const YamlNode* distal = root.find("distal")) job.distal = read_distal(*distal);
   return job;
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "data/csv.hpp"
+#include "expression/text.hpp"
 
 namespace demecal {
 namespace {
@@ -25,6 +26,12 @@ CsvRow written(const HistoryRow& row) {
            on_one_line(row.worker)}};
 }
 
+std::string text_of(const CsvTable& table) {
+  std::ostringstream text;
+  write_csv(text, table);
+  return text.str();
+}
+
 }  // namespace
 
 std::string history_csv(const std::vector<HistoryRow>& rows) {
@@ -32,9 +39,18 @@ std::string history_csv(const std::vector<HistoryRow>& rows) {
   table.columns = {"joint",       "island",      "generation",     "best_fitness", "median_fitness",
                    "best_length", "evaluations", "migrants_taken", "worker"};
   for (const HistoryRow& row : rows) table.rows.push_back(written(row));
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
+  return text_of(table);
+}
+
+std::string distal_csv(const std::vector<DistalStep>& steps) {
+  CsvTable table{.file = {}, .header_line = 0, .columns = {}, .rows = {}};
+  table.columns = {"joint", "generation", "expression", "index_mm2"};
+  for (const DistalStep& step : steps) {
+    table.rows.push_back({0,
+                          {std::to_string(step.joint + 1), std::to_string(step.generation),
+                           to_text(step.correction.formula()), fmt::format("{}", step.index_mm2)}});
+  }
+  return text_of(table);
 }
 
 }  // namespace demecal

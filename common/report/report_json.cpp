@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "expression/text.hpp"
 #include "kinematics/units.hpp"
 #include "report/loop_json.hpp"
 
@@ -44,6 +45,13 @@ Json joint(const JointLine& line) {
       {"discontinuities_rad", line.summary.discontinuities_rad}};
   if (!line.summary.note.empty()) entry["note"] = line.summary.note;
   return entry;
+}
+
+Json step(const DistalStep& step) {
+  return {{"joint", step.joint + 1},
+          {"generation", step.generation},
+          {"expression", to_text(step.correction.formula())},
+          {"index_mm2", number(step.index_mm2)}};
 }
 
 Json parameter(const ParameterEstimate& estimate) {
@@ -110,6 +118,10 @@ std::string to_json(const CalibrationReport& report) {
                                    {"after", number(report.index_after_mm2)}};
   json["joints"] = Json::array();
   for (const JointLine& line : report.joints) json["joints"].push_back(joint(line));
+  if (report.method == word_of(Method::distal)) {
+    json["distal"] = Json::array();
+    for (const DistalStep& one : report.distal) json["distal"].push_back(step(one));
+  }
   json["parameters"] = Json::array();
   for (const ParameterEstimate& estimate : report.estimates) {
     if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects stand with the rounds that added them

@@ -165,7 +165,7 @@ std::optional<TrainingTable> decode(const wire::TrainingTable& table) {
   if (!loss) return std::nullopt;
   decoded.loss = *loss;
   for (const wire::Formula& formula : table.seeds()) {
-    auto seed = decode(formula);
+    auto seed = demecal::decode(formula);
     if (!seed) return std::nullopt;
     decoded.seeds.push_back(std::move(*seed));
   }

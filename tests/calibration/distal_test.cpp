@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/distal_rounds.hpp"
+#include "calibration/distal_sequence.hpp"
 #include "erring_arm.hpp"
 #include "evolution/fitness.hpp"
 #include "island_evolution.hpp"
@@ -129,6 +130,48 @@ TEST_P(DistalLearning, NeverRaisesTheIndexAndLowersIt) {
   EXPECT_LT(outcome.index_mm2, 0.2 * before);
   const Calibration calibration = conclude(data, job, preparation, outcome.candidates);
   EXPECT_LT(calibration.index_after_mm2, 0.3 * calibration.index_before_mm2);
+}
+
+TEST_P(DistalLearning, InSequenceNeverRaisesTheIndexEither) {
+  const SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [] { return true; });
+  double last = index(preparation.declared.robot);
+  std::uint32_t generation = 0;
+  for (const DistalStep& step : outcome.learnt.steps) {
+    EXPECT_LT(step.index_mm2, last);
+    EXPECT_GT(step.generation, generation);
+    last = step.index_mm2;
+    generation = step.generation;
+  }
+  EXPECT_EQ(last, index(outcome.learnt.robot));
+  EXPECT_LT(last, 0.8 * index(preparation.declared.robot));
+  EXPECT_EQ(outcome.generations, 40U);
+}
+
+/// What the thesis's algorithm does at its first step.
+TEST_P(DistalLearning, InSequenceBeginsWithTheJointOfGreatestPotential) {
+  const Eigen::VectorXd potentials = compensation_potentials(index.linearised(preparation.declared.robot));
+  Eigen::Index greatest = 0;
+  potentials.maxCoeff(&greatest);
+  const SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [] { return true; });
+  ASSERT_FALSE(outcome.learnt.steps.empty());
+  EXPECT_EQ(outcome.learnt.steps.front().joint, greatest);
+}
+
+TEST_P(DistalLearning, InSequenceEndsWhenTold) {
+  int asked = 0;
+  const SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [&] { return ++asked <= 3; });
+  EXPECT_LE(outcome.generations, 3U);
+  EXPECT_EQ(outcome.learnt.candidates.size(), preparation.training.size());
+}
+
+TEST_P(DistalLearning, WeighsOrientationInWhereItIsMeasured) {
+  const double whole = index(preparation.declared.robot);
+  const double of_tool = performance_index_mm2(preparation.declared.robot, data, preparation.targets.poses);
+  if (GetParam() == Measured::pose) {
+    EXPECT_GT(whole, 1.1 * of_tool);
+  } else {
+    EXPECT_NEAR(whole, of_tool, 1e-9 * of_tool);
+  }
 }
 
 std::string word_of_measured(const testing::TestParamInfo<Measured>& info) {

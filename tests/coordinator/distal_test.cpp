@@ -1,0 +1,68 @@
+// A calibration by distal learning, from measured poses to a model.
+#include <gtest/gtest.h>
+
+#include "config/model_text.hpp"
+#include "in_memory_fleet.hpp"
+#include "lacking_puma.hpp"
+
+namespace demecal {
+namespace {
+
+Job short_distal_job(DistalForm form) {
+  Job job = short_looping_job();
+  job.method = Method::distal;
+  job.distal.form = form;
+  job.distal.rounds = 3;
+  return job;
+}
+
+double accept_rms(const CorrectedRobot& robot, const DataSet& data) {
+  return error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
+}
+
+void expect_falling(const std::vector<DistalStep>& steps) {
+  ASSERT_FALSE(steps.empty());
+  for (std::size_t i = 1; i < steps.size(); ++i) EXPECT_LT(steps[i].index_mm2, steps[i - 1].index_mm2);
+}
+
+TEST(Distal, GivesTheSameModelWhateverTheWorkers) {
+  const DataSet data = simulate(lacking_puma(true));
+  Job job = short_distal_job(DistalForm::parallel);
+  job.closed_loop.candidates = {"backlash"};
+  const CalibrateResult one = calibrate_in_memory(data, job, 1), three = calibrate_in_memory(data, job, 3);
+  EXPECT_EQ(one.end, RunEnd::finished);
+  EXPECT_FALSE(one.model.robot.effects.empty());
+  EXPECT_EQ(model_text(one.model), model_text(three.model));
+  expect_falling(one.distal);
+}
+
+TEST(Distal, ReachesAnAcceptErrorNoWorseThanDirectLearningInEitherForm) {
+  const DataSet data = simulate(lacking_puma(false));
+  Job direct = short_looping_job();
+  direct.closed_loop.max_effects = 0;
+  direct.gp.number_generations = 60;
+  const double by_direct = accept_rms(calibrate_in_memory(data, direct).model.robot, data);
+  for (const DistalForm form : {DistalForm::parallel, DistalForm::sequential}) {
+    Job job = short_distal_job(form);
+    job.closed_loop.max_effects = 0;
+    job.gp = direct.gp;
+    if (form == DistalForm::sequential) job.gp.number_generations = 6 * 60;  // of all joints together
+    const CalibrateResult result = calibrate_in_memory(data, job);
+    expect_falling(result.distal);
+    EXPECT_EQ(result.model.method, Method::distal);
+    EXPECT_LT(accept_rms(result.model.robot, data), 1.05 * by_direct) << static_cast<int>(form);
+  }
+}
+
+TEST(Distal, CountsTheGenerationsOfItsRoundsThrough) {
+  Job job = short_distal_job(DistalForm::parallel);
+  job.closed_loop.max_effects = 0;
+  const CalibrateResult result = calibrate_in_memory(simulate(lacking_puma(false)), job);
+  std::uint32_t last = 0;
+  for (const Progress& progress : result.history) last = std::max(last, progress.generation);
+  EXPECT_EQ(last, 30U);
+  EXPECT_EQ(result.facts.generations, 30U * result.facts.islands);
+}
+
+}  // namespace
+}  // namespace demecal
