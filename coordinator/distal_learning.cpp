@@ -8,8 +8,7 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
                              Evolutions& evolutions) {
   const DistalIndex index(data, preparation.targets.poses, preparation.declared);
   if (job.distal.form == DistalForm::sequential) {
-    SequenceOutcome outcome =
-        learn_in_sequence(index, preparation, job, [&] { return !evolutions.is_interrupted(); });
+    SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [&] { return !evolutions.is_interrupted(); });
     evolutions.note_own(outcome.generations, outcome.evaluations);
     return std::move(outcome.learnt);
   }

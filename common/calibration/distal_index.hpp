@@ -10,12 +10,12 @@
 
 namespace demecal {
 
-/// What a pose says near the present corrections: rows that the index squares, and how they fall as joints are corrected
-/// further.
+/// What a pose says near the present corrections: rows that the index squares, and how they fall as joints are
+/// corrected further.
 struct LinearisedPose {
-  JointVector correction;       ///< present g, rad or m
-  Eigen::VectorXd left_mm;      ///< measured less predicted
-  Eigen::MatrixXd slope_mm;     ///< rows x joints: change of the prediction, mm per rad or m of a joint's correction
+  JointVector correction;    ///< present g, rad or m
+  Eigen::VectorXd left_mm;   ///< measured less predicted
+  Eigen::MatrixXd slope_mm;  ///< rows x joints: change of the prediction, mm per rad or m of a joint's correction
 };
 
 /// The sum over `poses` of squared rows of what was measured, mm^2: positions and distances (those of one pose together

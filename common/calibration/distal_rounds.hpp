@@ -22,10 +22,10 @@ using EvolveRound =
     std::function<std::optional<std::vector<JointCandidates>>(const std::vector<JointTraining>&, const RoundTerms&)>;
 
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
-/// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts of
-/// the round before; then the model takes candidates (see take_candidates), so that its exact index never rises. Ends
-/// with the rounds, with the first in which no joint gains, or where evolution is cut off. A function of data, job and
-/// what `evolve` finds.
+/// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
+/// of the round before; then the model takes candidates (see take_candidates), so that its exact index never rises.
+/// Ends with the rounds, with the first in which no joint gains, or where evolution is cut off. A function of data, job
+/// and what `evolve` finds.
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
                               const EvolveRound& evolve);
 

@@ -27,9 +27,10 @@ struct DistalOutcome {
 };
 
 /// The table of `like`'s joint against what all corrections leave: the squared rows of a pose are, as far as they are
-/// linear in this joint's correction g, a (g - b)^2 + c with a = |J|^2 and b = present g + J' left / a, so that b is the
-/// target and a the weight. Fitness is then the linearised index but for a constant and a factor. The unit of the target
-/// is `scale_rad` or, where none is given, of the size of its weighted mean. Rows of `like` and `poses` belong together.
+/// linear in this joint's correction g, a (g - b)^2 + c with a = |J|^2 and b = present g + J' left / a, so that b is
+/// the target and a the weight. Fitness is then the linearised index but for a constant and a factor. The unit of the
+/// target is `scale_rad` or, where none is given, of the size of its weighted mean. Rows of `like` and `poses` belong
+/// together.
 JointTraining distal_training(const JointTraining& like, std::span<const LinearisedPose> poses,
                               std::optional<double> scale_rad = std::nullopt);
 

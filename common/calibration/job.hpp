@@ -36,8 +36,8 @@ struct ClosedLoopOptions {
   std::vector<double> ratios;           ///< of gears, beyond the scan
 };
 
-/// In which order joints learn from the whole model's error (thesis 4.4): all at once, round by round, each against what
-/// the others left in the round before, or one at a time as in Figure 4-6.
+/// In which order joints learn from the whole model's error (thesis 4.4): all at once, round by round, each against
+/// what the others left in the round before, or one at a time as in Figure 4-6.
 enum class DistalForm { parallel, sequential };
 
 struct DistalOptions {

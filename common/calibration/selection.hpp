@@ -31,9 +31,9 @@ struct Selection {
   std::vector<JointChoice> choices;  ///< one per candidate list, in its order
 };
 
-/// Whether interval arithmetic holds a correction below three times the training's 95th percentile of target errors over
-/// its range, over rows of full weight; in tables of squared errors, over those that count no less than the median one.
-/// What is not (a pole, most often) is not considered (thesis 6.2.2).
+/// Whether interval arithmetic holds a correction below three times the training's 95th percentile of target errors
+/// over its range, over rows of full weight; in tables of squared errors, over those that count no less than the median
+/// one. What is not (a pole, most often) is not considered (thesis 6.2.2).
 bool is_bounded(const JointCorrection& correction, const JointTraining& training);
 
 /// Joint by joint, in sweeps until nothing changes: once from all joints neutral, once from all joints with what fits
@@ -41,9 +41,8 @@ bool is_bounded(const JointCorrection& correction, const JointTraining& training
 /// elsewhere; whichever ends best. Of a joint's candidates, with the other joints as they stand, the shortest is taken
 /// whose mean squared tool error over the `deciding` poses is within half a standard error (paired, pose by pose) of
 /// the best. It is kept only if it beats the neutral correction by more than two standard errors on these poses and on
-/// the `fitted` ones too, and the whole never does worse on the deciding poses than no correction. A candidate that is not
-/// bounded is not considered.
-/// `deciding` holds validation poses; the calibration poses where there are none.
+/// the `fitted` ones too, and the whole never does worse on the deciding poses than no correction. A candidate that is
+/// not bounded is not considered. `deciding` holds validation poses; the calibration poses where there are none.
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
                              std::span<const std::size_t> deciding, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates);

@@ -59,9 +59,9 @@ JointCorrection correction_from(const JointTraining& training, const Tree& evolv
 
 Tree evolved_tree(const JointCorrection& correction) {
   const Tree& product = correction.formula();  // of the scale, one node, and the tree
-  DEMECAL_CHECK(product.size() > 2 && product[0].primitive == Primitive::multiply &&
-                    product[1].primitive == Primitive::constant,
-                "a formula of " << product.size() << " nodes");
+  DEMECAL_CHECK(
+      product.size() > 2 && product[0].primitive == Primitive::multiply && product[1].primitive == Primitive::constant,
+      "a formula of " << product.size() << " nodes");
   return {product.begin() + 2, product.end()};
 }
 

@@ -10,8 +10,8 @@ namespace demecal {
 std::vector<std::size_t> poses_of_last_fit(const DataSet& data);
 
 /// The same model, its effects as they were chosen, with its numbers at their least-squares values over
-/// poses_of_last_fit(data), and its effects and smooth terms known over these poses' range. What the poses then say of it
-/// is no longer unseen, but for the accept poses.
+/// poses_of_last_fit(data), and its effects and smooth terms known over these poses' range. What the poses then say of
+/// it is no longer unseen, but for the accept poses.
 DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, DiagnosedModel model);
 
 }  // namespace demecal

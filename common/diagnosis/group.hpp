@@ -30,10 +30,10 @@ double family_p_value(const std::vector<double>& null_maxima, double fall_nats);
 
 struct GroupOutcome {
   std::vector<Round> rounds;
-  std::vector<Effect> added;  ///< as the rounds' verdicts say
+  std::vector<Effect> added;                 ///< as the rounds' verdicts say
   std::optional<std::string> winning_decoy;  ///< its name, where one explained more than any real effect
-  bool stopped = false;  ///< by the watcher
-  bool luck = false;     ///< the best candidate left explains no more than luck could
+  bool stopped = false;                      ///< by the watcher
+  bool luck = false;                         ///< the best candidate left explains no more than luck could
 };
 
 class Group {

@@ -23,9 +23,9 @@ struct FittedFormula {
 };
 
 /// Fits one formula at a time to what fitness is: the weighted sum of squared errors or, where the table's loss is
-/// absolute, of absolute ones, by least squares whose weights are divided by the size of each row's error (Schlossmacher
-/// 1973). A step that does not lower that sum is taken back.
-/// What comes out is a function of table, parameters and formula.
+/// absolute, of absolute ones, by least squares whose weights are divided by the size of each row's error
+/// (Schlossmacher 1973). A step that does not lower that sum is taken back. What comes out is a function of table,
+/// parameters and formula.
 class ConstantFit {
  public:
   ConstantFit(const TrainingTable& table, const GpParameters& parameters);

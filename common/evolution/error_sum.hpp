@@ -14,7 +14,8 @@ namespace demecal {
 /// index of the whole model (eq. 4.6).
 enum class Loss : std::uint8_t { absolute, squared };
 
-/// sum_k weight_k |target_k - value_k|, or of the squares. Rows are added by turns into kLanes sums, and those pairwise.
+/// sum_k weight_k |target_k - value_k|, or of the squares. Rows are added by turns into kLanes sums, and those
+/// pairwise.
 class ErrorSum {
  public:
   using Lanes = std::array<double, kLanes>;

@@ -12,7 +12,8 @@ void check_columns(const TrainingTable& table) {
     DEMECAL_CHECK(column.size() == table.target.size(), column.size() << " rows of " << table.target.size());
 }
 
-Fitness::Fitness(const TrainingTable& table) : errors_(table.target, table.weight, table.loss), evaluate_(table.variables) {
+Fitness::Fitness(const TrainingTable& table)
+    : errors_(table.target, table.weight, table.loss), evaluate_(table.variables) {
   check_columns(table);
 }
 

@@ -26,7 +26,8 @@ void check_columns(const TrainingTable& table);
 class Fitness {
  public:
   explicit Fitness(const TrainingTable& table);
-  /// sum_k weight_k |target_k - tree(row k)|, or of the squares, as the table says; infinite where any row is not finite.
+  /// sum_k weight_k |target_k - tree(row k)|, or of the squares, as the table says; infinite where any row is not
+  /// finite.
   double operator()(const Tree& tree);
 
  private:

@@ -44,13 +44,12 @@ class Island {
          std::uint64_t seed);
 
   IslandKey key() const { return key_; }
-  /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1), the table's seeds in place of the
-  /// last of it; no generation is bred. Later:
-  /// `immigrants` replace the worst individuals, then migration_interval generations are bred, or as many as remain.
-  /// Immigrants are evaluated on this island's table; duplicates of residents and trees that do not fit it (too deep,
-  /// or of variables it lacks) are left out; the best resident is never replaced. Must not be finished.
-  /// `after_generation` is called after each; where it throws, the island is left amid the epoch and only restore() or
-  /// destruction may follow.
+  /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1), the table's seeds in place of
+  /// the last of it; no generation is bred. Later: `immigrants` replace the worst individuals, then migration_interval
+  /// generations are bred, or as many as remain. Immigrants are evaluated on this island's table; duplicates of
+  /// residents and trees that do not fit it (too deep, or of variables it lacks) are left out; the best resident is
+  /// never replaced. Must not be finished. `after_generation` is called after each; where it throws, the island is left
+  /// amid the epoch and only restore() or destruction may follow.
   void run_epoch(const Population& immigrants, const std::function<void()>& after_generation = {});
   bool finished() const;               ///< all generations are bred
   std::uint32_t epochs_total() const;  ///< the first, and as many as number_generations takes

@@ -10,8 +10,8 @@
 namespace demecal {
 namespace {
 
-const std::vector<std::string> kErrors{"0.002 * SIN(theta)", "0.003 * COS(theta)", "-0.002 * SIN(theta)", "",
-                                       "0.002 * theta",      ""};
+const std::vector<std::string> kErrors{
+    "0.002 * SIN(theta)", "0.003 * COS(theta)", "-0.002 * SIN(theta)", "", "0.002 * theta", ""};
 
 enum class Measured { position, pose, distances };
 
@@ -41,7 +41,8 @@ Job distal_job() {
 CorrectedRobot corrected_puma(double size_rad, RandomStream& random) {
   CorrectedRobot robot = true_puma(std::vector<std::string>(6));
   for (JointCorrection& correction : robot.corrections) {
-    const Tree wave = apply(Primitive::sine, apply(Primitive::add, variable_tree(0), constant_tree(random.real(-3, 3))));
+    const Tree wave =
+        apply(Primitive::sine, apply(Primitive::add, variable_tree(0), constant_tree(random.real(-3, 3))));
     correction = JointCorrection(apply(Primitive::multiply, constant_tree(size_rad), wave), {}, {-M_PI, M_PI});
   }
   return robot;
@@ -179,8 +180,8 @@ std::string word_of_measured(const testing::TestParamInfo<Measured>& info) {
   return kWords[static_cast<std::size_t>(info.param)];
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, DistalLearning,
-                         testing::Values(Measured::position, Measured::pose, Measured::distances), word_of_measured);
+INSTANTIATE_TEST_SUITE_P(Of, DistalLearning, testing::Values(Measured::position, Measured::pose, Measured::distances),
+                         word_of_measured);
 
 TEST(DistalIndex, IsThePerformanceIndexWhereNoOrientationIsMeasured) {
   for (const Measured what : {Measured::position, Measured::distances}) {

@@ -64,14 +64,8 @@ const std::vector<Spoiling>& spoilings() {
       {"a weight too few", [](auto& d) { d.tables[0].weight.pop_back(); }},
       {"a weight below 0", [](auto& d) { d.tables[0].weight[0] = -0.1; }},
       {"an unknown loss", [](auto& d) { d.tables[0].loss = static_cast<Loss>(7); }},
-      {"a seed that is no formula",
-       [](auto& d) {
-         d.tables[0].seeds = {Tree{}};
-       }},
-      {"a seed of a variable that is not there",
-       [](auto& d) {
-         d.tables[0].seeds = {variable_tree(1)};
-       }},
+      {"a seed that is no formula", [](auto& d) { d.tables[0].seeds = {Tree{}}; }},
+      {"a seed of a variable that is not there", [](auto& d) { d.tables[0].seeds = {variable_tree(1)}; }},
       {"more seeds than individuals", [](auto& d) { d.tables[0].seeds.assign(21, variable_tree(0)); }},
       {"a weight above 1", [](auto& d) { d.tables[0].weight[11] = 1.1; }},
   };
