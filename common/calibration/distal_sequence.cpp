@@ -1,6 +1,7 @@
 #include "calibration/distal_sequence.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "calibration/distal_rounds.hpp"
 #include "evolution/breeding.hpp"
@@ -11,6 +12,7 @@ namespace demecal {
 namespace {
 
 constexpr int kPatience = 40;             ///< generations without gain before a population begins anew
+constexpr int kRefused = 5;               ///< of a generation at most
 constexpr std::uint64_t kSequence = 406;  ///< what the random stream is for
 
 class Sequence {
@@ -35,8 +37,7 @@ class Sequence {
   SharedPopulation enter(Breeder& breeder, const std::vector<Tree>& trees);
   std::vector<Tree> begun_anew(const Breeder& breeder, const SharedPopulation& population);
   double present_fitness(Breeder& breeder, const JointTraining& training) const;
-  bool take_fittest(const Breeder& breeder, const SharedPopulation& population, const JointTraining& training,
-                    double& best);
+  bool take_fittest(const Breeder& breeder, SharedPopulation& population, const JointTraining& training, double& best);
   bool may_go_on() const {
     return outcome_.generations < static_cast<std::uint32_t>(job_.gp.number_generations) && may_go_on_();
   }
@@ -78,14 +79,27 @@ std::vector<Tree> Sequence::begun_anew(const Breeder& breeder, const SharedPopul
   return trees;
 }
 
-/// Whether the model took the fittest, where that is fitter than `best`, the fittest tried so far.
-bool Sequence::take_fittest(const Breeder& breeder, const SharedPopulation& population, const JointTraining& training,
+/// Nobody is to descend from it.
+void refuse(SharedPopulation& population, NodeId root) {
+  for (std::size_t i = 0; i < population.roots.size(); ++i) {
+    if (population.roots[i] == root) population.fitness[i] = std::numeric_limits<double>::infinity();
+  }
+}
+
+/// Whether the model took the fittest that is bounded, where that is fitter than `best`, the fittest tried so far.
+bool Sequence::take_fittest(const Breeder& breeder, SharedPopulation& population, const JointTraining& training,
                             double& best) {
-  const std::size_t i = fittest(population.fitness);
-  if (!(population.fitness[i] < best)) return false;
-  best = population.fitness[i];
-  const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
-  return take_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
+  for (int refused = 0; refused < kRefused; ++refused) {
+    const std::size_t i = fittest(population.fitness);
+    if (!(population.fitness[i] < best)) return false;
+    const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
+    if (is_bounded(correction, training)) {
+      best = population.fitness[i];
+      return take_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
+    }
+    refuse(population, population.roots[i]);
+  }
+  return false;
 }
 
 /// Breeds one joint's population until the index falls.

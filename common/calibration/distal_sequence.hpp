@@ -19,10 +19,9 @@ struct SequenceOutcome {
 /// population a joint: the joint of the greatest compensation potential (eq. 4.11) is bred until the exact index falls;
 /// the model takes its fittest formula, and the joint is selected anew. A population that does not gain for 40
 /// generations begins anew around its fittest (as in the thesis's program). Formulas are ranked by the index linearised
-/// about the present model, which differs from the exact one by parts in a thousand of what a correction changes. Poles
-/// are not refused, as the thesis does not while it evolves; conclude() leaves such formulas out. Ends after
-/// job.gp.number_generations in all, or when `may_go_on`, asked before every generation, says no. A function of data
-/// and job.
+/// about the present model, which differs from the exact one by parts in a thousand of what a correction changes. What
+/// would be the fittest but is not bounded (see is_bounded) loses its fitness. Ends after job.gp.number_generations in
+/// all, or when `may_go_on`, asked before every generation, says no. A function of data and job.
 SequenceOutcome learn_in_sequence(const DistalIndex& index, const Preparation& preparation, const Job& job,
                                   const std::function<bool()>& may_go_on);
 

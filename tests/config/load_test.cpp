@@ -79,6 +79,8 @@ TEST(LoadJob, ReadsEveryKey) {
   EXPECT_EQ(job.data_file, samples.data_set.string());
   EXPECT_EQ(job.method, Method::distal);
   EXPECT_EQ(job.seed, 7u);
+  EXPECT_EQ(job.distal.form, DistalForm::sequential);
+  EXPECT_EQ(job.distal.rounds, 3);
   EXPECT_TRUE(job.declared.registration && job.declared.geometry && job.declared.joint_corrections);
   EXPECT_FALSE(job.declared.tool || job.declared.joint_offset);
   EXPECT_EQ(job.gp.population_size, 120);
