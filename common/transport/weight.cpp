@@ -6,9 +6,10 @@ namespace {
 constexpr std::size_t kText_bytes = 256;  ///< a message's texts are bounded
 
 struct Weight {
+  std::size_t operator()(const Tree& tree) const { return sizeof tree + tree.size() * sizeof(Node); }
   std::size_t operator()(const Population& population) const {
-    std::size_t bytes = population.size() * sizeof(Individual);
-    for (const Individual& individual : population) bytes += individual.tree.size() * sizeof(Node);
+    std::size_t bytes = population.size() * sizeof(double);
+    for (const Individual& individual : population) bytes += (*this)(individual.tree);
     return bytes;
   }
   std::size_t operator()(const std::vector<Migrants>& emigrations) const {
@@ -31,6 +32,7 @@ struct Weight {
     for (const TrainingTable& table : m.tables) {
       bytes += sizeof table + (table.target.size() + table.weight.size()) * sizeof(double);
       for (const auto& column : table.variables) bytes += sizeof column + column.size() * sizeof(double);
+      for (const Tree& seed : table.seeds) bytes += (*this)(seed);
     }
     return bytes;
   }
