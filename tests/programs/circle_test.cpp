@@ -161,7 +161,7 @@ TEST(CorrectedProgram, DoesNotDependOnHowAFitSharesOutBaseAndFirstJoint) {
       EXPECT_TRUE(identified.predict(Stop(JointVector::Zero(6)), "").isApprox(before, 1e-12));
     }
     const CorrectedRobot second = without_base(identified, nominal.chain);
-    const JointVector joints = regular_joints(stream, nominal.chain);
+    const JointVector joints = random_joints(stream, nominal.chain);
     const auto point = [&](const CorrectedRobot& robot) {
       return unbounded_model(nominal, robot).robot.predict(Stop(joints), "");
     };
