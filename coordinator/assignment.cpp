@@ -1,6 +1,7 @@
 #include "coordinator/assignment.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace demecal {
 
@@ -29,8 +30,11 @@ void Assignment::finish(IslandKey island) {
 std::vector<Move> Assignment::balance() {
   std::vector<Move> moves;
   if (slots_.empty()) return moves;
+  std::string filled;
   for (const auto& [island, holder] : holder_) {
-    if (holder.empty()) give(island, least_loaded(), moves);
+    if (!holder.empty()) continue;
+    if (filled.empty() || load(filled, 1) > fair_load()) filled = least_loaded();
+    give(island, filled, moves);
   }
   while (true) {
     const std::string from = most_loaded(), to = least_loaded();
@@ -45,6 +49,13 @@ std::vector<Move> Assignment::balance() {
 
 double Assignment::load(const std::string& worker, int more) const {
   return static_cast<double>(held_.at(worker) + more) / slots_.at(worker);
+}
+
+/// Of each slot, rounded up: what the busiest has at least.
+double Assignment::fair_load() const {
+  double slots = 0.0;
+  for (const auto& [worker, count] : slots_) slots += count;
+  return std::ceil(static_cast<double>(holder_.size() - finished_.size()) / slots);
 }
 
 std::string Assignment::least_loaded() const {

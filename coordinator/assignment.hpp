@@ -30,8 +30,9 @@ class Assignment {
   void finish(IslandKey island);
 
   /// The moves that give every island a worker and even the load out, applied at once: islands without a
-  /// worker go to the least loaded one; then islands move from the most to the least loaded worker while that shortens
-  /// the longest queue. Empty where there are no workers.
+  /// worker go to the least loaded one and, in key order, on to the same as long as that is no more than its share,
+  /// since neighbours then sit together and need no network; then islands move from the most to the least loaded worker
+  /// while that shortens the longest queue. Empty where there are no workers.
   std::vector<Move> balance();
 
   /// Empty where the island is without a worker.
@@ -41,6 +42,7 @@ class Assignment {
 
  private:
   double load(const std::string& worker, int more) const;
+  double fair_load() const;
   std::string least_loaded() const;
   std::string most_loaded() const;
   void give(IslandKey island, const std::string& worker, std::vector<Move>& moves);

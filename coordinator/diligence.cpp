@@ -8,6 +8,12 @@ Diligence::Diligence(const Archipelago& archipelago, Time now) : waits_(!archipe
   for (const IslandKey island : islands(archipelago)) islands_[island] = {sources(archipelago, island), 0, now};
 }
 
+void Diligence::given(IslandKey island, std::uint32_t epoch, Time now) {
+  Isle& isle = islands_.at(island);
+  isle.epoch = epoch;
+  isle.since = now;
+}
+
 void Diligence::reached(IslandKey island, std::uint32_t epoch, Time now) {
   Isle& isle = islands_.at(island);
   if (epoch <= isle.epoch) return;

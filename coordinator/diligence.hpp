@@ -1,4 +1,4 @@
-// Whether islands get on, as far as nothing keeps them: told from their checkpoints.
+// Whether islands get on, as far as nothing keeps them: told from what they say.
 #pragma once
 
 #include <chrono>
@@ -18,8 +18,8 @@ class Diligence {
 
   Diligence(const Archipelago& archipelago, Time now);
 
-  /// A worker begins with the island.
-  void given(IslandKey island, Time now) { islands_.at(island).since = now; }
+  /// A worker begins with the island after so many epochs.
+  void given(IslandKey island, std::uint32_t epoch, Time now);
   /// So many epochs of the island are known to be completed.
   void reached(IslandKey island, std::uint32_t epoch, Time now);
   void finished(IslandKey island) { islands_.at(island).is_finished = true; }

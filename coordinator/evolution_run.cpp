@@ -54,7 +54,7 @@ RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience pati
 RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patience) {
   Clock::time_point last_worker = Clock::now(), last_tick = last_worker;
   last_news_ = last_worker;
-  while (!state_.all_finished()) {
+  while (!state_.all_finished() || waits_for_history()) {
     if (const std::optional<Message> message = transport_.receive(kTick)) receive(*message);
     hand_out();
     const Clock::time_point now = Clock::now();
@@ -71,6 +71,11 @@ RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patien
     if (now - last_news_ >= patience.news && state_.any_out_of_reach()) return RunEnd::stuck;
   }
   return RunEnd::finished;
+}
+
+/// The last figures of an island may come after its outcome; they are worth a moment.
+bool EvolutionRun::waits_for_history() {
+  return !state_.all_told() && Clock::now() - last_news_ < kBelated;
 }
 
 void EvolutionRun::end(Control::State state) {
@@ -124,6 +129,9 @@ bool EvolutionRun::is_credible(const IslandMessage& message) {
 void EvolutionRun::take(const Progress& progress) {
   if (!is_credible(progress) || !state_.take(progress)) return;
   last_news_ = Clock::now();
+  Given& given = given_.at(progress.island);
+  if (given.worker == progress.worker && given.epoch < progress.epoch) given.answered = true;
+  diligence_.reached(progress.island, progress.epoch, last_news_);
   observer_.on_progress(progress);
 }
 
@@ -135,6 +143,7 @@ void EvolutionRun::take(const Checkpoint& checkpoint) {
   last_news_ = Clock::now();
   diligence_.reached(checkpoint.island, checkpoint.state.epoch, last_news_);
   observer_.on_checkpoint(checkpoint);
+  if (checkpoint.worker != given.worker && !given.answered) give_again(checkpoint.island);
 }
 
 void EvolutionRun::take(const Outcome& outcome) {
@@ -190,18 +199,21 @@ void EvolutionRun::give(IslandKey island, const std::string& worker) {
   const IslandTask task = state_.task(island, given_[island].attempt + 1, worker);
   given_[island] = {worker, task.attempt, task.start.epoch, Clock::now(), false};
   named_[island].insert(worker);
-  diligence_.given(island, given_[island].moment);
+  diligence_.given(island, task.start.epoch, given_[island].moment);
   transport_.publish(task);
+}
+
+void EvolutionRun::give_again() {
+  for (const auto& [island, given] : given_)
+    if (!given.answered && Clock::now() - given.moment >= kBelated) give_again(island);
 }
 
 /// An island may have been farther than was known when it was given away, and its neighbours so much farther that they
 /// have forgotten the migrants it would need from there on: its holder is told where to go on instead.
-void EvolutionRun::give_again() {
-  for (const auto& [island, given] : given_) {
-    if (given.answered || Clock::now() - given.moment < kBelated) continue;
-    if (assignment_.holder(island) != given.worker || state_.epoch(island) <= given.epoch) continue;
-    give(island, std::string(given.worker));
-  }
+void EvolutionRun::give_again(IslandKey island) {
+  const Given& given = given_.at(island);
+  if (assignment_.holder(island) != given.worker || state_.epoch(island) <= given.epoch) return;
+  give(island, std::string(given.worker));
 }
 
 }  // namespace demecal

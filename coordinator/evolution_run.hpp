@@ -54,7 +54,7 @@ class EvolutionRun {
     std::uint32_t attempt = 0;
     std::uint32_t epoch = 0;  ///< from which on
     Clock::time_point moment;
-    bool answered = false;  ///< by a checkpoint
+    bool answered = false;  ///< by word of an epoch beyond it
   };
 
   /// A worker that is given no islands for a while, since it does not get on with them.
@@ -66,6 +66,7 @@ class EvolutionRun {
   };
 
   RunEnd work(const std::atomic<bool>& interrupt, RunPatience patience);
+  bool waits_for_history();
   void end(Control::State state);
   void receive(const Message& message);
   void take(const WorkerStatus& status);
@@ -81,6 +82,7 @@ class EvolutionRun {
   void hand_out();
   void give(IslandKey island, const std::string& worker);
   void give_again();
+  void give_again(IslandKey island);
 
   Transport& transport_;
   RunState state_;

@@ -22,7 +22,27 @@ void RunState::rename(RunId run) {
 
 bool RunState::take(const Progress& progress) {
   if (find_fault(progress, data_)) return false;
-  return isles_.at(progress.island).progress.try_emplace(progress.epoch, progress).second;
+  std::map<std::uint32_t, Progress>& known = isles_.at(progress.island).progress;
+  Progress one = progress;
+  one.before.clear();
+  const bool is_news = known.try_emplace(one.epoch, one).second;
+  for (const EpochFigures& before : progress.before) {
+    one.epoch = before.epoch;
+    one.generation = before.generation;
+    one.figures = before.figures;
+    one.evaluations = before.evaluations;
+    one.migrants_taken = before.migrants_taken;
+    known.try_emplace(one.epoch, one);
+  }
+  return is_news;
+}
+
+bool RunState::all_told() const {
+  const auto generations = static_cast<std::uint32_t>(data_.parameters.number_generations);
+  return std::ranges::all_of(isles_, [generations](const auto& entry) {
+    const auto& progress = entry.second.progress;
+    return !progress.empty() && progress.rbegin()->second.generation == generations;
+  });
 }
 
 bool RunState::take(const Checkpoint& checkpoint) {

@@ -48,6 +48,8 @@ class RunState {
   /// Completed, by the last checkpoint.
   std::uint32_t epoch(IslandKey island) const { return isles_.at(island).reached.epoch; }
   bool all_finished() const { return outcomes_.size() == isles_.size(); }
+  /// Whether every island's last epoch was told of; the outcome may come before.
+  bool all_told() const;
   /// The task of going on with the island from where it is known to be.
   IslandTask task(IslandKey island, std::uint32_t attempt, const std::string& worker) const;
   /// Whether an island is so far behind a source that the source's migrants it needs next are kept nowhere: nobody can

@@ -32,7 +32,8 @@ class Slots {
   Slots(const Slots&) = delete;
   Slots& operator=(const Slots&) = delete;
 
-  bool has_room() const { return running_ < threads_.size(); }
+  /// Whether there is a thread for more work, or none waits yet: who ends a piece then begins the next at once.
+  bool has_room() const { return running_ <= threads_.size(); }
   bool is_idle() const { return running_ == 0; }
 
   void start(Label label, std::function<void()> work) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "errors/check.hpp"
 
@@ -20,7 +21,11 @@ Tenancy::Tenancy(std::shared_ptr<const RunData> run, const IslandTask& task)
               run_->data.seed),
       attempt_(task.attempt),
       sources_(demecal::sources(run_->data.archipelago, task.island)),
-      recent_(task.recent.begin(), task.recent.end()) {
+      consumers_(demecal::consumers(run_->data.archipelago, task.island)),
+      first_epoch_(task.start.epoch),
+      recent_(task.recent.begin(), task.recent.end()),
+      checkpoint_epoch_(task.start.epoch),
+      checkpoint_sent_(std::chrono::steady_clock::now()) {
   if (task.start.epoch > 0) island_.restore(task.start);
   for (const Migrants& sent : recent_) migrants_sent_ += sent.individuals.size();
 }
@@ -41,42 +46,50 @@ void Tenancy::run_epoch(const Population& immigrants, const std::function<void()
   island_.run_epoch(immigrants, beat);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   evaluations_per_s_ = static_cast<double>(island_.state().evaluations - evaluations) / std::max(elapsed.count(), 1e-9);
-  recent_.push_back(migrants());
+  const IslandState& state = island_.state();
+  untold_.push_back({state.epoch, state.generation, island_.figures(), state.evaluations, state.migrants_taken});
+  recent_.push_back({run_->data.run, island(), epoch(), island_.emigrants(), {}});
   migrants_sent_ += recent_.back().individuals.size();
   while (recent_.size() > kMigrantEpochs) recent_.pop_front();
   epoch_ended_ = std::chrono::steady_clock::now();
 }
 
-Migrants Tenancy::migrants() const {
-  return {run_->data.run, island(), epoch(), island_.emigrants(), {}};
+std::vector<Migrants> Tenancy::unsent() {
+  if (std::exchange(all_recent_unsent_, false)) return {recent_.begin(), recent_.end()};
+  return {recent_.back()};
 }
 
-Progress Tenancy::progress(const std::string& worker) const {
-  const IslandState& state = island_.state();
-  return {.run = run_->data.run,
-          .island = island(),
-          .worker = worker,
-          .epoch = state.epoch,
-          .generation = state.generation,
-          .figures = island_.figures(),
-          .evaluations = state.evaluations,
-          .evaluations_per_s = evaluations_per_s_,
-          .migrants_taken = state.migrants_taken,
-          .migrants_sent = migrants_sent_,
-          .waited_share = waited_.at(std::chrono::steady_clock::now())};
-}
-
-std::optional<Checkpoint> Tenancy::due_checkpoint() {
-  // Far fewer epochs than those whose migrants are kept: whoever takes the island over must find its neighbours'.
-  constexpr std::uint32_t kCheckpointEpochs = kMigrantEpochs / 4;
-  constexpr std::chrono::milliseconds kCheckpointInterval{250};
+std::optional<Progress> Tenancy::due_progress(const std::string& worker, std::chrono::milliseconds interval) {
   const auto now = std::chrono::steady_clock::now();
-  const bool due = !checkpoint_epoch_ || finished() || epoch() - *checkpoint_epoch_ >= kCheckpointEpochs ||
-                   now - checkpoint_sent_ >= kCheckpointInterval;
-  if (!due) return std::nullopt;
+  if (!finished() && untold_.size() < kMostToldEpochs && now - progress_told_ < interval) return std::nullopt;
+  progress_told_ = now;
+  const EpochFigures present = untold_.back();
+  untold_.pop_back();
+  return Progress{.run = run_->data.run,
+                  .island = island(),
+                  .worker = worker,
+                  .epoch = present.epoch,
+                  .generation = present.generation,
+                  .figures = present.figures,
+                  .evaluations = present.evaluations,
+                  .evaluations_per_s = evaluations_per_s_,
+                  .migrants_taken = present.migrants_taken,
+                  .migrants_sent = migrants_sent_,
+                  .waited_share = waited_.at(now),
+                  .before = std::exchange(untold_, {})};
+}
+
+std::optional<Checkpoint> Tenancy::due_checkpoint(const std::string& worker, std::chrono::milliseconds interval) {
+  constexpr std::uint32_t kCheckpointEpochs = kMigrantEpochs / 2;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - checkpoint_sent_ < interval && epoch() - checkpoint_epoch_ < kCheckpointEpochs) return std::nullopt;
   checkpoint_epoch_ = epoch();
   checkpoint_sent_ = now;
-  return Checkpoint{run_->data.run, attempt_, island(), island_.state(), recent(), {}};
+  return checkpoint(worker);
+}
+
+Checkpoint Tenancy::checkpoint(const std::string& worker) const {
+  return {run_->data.run, attempt_, island(), island_.state(), {recent_.begin(), recent_.end()}, worker};
 }
 
 Outcome Tenancy::outcome(const std::string& worker) const {

@@ -1,6 +1,7 @@
 // One island as this worker holds it: its work, whose attempt it is, and what its neighbours may still need.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <map>
@@ -31,6 +32,7 @@ class Tenancy {
   std::uint32_t epoch() const { return island_.state().epoch; }
   bool finished() const { return island_.finished(); }
   const std::vector<IslandKey>& sources() const { return sources_; }
+  const std::vector<IslandKey>& consumers() const { return consumers_; }
   /// Whether its next epoch can begin; not where it waits for its neighbours.
   bool is_ready(const Inbox& inbox) const;
   /// What its next epoch takes in.
@@ -43,29 +45,38 @@ class Tenancy {
   /// Whether the island waits for its neighbours from `now` on.
   void set_waiting(WaitedShare::Time now, bool waiting) { waited_.set(now, waiting ? 1.0 : 0.0, 1.0); }
 
-  /// What there is to say after an epoch, but for who says it (after the start: recent migrants that a slower neighbour
-  /// may lack).
-  std::vector<Migrants> recent() const { return {recent_.begin(), recent_.end()}; }
-  Migrants migrants() const;
-  Progress progress(const std::string& worker) const;
-  /// A checkpoint after the first epoch here, then whenever eight epochs or a quarter of a second have passed since
-  /// the last: they are the largest messages by far, and a worker that takes over breeds what is missing again.
-  std::optional<Checkpoint> due_checkpoint();
+  /// What its neighbours may lack of it, but for who says it: the last emigration, or all that are kept where one of
+  /// them has got a worker that has heard of none.
+  std::vector<Migrants> unsent();
+  void send_all_recent() { all_recent_unsent_ = true; }
+  const Migrants& last_migrants() const { return recent_.back(); }
+  /// How it stands, where that is due: after its first epoch here and its last, and an interval after the last time.
+  std::optional<Progress> due_progress(const std::string& worker, std::chrono::milliseconds interval);
+  /// Where an interval has passed since the last, or half as many epochs as neighbours keep migrants of: checkpoints
+  /// are the largest messages by far, and a worker that takes over breeds what is missing again.
+  std::optional<Checkpoint> due_checkpoint(const std::string& worker, std::chrono::milliseconds interval);
+  Checkpoint checkpoint(const std::string& worker) const;
+  /// Whether it has got on since its task.
+  bool has_bred() const { return epoch() > first_epoch_; }
   Outcome outcome(const std::string& worker) const;
 
  private:
   std::shared_ptr<const RunData> run_;
   Island island_;
   std::uint32_t attempt_;
-  std::vector<IslandKey> sources_;
+  std::vector<IslandKey> sources_, consumers_;
+  std::uint32_t first_epoch_;
   std::deque<Migrants> recent_;
+  bool all_recent_unsent_ = false;
   std::map<IslandKey, std::uint32_t> taken_;  ///< the last epoch of each source that came in, where nobody waits
   double evaluations_per_s_ = 0.0;
+  std::vector<EpochFigures> untold_;
   std::uint64_t migrants_sent_ = 0;  ///< those of `recent` that the task brought among them
   WaitedShare waited_;
   WaitedShare::Time epoch_ended_{};
-  std::optional<std::uint32_t> checkpoint_epoch_;
-  WaitedShare::Time checkpoint_sent_{};
+  WaitedShare::Time progress_told_{};
+  std::uint32_t checkpoint_epoch_;
+  WaitedShare::Time checkpoint_sent_;
 };
 
 }  // namespace demecal

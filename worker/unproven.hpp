@@ -13,7 +13,7 @@ namespace demecal {
 /// Of each sender as many as are kept of an island: one that floods pushes out its own.
 class Unproven {
  public:
-  static constexpr std::size_t kMostOfOne = 1024, kMostSenders = 1024;
+  static constexpr std::size_t kMostOfOne = 4096, kMostSenders = 256;
 
   /// Whether nothing had to be dropped for it, nor it itself.
   bool put(const Migrants& migrants);

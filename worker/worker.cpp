@@ -1,5 +1,6 @@
 #include "worker/worker.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,7 +9,7 @@
 namespace demecal {
 namespace {
 
-constexpr std::chrono::milliseconds kBeat = kLease / 5;
+constexpr std::chrono::milliseconds kBeat = kLease / 5, kLeastBeat = kLease / 10;
 constexpr std::chrono::milliseconds kFarewell{1000};
 constexpr std::chrono::milliseconds kAnnouncement{1000};
 constexpr std::size_t kMostWaitingTasks = 65536, kMostEnded = 4096, kMostNamed = 1024;
@@ -32,6 +33,7 @@ void Worker::serve(const std::atomic<bool>& stop) {
     while (const auto tenancy = slots_.finished()) finish(*tenancy);
     start_ready();
   }
+  hand_all_over();
   announce(true);
   transport_.flush(kFarewell);
 }
@@ -63,11 +65,36 @@ void Worker::take(const IslandTask& task) {
     return transport_.drop(coordinator_of(task.run), *fault);
   }
   name(task);
-  std::uint32_t& highest = attempts_[place];
-  if (task.attempt <= highest) return;
-  highest = task.attempt;
-  tenancies_.erase(place);
-  if (task.worker == options_.name) begin(task);
+  Holder& holder = holders_[place];
+  if (task.attempt <= holder.attempt) return;
+  holder = {task.attempt, task.worker};
+  if (task.worker == options_.name) return begin(task);
+  hand_over(place);
+  reach(place);
+}
+
+/// Whoever goes on with the island need not breed again what this worker has bred.
+void Worker::hand_over(const Place& place) {
+  const auto held = tenancies_.extract(place);
+  if (held.empty() || busy_.contains(held.mapped()) || !held.mapped()->has_bred()) return;
+  transport_.publish(held.mapped()->checkpoint(options_.name));
+}
+
+void Worker::hand_all_over() {
+  while (!tenancies_.empty()) hand_over(Place(tenancies_.begin()->first));
+}
+
+/// Joins the migrants' topics that the holder of an island and this worker's islands need, and sends what it may lack.
+void Worker::reach(const Place& place) {
+  const auto [run, island] = place;
+  for (const auto& [own, tenancy] : tenancies_) {
+    if (own.first != run) continue;
+    if (std::ranges::count(tenancy->sources(), island) > 0) transport_.follow_migrants(island.joint);
+    if (std::ranges::count(tenancy->consumers(), island) == 0) continue;
+    transport_.follow_migrants(own.second.joint);
+    tenancy->send_all_recent();
+    if (!busy_.contains(tenancy)) send_migrants(*tenancy);
+  }
 }
 
 void Worker::keep_for_later(const IslandTask& task) {
@@ -88,15 +115,30 @@ void Worker::name(const IslandTask& task) {
 void Worker::begin(const IslandTask& task) {
   const auto tenancy = std::make_shared<Tenancy>(runs_.at(task.run), task);
   tenancies_[{task.run, task.island}] = tenancy;
-  transport_.follow_migrants(task.island.joint);
-  for (const IslandKey& source : tenancy->sources()) transport_.follow_migrants(source.joint);
-  for (Migrants migrants : tenancy->recent()) {
-    migrants.worker = options_.name;
-    inboxes_[task.run].put(migrants);
-    transport_.publish(migrants);
-  }
+  for (const IslandKey& source : tenancy->sources())
+    if (is_elsewhere(task.run, source)) transport_.follow_migrants(source.joint);
+  for (const IslandKey& consumer : tenancy->consumers())
+    if (is_elsewhere(task.run, consumer)) transport_.follow_migrants(task.island.joint);
+  for (const Migrants& migrants : task.recent) inboxes_[task.run].put(migrants);
+  tenancy->send_all_recent();
+  send_migrants(*tenancy);
   // Whoever bred its last generation may have died before it could say so.
   if (tenancy->finished()) transport_.publish(tenancy->outcome(options_.name));
+}
+
+/// Only where a neighbour is with another worker: the others find them in the inbox.
+void Worker::send_migrants(Tenancy& tenancy) {
+  const auto is_far = [&](const IslandKey& consumer) { return is_elsewhere(tenancy.run(), consumer); };
+  if (std::ranges::none_of(tenancy.consumers(), is_far)) return;
+  for (Migrants& migrants : tenancy.unsent()) {
+    migrants.worker = options_.name;
+    transport_.publish(migrants);
+  }
+}
+
+bool Worker::is_elsewhere(RunId run, IslandKey island) const {
+  const auto holder = holders_.find({run, island});
+  return holder != holders_.end() && holder->second.worker != options_.name;
 }
 
 /// Not from anybody: a forged emigration would change the run, since the first of an epoch is taken. A worker that the
@@ -142,7 +184,8 @@ WaitedShare::Time Worker::note_waiting() {
     tenancy->set_waiting(now, !busy && !tenancy->is_ready(inboxes_[place.first]));
   }
   const double slots = options_.slots;
-  slots_waited_.set(now, any_left ? slots - static_cast<double>(busy_.size()) : 0.0, any_left ? slots : 0.0);
+  const double idle = std::max(slots - static_cast<double>(busy_.size()), 0.0);
+  slots_waited_.set(now, any_left ? idle : 0.0, any_left ? slots : 0.0);
   return now;
 }
 
@@ -170,20 +213,31 @@ void Worker::finish(const std::shared_ptr<Tenancy>& done) {
   slots_waited_.add_waited(note_waiting() - done->epoch_ended());
   const Place place{done->run(), done->island()};
   const auto found = tenancies_.find(place);
-  if (found == tenancies_.end() || found->second != done) return;  // given to another worker meanwhile
-  Tenancy& tenancy = *done;
-  Migrants migrants = tenancy.migrants();
-  migrants.worker = options_.name;
-  inboxes_[place.first].put(migrants);
-  transport_.publish(migrants);
-  transport_.publish(tenancy.progress(options_.name));
-  if (auto checkpoint = tenancy.due_checkpoint()) {
-    checkpoint->worker = options_.name;
-    transport_.publish(*checkpoint);
+  if (found == tenancies_.end() || found->second != done) {
+    // Given to another worker meanwhile: it need not breed this epoch again.
+    if (is_elsewhere(place.first, place.second)) transport_.publish(done->checkpoint(options_.name));
+    return;
   }
+  Tenancy& tenancy = *done;
+  inboxes_[place.first].put(tenancy.last_migrants());
+  send_migrants(tenancy);
+  if (auto progress = tenancy.due_progress(options_.name, options_.progress_interval))
+    transport_.publish(std::move(*progress));
+  if (auto checkpoint = tenancy.due_checkpoint(options_.name, checkpoint_interval()))
+    transport_.publish(std::move(*checkpoint));
   if (!tenancy.finished()) return;
-  announce(false);  // the share it waited, before the run can be over
+  const auto is_left = [&](const auto& entry) {
+    return entry.first.first == place.first && (busy_.contains(entry.second) || !entry.second->finished());
+  };
+  if (std::ranges::none_of(tenancies_, is_left)) announce(false);  // the share it waited, before the run can be over
   transport_.publish(tenancy.outcome(options_.name));
+}
+
+/// Longer where a slot has many islands, which share what checkpoints may cost.
+std::chrono::milliseconds Worker::checkpoint_interval() const {
+  constexpr std::size_t kIslandsOfInterval = 3;
+  return options_.checkpoint_interval *
+         std::max<std::size_t>(1, tenancies_.size() / options_.slots / kIslandsOfInterval);
 }
 
 void Worker::announce(bool leaving) {
@@ -201,7 +255,7 @@ void Worker::announce(bool leaving) {
 void Worker::forget_run(RunId run) {
   const auto of_run = [run](const auto& entry) { return entry.first.first == run; };
   std::erase_if(tenancies_, of_run);
-  std::erase_if(attempts_, of_run);
+  std::erase_if(holders_, of_run);
   runs_.erase(run);
   inboxes_.erase(run);
   if (const auto waiting = waiting_.extract(run)) waiting_tasks_ -= waiting.mapped().size();
@@ -216,11 +270,14 @@ void Worker::forget_run(RunId run) {
 }
 
 void Worker::keep_alive() {
+  const WaitedShare::Time now = std::chrono::steady_clock::now();
+  if (now - asserted_ < kLeastBeat) return;
+  asserted_ = now;
   const std::uint64_t beats = slots_.beats();
   if (!slots_.is_idle() && beats == beats_seen_) return;  // a slot that hangs must not look alive
   beats_seen_ = beats;
   transport_.assert_alive();
-  if (std::chrono::steady_clock::now() - announced_ >= kAnnouncement) announce(false);
+  if (now - announced_ >= kAnnouncement) announce(false);
 }
 
 }  // namespace demecal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -22,8 +23,10 @@ struct WorkerOptions {
   std::string name;  ///< unique among all workers
   std::string host;
   std::uint32_t process = 0;
-  std::uint32_t slots = 1;                   ///< islands computed at once
-  RunId only_run = 0;                        ///< 0: serves every run
+  std::uint32_t slots = 1;                              ///< islands computed at once
+  RunId only_run = 0;                                   ///< 0: serves every run
+  std::chrono::milliseconds progress_interval{250};     ///< at least, between two words of an island's progress
+  std::chrono::milliseconds checkpoint_interval{1000};  ///< at least, but for islands of many epochs a second
   std::function<void()> after_generation{};  ///< called by the slot that bred it: for work that is only simulated
 };
 
@@ -36,6 +39,11 @@ class Worker {
 
  private:
   using Place = std::pair<RunId, IslandKey>;
+  /// Who has an island, by the highest attempt that was seen.
+  struct Holder {
+    std::uint32_t attempt = 0;
+    std::string worker;
+  };
 
   void receive(const Message& message);
   void take(const CalibrationData& data);
@@ -45,10 +53,16 @@ class Worker {
   void name(const IslandTask& task);
   void keep_for_later(const IslandTask& task);
   void begin(const IslandTask& task);
+  void hand_over(const Place& place);
+  void hand_all_over();
+  void reach(const Place& place);
+  void send_migrants(Tenancy& tenancy);
+  bool is_elsewhere(RunId run, IslandKey island) const;
   void start_ready();
   WaitedShare::Time note_waiting();
   bool start_one();
   void finish(const std::shared_ptr<Tenancy>& done);
+  std::chrono::milliseconds checkpoint_interval() const;
   void announce(bool leaving);
   void forget_run(RunId run);
   void keep_alive();
@@ -62,14 +76,14 @@ class Worker {
   Unproven unproven_;                             ///< migrants of runs without data, or whose sender no task has named
   std::map<Place, std::set<std::string>> named_;  ///< whom tasks have given an island
   std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
-  std::map<Place, std::uint32_t> attempts_;  ///< highest seen, ours or another's
+  std::map<Place, Holder> holders_;
   std::set<std::shared_ptr<Tenancy>> busy_;
   std::set<RunId> ended_;
   std::deque<RunId> ended_in_order_;  ///< the last ones are remembered
   Slots<std::shared_ptr<Tenancy>> slots_;
   std::uint64_t beats_seen_ = 0;
   WaitedShare slots_waited_;
-  WaitedShare::Time announced_{};
+  WaitedShare::Time announced_{}, asserted_{};
 };
 
 }  // namespace demecal

@@ -43,4 +43,13 @@ std::vector<IslandKey> sources(const Archipelago& archipelago, IslandKey island)
   return keys;
 }
 
+std::vector<IslandKey> consumers(const Archipelago& archipelago, IslandKey island) {
+  std::vector<IslandKey> keys = islands(archipelago);
+  std::erase_if(keys, [&](const IslandKey& key) {
+    const std::vector<IslandKey> of_key = sources(archipelago, key);
+    return std::find(of_key.begin(), of_key.end(), island) == of_key.end();
+  });
+  return keys;
+}
+
 }  // namespace demecal

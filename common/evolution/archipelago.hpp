@@ -36,4 +36,7 @@ std::vector<IslandKey> islands(const Archipelago& archipelago);
 /// the joint listed before (cyclic).
 std::vector<IslandKey> sources(const Archipelago& archipelago, IslandKey island);
 
+/// The islands that take in what `island` sends, by joint, then deme.
+std::vector<IslandKey> consumers(const Archipelago& archipelago, IslandKey island);
+
 }  // namespace demecal

@@ -79,12 +79,21 @@ bool is_share(double value) {
   return value >= 0.0 && value <= 1.0;
 }
 
-Fault figures_fault(const Progress& progress) {
-  const IslandFigures& figures = progress.figures;
+Fault figures_fault(const IslandFigures& figures) {
   if (!(figures.best >= 0.0) || !(figures.median >= 0.0)) return "a fitness is negative or not a number";
-  if (!is_share(figures.diversity) || !is_share(progress.waited_share)) return "a share outside 0 to 1";
-  if (!(progress.evaluations_per_s >= 0.0) || !std::isfinite(progress.evaluations_per_s))
-    return "a speed that is negative or not finite";
+  if (!is_share(figures.diversity)) return "a share outside 0 to 1";
+  return std::nullopt;
+}
+
+Fault before_fault(const Progress& progress) {
+  if (progress.before.size() >= kMostToldEpochs) return "too many epochs at once";
+  std::uint32_t last = 0;
+  for (const EpochFigures& one : progress.before) {
+    if (one.epoch <= last || one.epoch >= progress.epoch || one.generation > progress.generation)
+      return "epochs that are impossible or unordered";
+    if (auto fault = figures_fault(one.figures)) return fault;
+    last = one.epoch;
+  }
   return std::nullopt;
 }
 
@@ -123,7 +132,11 @@ Fault find_fault(const Progress& progress, const CalibrationData& data) {
   const Bounds bounds = bounds_of(progress.island, data);
   if (progress.epoch > bounds.epochs() || progress.generation > bounds.generations())
     return "more epochs or generations than the run has";
-  return figures_fault(progress);
+  if (!is_share(progress.waited_share)) return "a share outside 0 to 1";
+  if (!(progress.evaluations_per_s >= 0.0) || !std::isfinite(progress.evaluations_per_s))
+    return "a speed that is negative or not finite";
+  if (auto fault = figures_fault(progress.figures)) return fault;
+  return before_fault(progress);
 }
 
 Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data) {

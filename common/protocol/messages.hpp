@@ -14,8 +14,12 @@
 namespace demecal {
 
 /// How many epochs of an island's emigrants are kept for slower neighbours.
-/// More than neighbours can drift apart: an island waits for its sources, so along a ring of n demes by n - 1 at most.
-inline constexpr int kMigrantEpochs = 32;
+/// More than neighbours can drift apart (an island waits for its sources, so along a ring of n demes by n - 1 at most)
+/// and the epochs between two checkpoints together.
+inline constexpr int kMigrantEpochs = 128;
+
+/// The most epochs that one progress tells of.
+inline constexpr std::size_t kMostToldEpochs = 256;
 
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
@@ -56,7 +60,18 @@ struct IslandTask {
   bool operator==(const IslandTask&) const = default;
 };
 
-/// Worker -> coordinator and watchers, after each epoch.
+/// How an island stood after an epoch.
+struct EpochFigures {
+  std::uint32_t epoch = 0;
+  std::uint32_t generation = 0;
+  IslandFigures figures;
+  std::uint64_t evaluations = 0;  ///< since the island began
+  std::uint64_t migrants_taken = 0;
+
+  bool operator==(const EpochFigures&) const = default;
+};
+
+/// Worker -> coordinator and watchers, from time to time: how an island stands, and stood since it last told.
 struct Progress {
   RunId run = 0;
   IslandKey island;
@@ -67,8 +82,9 @@ struct Progress {
   std::uint64_t evaluations = 0;   ///< since the island began
   double evaluations_per_s = 0.0;  ///< of the last epoch
   std::uint64_t migrants_taken = 0;
-  std::uint64_t migrants_sent = 0;  ///< where its worker took it over: with those of at most kMigrantEpochs before
-  double waited_share = 0.0;        ///< of the time its worker has had it: spent waiting for neighbours
+  std::uint64_t migrants_sent = 0;     ///< where its worker took it over: with those of at most kMigrantEpochs before
+  double waited_share = 0.0;           ///< of the time its worker has had it: spent waiting for neighbours
+  std::vector<EpochFigures> before{};  ///< ascending, of the epochs that were not told of; less than kMostToldEpochs
 
   bool operator==(const Progress&) const = default;
 };

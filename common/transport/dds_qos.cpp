@@ -49,25 +49,25 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/1/data";
+      return "demecal/3/data";
     case Topic::task:
-      return "demecal/1/task";
+      return "demecal/3/task";
     case Topic::control:
-      return "demecal/1/control";
+      return "demecal/3/control";
     case Topic::migrants:
-      return "demecal/1/migrants/" + std::to_string(joint + 1);
+      return "demecal/3/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/1/progress";
+      return "demecal/3/progress";
     case Topic::checkpoint:
-      return "demecal/1/checkpoint";
+      return "demecal/3/checkpoint";
     case Topic::outcome:
-      return "demecal/1/outcome";
+      return "demecal/3/outcome";
     case Topic::loop:
-      return "demecal/1/loop";
+      return "demecal/3/loop";
     case Topic::worker:
       break;
   }
-  return "demecal/1/worker";
+  return "demecal/3/worker";
 }
 
 dds::DataWriterQos writer_qos(Topic topic) {

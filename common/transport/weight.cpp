@@ -26,6 +26,9 @@ struct Weight {
   std::size_t operator()(const Checkpoint& m) const {
     return sizeof m + kText_bytes + (*this)(m.state) + (*this)(m.recent);
   }
+  std::size_t operator()(const Progress& m) const {
+    return sizeof m + kText_bytes + m.before.size() * sizeof(EpochFigures);
+  }
   std::size_t operator()(const Outcome& m) const { return sizeof m + kText_bytes + (*this)(m.front); }
   std::size_t operator()(const CalibrationData& m) const {
     std::size_t bytes = sizeof m + kText_bytes;

@@ -83,6 +83,27 @@ std::optional<Migrants> decode(const wire::Migrants& message) {
   return Migrants{message.run(), *island, message.epoch(), std::move(*individuals), decode_text(message.worker())};
 }
 
+wire::EpochFigures encode(const EpochFigures& figures) {
+  wire::EpochFigures encoded;
+  encoded.epoch(figures.epoch);
+  encoded.generation(figures.generation);
+  encoded.best(figures.figures.best);
+  encoded.median(figures.figures.median);
+  encoded.best_length(figures.figures.best_length);
+  encoded.diversity(figures.figures.diversity);
+  encoded.evaluations(figures.evaluations);
+  encoded.migrants_taken(figures.migrants_taken);
+  return encoded;
+}
+
+EpochFigures decode(const wire::EpochFigures& figures) {
+  return {figures.epoch(),
+          figures.generation(),
+          {figures.best(), figures.median(), figures.best_length(), figures.diversity()},
+          figures.evaluations(),
+          figures.migrants_taken()};
+}
+
 wire::Progress encode(const Progress& message) {
   wire::Progress encoded;
   encode_island(encoded, message);
@@ -98,12 +119,15 @@ wire::Progress encode(const Progress& message) {
   encoded.diversity(message.figures.diversity);
   encoded.migrants_sent(message.migrants_sent);
   encoded.waited_share(message.waited_share);
+  for (const EpochFigures& figures : message.before) encoded.before().push_back(encode(figures));
   return encoded;
 }
 
 std::optional<Progress> decode(const wire::Progress& message) {
   const auto island = decode_island(message);
-  if (!island) return std::nullopt;
+  if (!island || message.before().size() >= kMostToldEpochs) return std::nullopt;
+  std::vector<EpochFigures> before;
+  for (const wire::EpochFigures& figures : message.before()) before.push_back(decode(figures));
   return Progress{message.run(),
                   *island,
                   decode_text(message.worker()),
@@ -114,7 +138,8 @@ std::optional<Progress> decode(const wire::Progress& message) {
                   message.evaluations_per_s(),
                   message.migrants_taken(),
                   message.migrants_sent(),
-                  message.waited_share()};
+                  message.waited_share(),
+                  std::move(before)};
 }
 
 wire::Checkpoint encode(const Checkpoint& message) {

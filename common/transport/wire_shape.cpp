@@ -26,7 +26,7 @@ const std::string kShape<wire::IslandTask> = "8444$255," + kState + kRecent;
 template <>
 const std::string kShape<wire::Migrants> = kMigrants;
 template <>
-const std::string kShape<wire::Progress> = "844$255,44884888888";
+const std::string kShape<wire::Progress> = "844$255,44884888888[44884888]";
 template <>
 const std::string kShape<wire::Checkpoint> = "8444" + kState + kRecent + "$255,";
 template <>

@@ -94,5 +94,11 @@ TEST(Assignment, MoreWorkersThanIslandsLeavesSomeIdle) {
   EXPECT_TRUE(assignment.balance().empty());
 }
 
+TEST(Assignment, KeepsNeighboursTogether) {
+  Assignment assignment(some_islands(24));
+  for (const char* worker : {"a", "b", "c"}) assignment.add_worker(worker, 1);
+  for (const Move& move : assignment.balance()) EXPECT_EQ(move.worker, std::string(1, "aabbcc"[move.island.joint]));
+}
+
 }  // namespace
 }  // namespace demecal

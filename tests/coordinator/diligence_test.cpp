@@ -48,7 +48,7 @@ TEST(Diligence, InAnAsynchronousRunNobodyWaits) {
 
 TEST(Diligence, WhoIsGivenAnIslandHasTimeAnew) {
   Diligence diligence(ring(), at(0));
-  diligence.given(kSecond, at(450));
+  diligence.given(kSecond, 0, at(450));
   EXPECT_THAT(diligence.stalled(at(500), kPatience), ElementsAre(kFirst, kThird));
 }
 

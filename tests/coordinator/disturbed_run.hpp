@@ -122,7 +122,8 @@ class DisturbedRun : public RunObserver {
     auto faulty = std::make_unique<FaultyTransport>(std::move(mortal), faults_, random_.index(1000000));
     const auto slots = static_cast<std::uint32_t>(1 + random_.index(2));
     tell("add " + name);
-    hosts_.push_back({name, network, std::make_unique<WorkerThread>(std::move(faulty), name, slots)});
+    const std::chrono::milliseconds interval(random_.index(3) * 20);  // between checkpoints; 0: one after each epoch
+    hosts_.push_back({name, network, std::make_unique<WorkerThread>(std::move(faulty), name, slots, interval)});
   }
   void kill() {
     const std::size_t at = random_.index(hosts_.size());

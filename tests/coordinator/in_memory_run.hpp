@@ -48,9 +48,18 @@ class WorkerThread {
  public:
   WorkerThread(const std::shared_ptr<Exchange>& exchange, const std::string& name, std::uint32_t slots = 1)
       : WorkerThread(join(exchange, Role::worker, name), name, slots) {}
-  WorkerThread(std::unique_ptr<Transport> transport, const std::string& name, std::uint32_t slots)
-      : transport_(std::move(transport)), thread_([this, name, slots] {
-          Worker(*transport_, {.name = name, .host = "here", .process = 1, .slots = slots, .only_run = 0}).serve(stop_);
+  /// It tells of every epoch, and sends a checkpoint after each unless an interval is given.
+  WorkerThread(std::unique_ptr<Transport> transport, const std::string& name, std::uint32_t slots,
+               std::chrono::milliseconds checkpoint_interval = std::chrono::milliseconds(0))
+      : transport_(std::move(transport)), thread_([this, name, slots, checkpoint_interval] {
+          Worker(*transport_, {.name = name,
+                               .host = "here",
+                               .process = 1,
+                               .slots = slots,
+                               .only_run = 0,
+                               .progress_interval = std::chrono::milliseconds(0),
+                               .checkpoint_interval = checkpoint_interval})
+              .serve(stop_);
         }) {}
   ~WorkerThread() { stop(); }
   WorkerThread(const WorkerThread&) = delete;

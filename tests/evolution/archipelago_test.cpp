@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace demecal {
 namespace {
 
@@ -61,6 +63,23 @@ TEST(Archipelago, NeverFeedsAnIslandFromItself) {
         for (const IslandKey island : islands(archipelago))
           EXPECT_THAT(sources(archipelago, island), testing::Not(testing::Contains(island)));
       }
+}
+
+TEST(Archipelago, EveryIslandConsumesWhatItsSourcesSend) {
+  for (const Topology topology : {Topology::none, Topology::ring, Topology::full}) {
+    Archipelago archipelago = three_joints(topology, 3);
+    archipelago.between_joints = topology != Topology::full;
+    std::size_t ways = 0;
+    for (const IslandKey island : islands(archipelago)) {
+      ways += sources(archipelago, island).size();
+      for (const IslandKey consumer : consumers(archipelago, island)) {
+        const std::vector<IslandKey> of_consumer = sources(archipelago, consumer);
+        EXPECT_EQ(std::count(of_consumer.begin(), of_consumer.end(), island), 1);
+        --ways;
+      }
+    }
+    EXPECT_EQ(ways, 0U);
+  }
 }
 
 }  // namespace

@@ -70,7 +70,13 @@ class RandomMessages {
     return {number(), island(),       worker_,
             number(), number(),       {random_.real(), random_.real(), number(), random_.real()},
             number(), random_.real(), number(),
-            number(), random_.real()};
+            number(), random_.real(), before()};
+  }
+  std::vector<EpochFigures> before() {
+    std::vector<EpochFigures> figures(random_.index(kMostToldEpochs));
+    for (EpochFigures& one : figures)
+      one = {number(), number(), {random_.real(), random_.real(), number(), random_.real()}, number(), number()};
+    return figures;
   }
   Checkpoint checkpoint() { return {number(), number(), island(), state(), recent(), worker_}; }
   Outcome outcome() { return {number(), number(), island(), worker_, number(), number(), number(), population()}; }

@@ -144,12 +144,13 @@ TEST_P(Transports, GiveLatecomersTheLastValueOfEachKey) {
 TEST_P(Transports, GiveLatecomersTheMigrantsOfTheLastEpochs) {
   const auto worker = network->join(Role::worker, "worker");
   worker->follow_migrants(kJoint);
-  for (std::uint32_t epoch = 1; epoch <= 20; ++epoch)
+  constexpr std::uint32_t kBefore = 5, kLast = kBefore + kMigrantEpochs;
+  for (std::uint32_t epoch = 1; epoch <= kLast; ++epoch)
     for (std::uint32_t deme = 0; deme < 3; ++deme) worker->publish(emigration(kJoint, deme, epoch));
   const auto latecomer = network->join(Role::worker, "latecomer");
   latecomer->follow_migrants(kJoint);
   std::vector<Message> last;
-  for (std::uint32_t epoch = 20 - kMigrantEpochs + 1; epoch <= 20; ++epoch)
+  for (std::uint32_t epoch = kBefore + 1; epoch <= kLast; ++epoch)
     for (std::uint32_t deme = 0; deme < 3; ++deme) last.emplace_back(emigration(kJoint, deme, epoch));
   expect_exactly(*latecomer, last);
 }

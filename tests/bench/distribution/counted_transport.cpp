@@ -1,5 +1,7 @@
 #include "counted_transport.hpp"
 
+#include <algorithm>
+
 #include "transport/message_bytes.hpp"
 
 namespace demecal::bench {
@@ -26,24 +28,35 @@ std::optional<Message> CountedTransport::receive(std::chrono::milliseconds patie
   return message;
 }
 
-Traffic CountedTransport::traffic() const {
+void CountedTransport::publish(const Message& message) {
+  if (const auto* task = std::get_if<IslandTask>(&message)) holders_[task->island] = task->worker;
+  carrier_.publish(message);
+}
+
+Traffic CountedTransport::traffic(const CalibrationData& data) const {
   Traffic traffic;
-  const auto add = [&traffic](std::size_t bytes) {
-    ++traffic.messages;
-    traffic.bytes += bytes;
+  const auto add = [&traffic](std::size_t bytes, std::size_t messages = 1) {
+    traffic.messages += messages;
+    traffic.bytes += messages * bytes;
   };
   for (const Message& message : heard_) {
     if (const auto* progress = std::get_if<Progress>(&message)) add(to_bytes(*progress).size());
-    const auto* checkpoint = std::get_if<Checkpoint>(&message);
-    if (checkpoint == nullptr) continue;
-    const std::size_t whole = to_bytes(*checkpoint).size();
-    add(whole);
-    if (checkpoint->recent.empty()) continue;
-    Checkpoint without_last = *checkpoint;
-    without_last.recent.pop_back();
-    add(whole - to_bytes(without_last).size());
+    if (const auto* checkpoint = std::get_if<Checkpoint>(&message)) add(to_bytes(*checkpoint).size());
+    const auto* outcome = std::get_if<Outcome>(&message);
+    if (outcome == nullptr) continue;
+    add(to_bytes(*outcome).size());
+    const auto is_far = [&](const IslandKey& key) { return holders_.at(key) != holders_.at(outcome->island); };
+    if (std::ranges::none_of(consumers(data.archipelago, outcome->island), is_far)) continue;
+    Population best = outcome->front;
+    if (best.size() > data.archipelago.migrants)
+      best.erase(best.begin(), best.end() - static_cast<std::ptrdiff_t>(data.archipelago.migrants));
+    add(to_bytes(Migrants{data.run, outcome->island, 1, best, outcome->worker}).size(), epochs_of(data));
   }
   return traffic;
+}
+
+std::size_t epochs_of(const CalibrationData& data) {
+  return Island(data.parameters, data.archipelago, data.tables.front(), {}, data.seed).epochs_total();
 }
 
 }  // namespace demecal::bench

@@ -22,10 +22,11 @@ class CountedTransport : public Transport {
   /// Whether so many workers have reported within `patience`.
   bool await_workers(std::size_t count, std::chrono::milliseconds patience);
   const std::map<std::string, WorkerStatus>& workers() const { return workers_; }
-  /// What islands say in every epoch: progress, checkpoints, and the migrants that their neighbours get.
-  Traffic traffic() const;
+  /// What islands have said: progress, checkpoints, outcomes, and the migrants that neighbours of other workers got,
+  /// those by the tasks and of the size of the last.
+  Traffic traffic(const CalibrationData& data) const;
 
-  void publish(const Message& message) override { carrier_.publish(message); }
+  void publish(const Message& message) override;
   std::optional<Message> receive(std::chrono::milliseconds patience) override;
   void wake() override { carrier_.wake(); }
   void follow_migrants(std::uint32_t joint) override { carrier_.follow_migrants(joint); }
@@ -38,7 +39,10 @@ class CountedTransport : public Transport {
   Transport& carrier_;
   std::map<std::string, WorkerStatus> workers_;
   std::map<std::string, WorkerStatus> to_tell_;
+  std::map<IslandKey, std::string> holders_;
   std::vector<Message> heard_;  ///< counted when the run is over, not to take its time
 };
+
+std::size_t epochs_of(const CalibrationData& data);
 
 }  // namespace demecal::bench

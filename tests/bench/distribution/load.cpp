@@ -41,8 +41,10 @@ CalibrationData run_of(std::uint32_t joints, std::uint32_t demes, std::uint64_t 
 
 }  // namespace
 
-CalibrationData thesis_run(std::uint32_t demes, std::uint64_t seed) {
-  return run_of(6, demes, seed);
+CalibrationData thesis_run(std::uint32_t demes, std::uint64_t seed, int generations) {
+  CalibrationData data = run_of(6, demes, seed);
+  data.parameters.number_generations = generations;
+  return data;
 }
 
 CalibrationData sleeping_run(std::uint32_t islands, std::uint32_t epochs, std::uint64_t seed) {
@@ -50,6 +52,8 @@ CalibrationData sleeping_run(std::uint32_t islands, std::uint32_t epochs, std::u
   CalibrationData data = run_of(islands / kDemes, kDemes, seed);
   data.parameters.number_generations = static_cast<int>(epochs);
   data.archipelago.migration_interval = 1;
+  data.archipelago.topology = Topology::none;
+  data.archipelago.between_joints = true;  // so that no two neighbours are with one worker
   return data;
 }
 

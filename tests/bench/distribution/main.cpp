@@ -21,6 +21,7 @@ constexpr int kSlots = 8;  ///< of a worker of sleeping islands
 struct Options {
   DdsOptions dds;
   int pairs = 7;
+  int generations = 200;
   std::uint32_t epochs = 12;
   double sleep_s = 0.5;
   std::uint32_t slots = kSlots;  ///< of a worker that is served
@@ -53,9 +54,9 @@ SpeedUp pairs_of(const Options& options) {
   std::vector<RunFigures> ones, twos;
   for (int pair = 0; pair < options.pairs; ++pair) {
     say("pair " + std::to_string(pair + 1) + " of " + std::to_string(options.pairs));
-    ones.push_back(measure(options.dds, one, thesis_run(2, kSeed)));
+    ones.push_back(measure(options.dds, one, thesis_run(2, kSeed, options.generations)));
     const std::chrono::seconds idle(pair + 1 == options.pairs ? 4 : 0);
-    twos.push_back(measure(options.dds, two, thesis_run(2, kSeed), idle));
+    twos.push_back(measure(options.dds, two, thesis_run(2, kSeed, options.generations), idle));
   }
   return speed_up(std::move(ones), std::move(twos));
 }
@@ -85,6 +86,9 @@ int main(int argc, char** argv) {
   app.add_option("--pairs", options.pairs, "pairs of runs with one and two workers")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
+  app.add_option("--generations", options.generations, "of the pairs; Table 6-1 has 200")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
   app.add_option("--epochs", options.epochs, "of sleeping islands")->capture_default_str()->check(CLI::Range(2, 10000));
   app.add_option("--sleep-s", options.sleep_s, "per epoch")->capture_default_str()->check(CLI::Range(0.001, 1.0));
   app.add_option("--domain", options.dds.domain, "DDS domain")->capture_default_str()->check(CLI::Range(0, 230));

@@ -59,7 +59,7 @@ RunFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationD
   RunFigures figures;
   figures.idle_worker_share = idle_share(transport.workers(), idle);
   figures.islands = islands(data.archipelago).size();
-  figures.epochs = Island(data.parameters, data.archipelago, data.tables.front(), {}, data.seed).epochs_total();
+  figures.epochs = epochs_of(data);
   RunObserver nobody;
   EvolutionRun run(transport, data, nobody);
   const std::atomic<bool> interrupt{false};
@@ -73,7 +73,7 @@ RunFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationD
   const Split split = used(before, read(transport.workers()));
   figures.worker_s = split.total_s;
   figures.breeding_s = split.busiest_thread_s;
-  figures.traffic = transport.traffic();
+  figures.traffic = transport.traffic(data);
   return figures;
 }
 
