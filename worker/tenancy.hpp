@@ -51,6 +51,7 @@ class Tenancy {
   void send_all_recent() { all_recent_unsent_ = true; }
   const Migrants& last_migrants() const { return recent_.back(); }
   /// How it stands, where that is due: after its first epoch here and its last, and an interval after the last time.
+  /// Not where nothing is new.
   std::optional<Progress> due_progress(const std::string& worker, std::chrono::milliseconds interval);
   /// Where an interval has passed since the last, or half as many epochs as neighbours keep migrants of: checkpoints
   /// are the largest messages by far, and a worker that takes over breeds what is missing again.

@@ -10,7 +10,7 @@ namespace demecal {
 namespace {
 
 constexpr std::chrono::milliseconds kBeat = kLease / 5, kLeastBeat = kLease / 10;
-constexpr std::chrono::milliseconds kFarewell{1000};
+constexpr std::chrono::milliseconds kFarewell{1000}, kAtOnce{0};
 constexpr std::chrono::milliseconds kAnnouncement{1000};
 constexpr std::size_t kMostWaitingTasks = 65536, kMostEnded = 4096, kMostNamed = 1024;
 
@@ -76,8 +76,13 @@ void Worker::take(const IslandTask& task) {
 /// Whoever goes on with the island need not breed again what this worker has bred.
 void Worker::hand_over(const Place& place) {
   const auto held = tenancies_.extract(place);
-  if (held.empty() || busy_.contains(held.mapped()) || !held.mapped()->has_bred()) return;
-  transport_.publish(held.mapped()->checkpoint(options_.name));
+  if (!held.empty() && !busy_.contains(held.mapped())) tell_all(*held.mapped());
+}
+
+void Worker::tell_all(Tenancy& tenancy) {
+  if (!tenancy.has_bred()) return;
+  if (auto progress = tenancy.due_progress(options_.name, kAtOnce)) transport_.publish(std::move(*progress));
+  transport_.publish(tenancy.checkpoint(options_.name));
 }
 
 void Worker::hand_all_over() {
@@ -215,16 +220,17 @@ void Worker::finish(const std::shared_ptr<Tenancy>& done) {
   const auto found = tenancies_.find(place);
   if (found == tenancies_.end() || found->second != done) {
     // Given to another worker meanwhile: it need not breed this epoch again.
-    if (is_elsewhere(place.first, place.second)) transport_.publish(done->checkpoint(options_.name));
+    if (is_elsewhere(place.first, place.second)) tell_all(*done);
     return;
   }
   Tenancy& tenancy = *done;
   inboxes_[place.first].put(tenancy.last_migrants());
   send_migrants(tenancy);
-  if (auto progress = tenancy.due_progress(options_.name, options_.progress_interval))
+  auto checkpoint = tenancy.due_checkpoint(options_.name, checkpoint_interval());
+  // Who goes on from a checkpoint tells nothing of the epochs before it.
+  if (auto progress = tenancy.due_progress(options_.name, checkpoint ? kAtOnce : options_.progress_interval))
     transport_.publish(std::move(*progress));
-  if (auto checkpoint = tenancy.due_checkpoint(options_.name, checkpoint_interval()))
-    transport_.publish(std::move(*checkpoint));
+  if (checkpoint) transport_.publish(std::move(*checkpoint));
   if (!tenancy.finished()) return;
   const auto is_left = [&](const auto& entry) {
     return entry.first.first == place.first && (busy_.contains(entry.second) || !entry.second->finished());

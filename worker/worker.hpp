@@ -55,6 +55,7 @@ class Worker {
   void begin(const IslandTask& task);
   void hand_over(const Place& place);
   void hand_all_over();
+  void tell_all(Tenancy& tenancy);
   void reach(const Place& place);
   void send_migrants(Tenancy& tenancy);
   bool is_elsewhere(RunId run, IslandKey island) const;
