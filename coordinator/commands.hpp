@@ -12,6 +12,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code);
 void add_apply(CLI::App& app, ExitCode& exit_code);
 void add_diagnose(CLI::App& app, ExitCode& exit_code);
 void add_evaluate(CLI::App& app, ExitCode& exit_code);
+void add_export(CLI::App& app, ExitCode& exit_code);
 void add_prepare(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);

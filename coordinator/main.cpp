@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   demecal::add_diagnose(app, exit_code);
   demecal::add_evaluate(app, exit_code);
   demecal::add_apply(app, exit_code);
+  demecal::add_export(app, exit_code);
   demecal::add_prepare(app, exit_code);
   demecal::add_simulate(app, exit_code);
   demecal::add_report(app, exit_code);

@@ -10,7 +10,6 @@
 namespace demecal {
 namespace {
 
-constexpr std::string_view kKeep = "keep_";
 constexpr double kSamplePayload_kg = 1.0;
 const std::string kWithPayload = "with_payload";
 const std::string kGravityTurn = "gravity_turn";
@@ -34,16 +33,6 @@ class Compliance final : public EffectLaw {
   bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
   std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted"}; }
 };
-
-/// The unknowns of the form `moments`, in the order of their coefficients.
-std::vector<WeightPart> kept_parts(const Effect& effect) {
-  std::vector<WeightPart> parts;
-  for (const auto& [name, value] : effect.settings) {
-    if (!name.starts_with(kKeep) || value == 0.0) continue;
-    if (const auto part = weight_part(std::string_view(name).substr(kKeep.size()))) parts.push_back(*part);
-  }
-  return parts;
-}
 
 bool with_payload(const Effect& effect) {
   const auto found = effect.settings.find(kWithPayload);
@@ -86,16 +75,6 @@ double effort_under(const Robot& robot, const ArmState& state, int joint, const 
     moment += robot.masses[i].mass_kg * (state.links[i] * robot.masses[i].centre_m);
   }
   return effort(robot, state, joint, mass, moment, gravity_mps2);
-}
-
-/// Gravity turned a quarter about each of the two directions across it: of a base that stands upright, about x and y.
-std::array<Eigen::Vector3d, 2> turned_gravity(const Eigen::Vector3d& gravity_mps2) {
-  if (gravity_mps2.isZero()) return {gravity_mps2, gravity_mps2};
-  const Eigen::Vector3d down = gravity_mps2.normalized();
-  const Eigen::Vector3d hint = std::abs(down.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d first = (hint - down.dot(hint) * down).normalized();
-  const Eigen::Vector3d second = first.cross(down).normalized();
-  return {first.cross(gravity_mps2), second.cross(gravity_mps2)};
 }
 
 /// The state under turned gravity.

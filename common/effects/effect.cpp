@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "effects/known_range.hpp"
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 
 namespace demecal {
 namespace {
-
-/// Over which an effect fades out beyond what was measured, rad or m.
-constexpr double kFade = 0.1;
 
 /// The form that an effect is of: an empty one stands for its law's first.
 std::string form_of(const Effect& effect) {

@@ -1,7 +1,7 @@
 #include "effects/weight_parts.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include "effects/joint_words.hpp"
 #include "effects/sampled_states.hpp"
@@ -62,6 +62,24 @@ std::vector<WeightPart> independent_parts(const Robot& robot, const std::vector<
     kept.push_back(part);
   }
   return kept;
+}
+
+std::vector<WeightPart> kept_parts(const Effect& effect) {
+  std::vector<WeightPart> parts;
+  for (const auto& [name, value] : effect.settings) {
+    if (!name.starts_with(kKeep) || value == 0.0) continue;
+    if (const auto part = weight_part(std::string_view(name).substr(kKeep.size()))) parts.push_back(*part);
+  }
+  return parts;
+}
+
+std::array<Eigen::Vector3d, 2> turned_gravity(const Eigen::Vector3d& gravity_mps2) {
+  if (gravity_mps2.isZero()) return {gravity_mps2, gravity_mps2};
+  const Eigen::Vector3d down = gravity_mps2.normalized();
+  const Eigen::Vector3d hint = std::abs(down.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d first = (hint - down.dot(hint) * down).normalized();
+  const Eigen::Vector3d second = first.cross(down).normalized();
+  return {first.cross(gravity_mps2), second.cross(gravity_mps2)};
 }
 
 std::string name_of(const WeightPart& part) {

@@ -1,8 +1,10 @@
 // The unknown weights of an arm, part by part: what the mass and the first moments of each link do to a joint.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "effects/effect.hpp"
@@ -23,6 +25,14 @@ double lever(const Robot& robot, const ArmState& state, int joint, const WeightP
 /// The parts of the links beyond the joint that can be told apart at these states: moments before masses, inner links
 /// before outer ones, each kept where more than 1 % of it is independent of those before.
 std::vector<WeightPart> independent_parts(const Robot& robot, const std::vector<ArmState>& states, int joint);
+
+/// Before the name of a part in the settings of an effect that has it.
+inline constexpr std::string_view kKeep = "keep_";
+/// The parts that an effect's settings keep, in the order of its coefficients.
+std::vector<WeightPart> kept_parts(const Effect& effect);
+
+/// Gravity turned a quarter about each of the two directions across it: of a base that stands upright, about x and y.
+std::array<Eigen::Vector3d, 2> turned_gravity(const Eigen::Vector3d& gravity_mps2);
 
 /// "3_mx" or "3_mass"; links count from 1.
 std::string name_of(const WeightPart& part);

@@ -1,0 +1,240 @@
+#include "symbolic/code.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "symbolic/shared_terms.hpp"
+#include "symbolic/values.hpp"
+
+namespace demecal {
+namespace {
+
+struct Helper {
+  Function function;
+  const char *c, *python, *matlab;
+};
+
+const std::vector<Helper>& helpers() {
+  static const std::vector<Helper> all{
+      {Function::sign, "static double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }\n",
+       "def sign_of(x):\n    return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else x)\n", ""},
+      {Function::round, "", "def round_away(x):\n    return math.floor(x + 0.5) if x >= 0.0 else math.ceil(x - 0.5)\n",
+       ""},
+      {Function::divide_or_one, "static double divide_or_one(double a, double b) { return b == 0.0 ? 1.0 : a / b; }\n",
+       "def divide_or_one(a, b):\n    return 1.0 if b == 0.0 else a / b\n",
+       "function x = divide_or_one(a, b)\n  if b == 0\n    x = 1;\n  else\n    x = a/b;\n  end\nend\n"},
+      {Function::divide_or_zero,
+       "static double divide_or_zero(double a, double b) { return b == 0.0 ? 0.0 : a / b; }\n",
+       "def divide_or_zero(a, b):\n    return 0.0 if b == 0.0 else a / b\n",
+       "function x = divide_or_zero(a, b)\n  if b == 0\n    x = 0;\n  else\n    x = a/b;\n  end\nend\n"},
+      {Function::if_not_negative,
+       "static double if_not_negative(double c, double a, double b) { return c >= 0.0 ? a : b; }\n",
+       "def if_not_negative(c, a, b):\n    return a if c >= 0.0 else b\n",
+       "function x = if_not_negative(c, a, b)\n  if c >= 0\n    x = a;\n  else\n    x = b;\n  end\nend\n"}};
+  return all;
+}
+
+/// Names of a formula's variables: theta of one, x1 .. xk of more.
+std::vector<std::string> variables_of(const ExpressionNode& formula) {
+  if (formula.parts.size() == 1) return {"theta"};
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= formula.parts.size(); ++i) names.push_back('x' + std::to_string(i));
+  return names;
+}
+
+std::string list(const std::vector<std::string>& texts, const std::string& before = "") {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + before + text;
+  return all;
+}
+
+class File {
+ public:
+  File(const Listing& listing, CodeLanguage language)
+      : listing_(listing), spelling_(language), pose_(elements(listing.pose)) {
+    everything_ = pose_;
+    everything_.insert(everything_.end(), listing.actual.begin(), listing.actual.end());
+  }
+
+  std::string text() { return remarks("") + equations(); }
+  std::string c();
+  std::string python();
+  std::string matlab();
+
+ private:
+  std::size_t joints() const { return listing_.actual.size(); }
+  std::string number_of(std::size_t i) const { return std::to_string(i + 1); }
+
+  std::string remarks(const std::string& mark) const {
+    std::string all;
+    for (const std::string& line : listing_.remarks) all += mark + line + '\n';
+    return all + '\n';
+  }
+  std::string helpers_in(const char* Helper::*language) const {
+    const std::set<Function> called = functions_in(everything_);
+    std::string all;
+    for (const Helper& helper : helpers()) {
+      if (called.contains(helper.function)) all += std::string(helper.*language) + '\n';
+    }
+    return all;
+  }
+  /// Evolved formulas that are called, each once, in the order in which they were made.
+  std::vector<Expression> formulas() const {
+    std::set<std::string> names;
+    std::vector<Expression> found;
+    for (const Expression term : terms_of(everything_)) {
+      const bool formula = term->kind == Kind::function && term->function == Function::formula;
+      if (formula && names.insert(term->name).second) found.push_back(term);
+    }
+    return found;
+  }
+  std::string formula_text(Expression formula) const {
+    return spelling_.formula(formula.algebra().tree_of(formula->name), variables_of(*formula));
+  }
+  bool speaks_of(const std::string& symbol) const {
+    return std::ranges::any_of(terms_of(pose_),
+                               [&](Expression term) { return term->kind == Kind::symbol && term->name == symbol; });
+  }
+  /// Assignments of steps, each with what stands before and after it.
+  static std::string assignments(const Steps& steps, const std::string& before, const std::string& after) {
+    std::string all;
+    for (const auto& [name, value] : steps.assignments) all += before + name + " = " + value + after;
+    return all;
+  }
+  std::string equations();
+
+  const Listing& listing_;
+  Spelling spelling_;
+  std::vector<Expression> pose_, everything_;
+};
+
+std::string File::equations() {
+  std::ostringstream out;
+  for (const Expression formula : formulas()) {
+    out << formula->name << '(' << list(variables_of(*formula)) << ") = " << formula_text(formula) << '\n';
+  }
+  const Steps joints = steps_to(listing_.actual, spelling_, "s");
+  out << assignments(joints, "", "\n");
+  for (std::size_t i = 0; i < this->joints(); ++i) {
+    out << actual_joint(static_cast<int>(i + 1)) << " = h" << i + 1 << '(' << commanded_joint(static_cast<int>(i + 1))
+        << ") = " << joints.results[i] << '\n';
+  }
+  const Steps steps = steps_to(pose_, spelling_);
+  out << '\n' << assignments(steps, "", "\n") << '\n';
+  for (std::size_t i = 0; i < 12; ++i) {
+    out << "pose(" << i / 4 + 1 << ',' << i % 4 + 1 << ") = " << steps.results[i] << '\n';
+  }
+  return out.str();
+}
+
+std::string File::c() {
+  std::ostringstream out;
+  out << remarks("// ") << "#include <math.h>\n\n" << helpers_in(&Helper::c);
+  for (const Expression formula : formulas()) {
+    out << "static double " << formula->name << '(' << list(variables_of(*formula), "double ") << ") {\n  return "
+        << formula_text(formula) << ";\n}\n\n";
+  }
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const Steps steps = steps_to({listing_.actual[i]}, spelling_);
+    out << "double h" << number_of(i) << "(double q" << number_of(i) << ") {\n"
+        << assignments(steps, "  const double ", ";\n") << "  return " << steps.results[0] << ";\n}\n\n";
+  }
+  out << "void forward(const double q[" << joints() << "], double pose[16]) {\n";
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const std::string number = number_of(i), index = std::to_string(i);
+    if (speaks_of('q' + number)) out << "  const double q" << number << " = q[" << index << "];\n";
+    if (speaks_of("actual" + number))
+      out << "  const double actual" << number << " = h" << number << "(q[" << index << "]);\n";
+  }
+  const Steps steps = steps_to(pose_, spelling_);
+  out << assignments(steps, "  const double ", ";\n");
+  for (std::size_t i = 0; i < pose_.size(); ++i) out << "  pose[" << i << "] = " << steps.results[i] << ";\n";
+  out << "}\n";
+  return out.str();
+}
+
+std::string File::python() {
+  std::ostringstream out;
+  out << remarks("# ") << "import math\n\n\n";
+  std::string helpers = helpers_in(&Helper::python);
+  for (std::size_t at = 0; (at = helpers.find("\n\n", at)) != std::string::npos; at += 3) helpers.insert(at, "\n");
+  out << helpers;
+  for (const Expression formula : formulas()) {
+    out << "def " << formula->name << '(' << list(variables_of(*formula)) << "):\n    return " << formula_text(formula)
+        << "\n\n\n";
+  }
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const Steps steps = steps_to({listing_.actual[i]}, spelling_);
+    out << "def h" << number_of(i) << "(q" << number_of(i) << "):\n"
+        << assignments(steps, "    ", "\n") << "    return " << steps.results[0] << "\n\n\n";
+  }
+  out << "def forward(q):\n";
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const std::string number = number_of(i), index = std::to_string(i);
+    if (speaks_of('q' + number)) out << "    q" << number << " = q[" << index << "]\n";
+    if (speaks_of("actual" + number)) out << "    actual" << number << " = h" << number << "(q[" << index << "])\n";
+  }
+  const Steps steps = steps_to(pose_, spelling_);
+  out << assignments(steps, "    ", "\n") << "    return [\n";
+  for (std::size_t row = 0; row < 4; ++row) {
+    const auto first = steps.results.begin() + static_cast<std::ptrdiff_t>(4 * row);
+    out << "        [" << list({first, first + 4}) << "],\n";
+  }
+  out << "    ]\n";
+  return out.str();
+}
+
+std::string File::matlab() {
+  std::ostringstream out;
+  out << "function [pose, h] = forward(q)\n" << remarks("% ");
+  std::vector<std::string> actual;
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const std::string number = number_of(i);
+    if (speaks_of('q' + number)) out << "  q" << number << " = q(" << number << ");\n";
+    out << "  actual" << number << " = h" << number << "(q(" << number << "));\n";
+    actual.push_back("actual" + number);
+  }
+  const Steps steps = steps_to(pose_, spelling_);
+  out << assignments(steps, "  ", ";\n") << "  pose = zeros(4, 4);\n";
+  for (std::size_t i = 0; i < pose_.size(); ++i) {
+    out << "  pose(" << i / 4 + 1 << ", " << i % 4 + 1 << ") = " << steps.results[i] << ";\n";
+  }
+  out << "  h = [" << list(actual) << "];\nend\n\n";
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const Steps of_joint = steps_to({listing_.actual[i]}, spelling_);
+    out << "function x = h" << number_of(i) << "(q" << number_of(i) << ")\n"
+        << assignments(of_joint, "  ", ";\n") << "  x = " << of_joint.results[0] << ";\nend\n\n";
+  }
+  for (const Expression formula : formulas()) {
+    out << "function x = " << formula->name << '(' << list(variables_of(*formula))
+        << ")\n  x = " << formula_text(formula) << ";\nend\n\n";
+  }
+  out << helpers_in(&Helper::matlab);
+  return out.str();
+}
+
+}  // namespace
+
+std::string commanded_joint(int joint) {
+  return 'q' + std::to_string(joint);
+}
+std::string actual_joint(int joint) {
+  return "actual" + std::to_string(joint);
+}
+
+std::string code_of(const Listing& listing, CodeLanguage language) {
+  File file(listing, language);
+  switch (language) {
+    case CodeLanguage::c:
+      return file.c();
+    case CodeLanguage::python:
+      return file.python();
+    case CodeLanguage::matlab:
+      return file.matlab();
+    case CodeLanguage::text:
+      break;
+  }
+  return file.text();
+}
+
+}  // namespace demecal

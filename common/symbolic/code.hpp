@@ -1,0 +1,29 @@
+// A corrected arm as a file of formulas or code that stands by itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "symbolic/matrix.hpp"
+#include "symbolic/spelling.hpp"
+
+namespace demecal {
+
+/// What is written. Joint i (from 1) is commanded to the symbol qi; `actual[i - 1]` says in terms of it where the joint
+/// then is, and `pose` may speak of that as the symbol actual_joint(i), and of all q.
+struct Listing {
+  std::vector<std::string> remarks;  ///< lines of comment at the head
+  std::vector<Expression> actual;
+  SymbolicMatrix pose;
+};
+
+/// "q1" and "actual1" of the joint that counts from 1.
+std::string commanded_joint(int joint);
+std::string actual_joint(int joint);
+
+/// The text of the file: functions h1 .. hn of a joint's command and forward of all of them, which gives the pose row
+/// by row (C: 16 numbers, Python: four lists, MATLAB: a matrix, and h beside it); as text, equations. What expressions
+/// share is computed once, in t1, t2 ...
+std::string code_of(const Listing& listing, CodeLanguage language);
+
+}  // namespace demecal

@@ -1,0 +1,176 @@
+#include "symbolic/parse_expression.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kDeepestNesting = 256;  // the parser calls itself, and text comes from strangers
+constexpr double kLargestExponent = 64.0;
+
+bool begins_name(char character) {
+  return character == '_' || std::isalpha(static_cast<unsigned char>(character));
+}
+
+class Parser {
+ public:
+  Parser(Algebra& algebra, std::string_view text) : algebra_(algebra), text_(text) {}
+
+  Expression whole() {
+    const Expression expression = sum();
+    if (next() != '\0') fail("an operator (+ - * / ^) or the end");
+    return expression;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& expected) const {
+    constexpr std::size_t kShown = 80;
+    std::string shown(text_.substr(0, kShown));
+    if (text_.size() > kShown) shown += "...";
+    throw InputError({}, shown, "column " + std::to_string(at_ + 1) + ": expected " + expected);
+  }
+
+  char next() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  bool take(char character) {
+    if (next() != character || at_ == text_.size()) return false;
+    ++at_;
+    return true;
+  }
+
+  Expression sum() {
+    Expression left = product();
+    while (true) {
+      if (take('+')) {
+        left = left + product();
+      } else if (take('-')) {
+        left = left - product();
+      } else {
+        return left;
+      }
+    }
+  }
+
+  Expression product() {
+    Expression left = signed_power();
+    while (true) {
+      if (take('*')) {
+        left = left * signed_power();
+      } else if (take('/')) {
+        const std::size_t begin = at_;
+        const Expression right = signed_power();
+        if (right.is(0.0)) {
+          at_ = begin;
+          fail("a divisor that is not 0");
+        }
+        left = left / right;
+      } else {
+        return left;
+      }
+    }
+  }
+
+  Expression signed_power() {
+    deeper();
+    const bool minus = take('-');
+    const bool sign = minus || take('+');
+    const Expression value = sign ? signed_power() : power();
+    --nesting_;
+    return minus ? -value : value;
+  }
+
+  Expression power() {
+    const Expression base = operand();
+    if (!take('^')) return base;
+    const bool negative = take('-');
+    next();
+    const std::size_t begin = at_;
+    const double exponent = number();
+    if (exponent != std::round(exponent) || exponent > kLargestExponent || (negative && base.is(0.0))) {
+      at_ = begin;
+      fail("a whole exponent of at most 64, and none below 0 of 0");
+    }
+    return exponent == 0.0 ? algebra_.constant(1.0) : algebra_.product({{base, negative ? -exponent : exponent}});
+  }
+
+  Expression operand() {
+    const char first = next();
+    if (first == '(') return parenthesis();
+    if (first == '.' || std::isdigit(static_cast<unsigned char>(first))) return algebra_.constant(number());
+    if (begins_name(first)) return named();
+    fail("a number, a name or '('");
+  }
+
+  Expression parenthesis() {
+    deeper();
+    take('(');
+    const Expression inside = sum();
+    if (!take(')')) fail("an operator (+ - * / ^) or ')'");
+    --nesting_;
+    return inside;
+  }
+
+  void deeper() {
+    if (++nesting_ > kDeepestNesting) fail("no more than " + std::to_string(kDeepestNesting) + " nested parentheses");
+  }
+
+  double number() {
+    double value = 0.0;
+    const char* const begin = text_.data() + at_;
+    const std::from_chars_result end = std::from_chars(begin, text_.data() + text_.size(), value);
+    if (end.ec == std::errc::result_out_of_range) fail("a number that a double can hold");
+    if (end.ec != std::errc{} || !std::isfinite(value)) fail("a number");
+    at_ += static_cast<std::size_t>(end.ptr - begin);
+    return value;
+  }
+
+  Expression named() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (begins_name(text_[at_]) || std::isdigit(static_cast<unsigned char>(text_[at_])))) {
+      ++at_;
+    }
+    const std::string name(text_.substr(begin, at_ - begin));
+    std::string small = name;
+    std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (small == "pi") return algebra_.constant(std::numbers::pi);
+    const bool known = small == "sin" || small == "cos" || small == "tan" || small == "sqrt" || small == "abs";
+    if (!known) {
+      if (next() == '(') fail("an operator, for " + name + " is no function here (sin cos tan sqrt abs)");
+      return algebra_.symbol(name);
+    }
+    if (next() != '(') fail("'(' after " + name);
+    const Expression argument = parenthesis();
+    if (small == "sin") return sine(argument);
+    if (small == "cos") return cosine(argument);
+    if (small == "tan") return sine(argument) / nonzero(cosine(argument));
+    if (small == "abs") return algebra_.function(Function::absolute, {argument});
+    if (argument.is_constant() && argument->value < 0.0) fail("a root of what is not negative before this");
+    return square_root(argument);
+  }
+
+  Expression nonzero(Expression divisor) const {
+    if (divisor.is(0.0)) fail("a tangent that is finite before this");
+    return divisor;
+  }
+
+  Algebra& algebra_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int nesting_ = 0;
+};
+
+}  // namespace
+
+Expression parse_expression(Algebra& algebra, std::string_view text) {
+  return Parser(algebra, text).whole();
+}
+
+}  // namespace demecal
