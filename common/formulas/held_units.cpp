@@ -52,7 +52,7 @@ Expression inside(const std::vector<Ranged>& joints) {
     return smaller(joint.given - joint.range.lower, joint.range.upper - joint.given);
   };
   Expression all = one(joints.front());
-  for (const Ranged& joint : joints) all = smaller(all, one(joint));
+  for (std::size_t i = 1; i < joints.size(); ++i) all = smaller(all, one(joints[i]));
   return all;
 }
 

@@ -74,7 +74,8 @@ class File {
     const std::set<Function> called = functions_in(everything_);
     std::string all;
     for (const Helper& helper : helpers()) {
-      if (called.contains(helper.function)) all += std::string(helper.*language) + '\n';
+      const std::string text = helper.*language;
+      if (called.contains(helper.function) && !text.empty()) all += text + '\n';
     }
     return all;
   }

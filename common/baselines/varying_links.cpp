@@ -1,0 +1,135 @@
+#include "baselines/varying_links.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "baselines/folds.hpp"
+#include "fitting/observation.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kFolds = 5;
+constexpr int kMostSteps = 6;
+constexpr double kSmallStep = 1e-9;            // of the rows' norm: nothing is left to gain
+constexpr double kMountedOtherwise_rad = 0.1;  // orientations this far off are not of the tool that is modelled
+
+using Kind = ParameterId::Kind;
+
+/// The model: every parameter of base and tool is a coefficient of its own, every function's coefficient adds to a link
+/// parameter as the joints have it.
+class VaryingModel {
+ public:
+  VaryingModel(const RegisteredArm& arm, const std::vector<LinkFunction>& functions)
+      : data_(arm.data), functions_(functions), space_(arm.robot, ids_of(arm, functions, fixed_, columns_)) {}
+
+  Eigen::Index size() const { return fixed_ + static_cast<Eigen::Index>(functions_.size()); }
+  /// 1 for what a ridge holds: the functions' coefficients.
+  Eigen::VectorXd weight() const {
+    Eigen::VectorXd weight = Eigen::VectorXd::Ones(size());
+    weight.head(fixed_).setZero();
+    return weight;
+  }
+  const ParameterSpace& space() const { return space_; }
+
+  /// parameters of the space = map * coefficients, at these joints.
+  Eigen::MatrixXd map_at(const JointVector& q) const {
+    Eigen::MatrixXd map = Eigen::MatrixXd::Zero(space_.size(), size());
+    map.topLeftCorner(fixed_, fixed_).setIdentity();
+    for (std::size_t k = 0; k < functions_.size(); ++k) {
+      map(columns_[k], fixed_ + static_cast<Eigen::Index>(k)) = functions_[k].value(q);
+    }
+    return map;
+  }
+  Eigen::VectorXd change_at(const JointVector& q, const Eigen::VectorXd& coefficients) const {
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(space_.size());
+    change.head(fixed_) = coefficients.head(fixed_);
+    for (std::size_t k = 0; k < functions_.size(); ++k) {
+      change[columns_[k]] += functions_[k].value(q) * coefficients[fixed_ + static_cast<Eigen::Index>(k)];
+    }
+    return change;
+  }
+
+ private:
+  /// Base and tool, then each link parameter that a function adds to, once; and where each function's stands.
+  static std::vector<ParameterId> ids_of(const RegisteredArm& arm, const std::vector<LinkFunction>& functions,
+                                         Eigen::Index& fixed, std::vector<Eigen::Index>& columns) {
+    std::vector<ParameterId> ids = free_parameters(arm.data, arm.base_and_tool, {});
+    fixed = static_cast<Eigen::Index>(ids.size());
+    for (const LinkFunction& function : functions) {
+      const ParameterId id{Kind::link, function.joint, function.parameter, {}};
+      const auto known = std::ranges::find(ids, id);
+      columns.push_back(known - ids.begin());
+      if (known == ids.end()) ids.push_back(id);
+    }
+    return ids;
+  }
+
+  const DataSet& data_;
+  std::vector<LinkFunction> functions_;
+  Eigen::Index fixed_ = 0;
+  std::vector<Eigen::Index> columns_;
+  ParameterSpace space_;
+};
+
+RowScales scales_of(const RegisteredArm& arm, const std::vector<Observation>& observations) {
+  RowScales scales = root_mean_squares(arm.data, arm.robot, observations);
+  if (!arm.base_and_tool.tool && scales[kOrientation] > kMountedOtherwise_rad) scales[kOrientation] = 0.0;
+  return scales;
+}
+
+/// The rows of all observations about the coefficients, summed by the fold that leaves them out.
+std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& model, const RowScales& scales,
+                                const std::vector<Observation>& observations, const std::vector<int>& folds,
+                                const Eigen::VectorXd& coefficients) {
+  std::vector<NormalSums> sums(kFolds, NormalSums(model.size(), 1));
+  ScaledRows rows;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const JointVector& q = observations[i].corrected;
+    const ModelPoint point = model.space().at(model.change_at(q, coefficients));
+    scaled_rows(arm.data, model.space(), point, observations[i], scales, rows);
+    sums[static_cast<std::size_t>(folds[i])].add(rows.jacobian * model.map_at(q), rows.residual);
+  }
+  return sums;
+}
+
+NormalSums total(const std::vector<NormalSums>& parts) {
+  NormalSums sum(parts.front().linear.rows(), parts.front().linear.cols());
+  for (const NormalSums& part : parts) {
+    sum.square += part.square;
+    sum.linear += part.linear;
+    sum.residual += part.residual;
+  }
+  return sum;
+}
+
+}  // namespace
+
+VaryingFit fit_varying_links(const RegisteredArm& arm, const std::vector<LinkFunction>& functions) {
+  const auto model = std::make_shared<const VaryingModel>(arm, functions);
+  const std::vector<Observation> observations = observe(arm.data, arm.poses, arm.robot);
+  const std::vector<int> folds = folds_of(arm.data, arm.poses, kFolds);
+  const RowScales scales = scales_of(arm, observations);
+  Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(model->size());
+  std::vector<NormalSums> sums = sums_at(arm, *model, scales, observations, folds, coefficients);
+  const RidgeChoice choice = choose_ridge(sums, model->weight());
+  for (int step = 0; step < kMostSteps; ++step) {
+    const NormalSums all = total(sums);
+    const Eigen::VectorXd change = ridge_solution(all, model->weight(), choice.ridge, coefficients);
+    coefficients += change;
+    if (std::abs(change.dot(all.square * change)) < kSmallStep * kSmallStep * static_cast<double>(arm.poses.size())) {
+      break;
+    }
+    if (step + 1 < kMostSteps) sums = sums_at(arm, *model, scales, observations, folds, coefficients);
+  }
+  VaryingFit result{{}, choice.cost, choice.ridge};
+  result.fit.parameters = static_cast<int>(model->size());
+  result.fit.predict = [model, coefficients](const MeasuredPose& pose) {
+    return model->space().at(model->change_at(pose.joints, coefficients)).robot.predict(Stop(pose), pose.target);
+  };
+  return result;
+}
+
+}  // namespace demecal
