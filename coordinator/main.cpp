@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", DEMECAL_VERSION);
   ExitCode exit_code = ExitCode::done;
   demecal::add_calibrate(app, exit_code);
+  demecal::add_compare(app, exit_code);
   demecal::add_diagnose(app, exit_code);
   demecal::add_evaluate(app, exit_code);
   demecal::add_apply(app, exit_code);

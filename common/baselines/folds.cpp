@@ -11,15 +11,7 @@ namespace {
 /// Keeps what nothing else decides where it is, at no cost to what the rows show.
 constexpr double kLeastRidge = 1e-12;
 
-NormalSums total(const std::vector<NormalSums>& parts) {
-  NormalSums sum = parts.front();
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    sum.square += parts[i].square;
-    sum.linear += parts[i].linear;
-    sum.residual += parts[i].residual;
-  }
-  return sum;
-}
+constexpr Eigen::Index kRowsAtOnce = 256;
 
 }  // namespace
 
@@ -43,10 +35,40 @@ std::vector<int> folds_of(const DataSet& data, std::span<const std::size_t> pose
 NormalSums::NormalSums(Eigen::Index parameters, Eigen::Index columns)
     : square(Eigen::MatrixXd::Zero(parameters, parameters)), linear(Eigen::MatrixXd::Zero(parameters, columns)) {}
 
-void NormalSums::add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals) {
+void NormalSums::add(const Eigen::Ref<const Eigen::MatrixXd>& jacobian,
+                     const Eigen::Ref<const Eigen::MatrixXd>& residuals) {
   square.noalias() += jacobian.transpose() * jacobian;
   linear.noalias() += jacobian.transpose() * residuals;
   residual += residuals.squaredNorm();
+}
+
+void NormalSums::add(const NormalSums& other) {
+  square += other.square;
+  linear += other.linear;
+  residual += other.residual;
+}
+
+RowSums::RowSums(Eigen::Index parameters, Eigen::Index columns)
+    : sums_(parameters, columns), jacobian_(kRowsAtOnce, parameters), residuals_(kRowsAtOnce, columns) {}
+
+void RowSums::add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals) {
+  if (waiting_ + jacobian.rows() > kRowsAtOnce) sums();
+  if (jacobian.rows() > kRowsAtOnce) return sums_.add(jacobian, residuals);
+  jacobian_.middleRows(waiting_, jacobian.rows()) = jacobian;
+  residuals_.middleRows(waiting_, jacobian.rows()) = residuals;
+  waiting_ += jacobian.rows();
+}
+
+const NormalSums& RowSums::sums() {
+  if (waiting_ > 0) sums_.add(jacobian_.topRows(waiting_), residuals_.topRows(waiting_));
+  waiting_ = 0;
+  return sums_;
+}
+
+NormalSums total(const std::vector<NormalSums>& parts) {
+  NormalSums sum = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) sum.add(parts[i]);
+  return sum;
 }
 
 NormalSums NormalSums::without(const NormalSums& part) const {

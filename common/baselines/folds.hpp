@@ -19,10 +19,25 @@ struct NormalSums {
   double residual = 0.0;
 
   NormalSums(Eigen::Index parameters, Eigen::Index columns);
-  void add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals);
+  void add(const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Ref<const Eigen::MatrixXd>& residuals);
+  void add(const NormalSums& other);
   NormalSums without(const NormalSums& part) const;
   /// The sum of squares that `change` leaves of these rows.
   double left_by(const Eigen::MatrixXd& change) const;
+};
+
+/// Sums of rows that come a few at a time, taken in many at once.
+class RowSums {
+ public:
+  RowSums(Eigen::Index parameters, Eigen::Index columns);
+  void add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals);
+  /// The sums of all rows so far.
+  const NormalSums& sums();
+
+ private:
+  NormalSums sums_;
+  Eigen::MatrixXd jacobian_, residuals_;
+  Eigen::Index waiting_ = 0;
 };
 
 /// The change with the least sum of squares plus ridge * weight_k * (J^T J)_kk * (offset_k + change_k)^2, so that the
@@ -33,6 +48,9 @@ Eigen::MatrixXd ridge_solution(const NormalSums& sums, const Eigen::VectorXd& we
 
 /// Ridges that cross-validation chooses from, ascending.
 std::span<const double> ridges();
+
+/// The sums of all parts.
+NormalSums total(const std::vector<NormalSums>& parts);
 
 /// How well a ridge does on poses left out.
 struct RidgeChoice {

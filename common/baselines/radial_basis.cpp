@@ -1,6 +1,7 @@
 #include "baselines/radial_basis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -61,11 +62,13 @@ struct Samples {
 };
 
 std::vector<NormalSums> sums_of(const Samples& samples, const Network& network) {
-  std::vector<NormalSums> sums(kFolds, NormalSums(weight_of(network).size(), 3));
+  std::vector<RowSums> sums(kFolds, RowSums(weight_of(network).size(), 3));
   for (std::size_t i = 0; i < samples.joints.size(); ++i) {
     sums[static_cast<std::size_t>(samples.folds[i])].add(network.row(samples.joints[i]), samples.error_m[i]);
   }
-  return sums;
+  std::vector<NormalSums> by_fold;
+  for (RowSums& fold : sums) by_fold.push_back(fold.sums());
+  return by_fold;
 }
 
 Samples samples_of(const RegisteredArm& arm, const ScaledJoints& scaled) {
@@ -102,11 +105,7 @@ BaselineFit fit_radial_basis(const RegisteredArm& arm) {
     }
     if (count >= samples.joints.size()) break;
   }
-  NormalSums all(weight_of(best).size(), 3);
-  for (const NormalSums& sums : sums_of(samples, best)) {
-    all.square += sums.square;
-    all.linear += sums.linear;
-  }
+  const NormalSums all = total(sums_of(samples, best));
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(all.linear.rows(), 3);
   best.weights = ridge_solution(all, weight_of(best), least.ridge, none);
   std::ostringstream chosen;

@@ -23,7 +23,7 @@ using Kind = ParameterId::Kind;
 class VaryingModel {
  public:
   VaryingModel(const RegisteredArm& arm, const std::vector<LinkFunction>& functions)
-      : data_(arm.data), functions_(functions), space_(arm.robot, ids_of(arm, functions, fixed_, columns_)) {}
+      : functions_(functions), space_(arm.robot, ids_of(arm, functions, fixed_, columns_)) {}
 
   Eigen::Index size() const { return fixed_ + static_cast<Eigen::Index>(functions_.size()); }
   /// 1 for what a ridge holds: the functions' coefficients.
@@ -34,14 +34,14 @@ class VaryingModel {
   }
   const ParameterSpace& space() const { return space_; }
 
-  /// parameters of the space = map * coefficients, at these joints.
-  Eigen::MatrixXd map_at(const JointVector& q) const {
-    Eigen::MatrixXd map = Eigen::MatrixXd::Zero(space_.size(), size());
-    map.topLeftCorner(fixed_, fixed_).setIdentity();
+  /// The derivative by the coefficients at these joints, from that by the parameters of the space.
+  Eigen::MatrixXd by_coefficients(const Eigen::MatrixXd& by_parameters, const JointVector& q) const {
+    Eigen::MatrixXd result(by_parameters.rows(), size());
+    result.leftCols(fixed_) = by_parameters.leftCols(fixed_);
     for (std::size_t k = 0; k < functions_.size(); ++k) {
-      map(columns_[k], fixed_ + static_cast<Eigen::Index>(k)) = functions_[k].value(q);
+      result.col(fixed_ + static_cast<Eigen::Index>(k)) = functions_[k].value(q) * by_parameters.col(columns_[k]);
     }
-    return map;
+    return result;
   }
   Eigen::VectorXd change_at(const JointVector& q, const Eigen::VectorXd& coefficients) const {
     Eigen::VectorXd change = Eigen::VectorXd::Zero(space_.size());
@@ -67,7 +67,6 @@ class VaryingModel {
     return ids;
   }
 
-  const DataSet& data_;
   std::vector<LinkFunction> functions_;
   Eigen::Index fixed_ = 0;
   std::vector<Eigen::Index> columns_;
@@ -84,25 +83,17 @@ RowScales scales_of(const RegisteredArm& arm, const std::vector<Observation>& ob
 std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& model, const RowScales& scales,
                                 const std::vector<Observation>& observations, const std::vector<int>& folds,
                                 const Eigen::VectorXd& coefficients) {
-  std::vector<NormalSums> sums(kFolds, NormalSums(model.size(), 1));
+  std::vector<RowSums> sums(kFolds, RowSums(model.size(), 1));
   ScaledRows rows;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const JointVector& q = observations[i].corrected;
     const ModelPoint point = model.space().at(model.change_at(q, coefficients));
     scaled_rows(arm.data, model.space(), point, observations[i], scales, rows);
-    sums[static_cast<std::size_t>(folds[i])].add(rows.jacobian * model.map_at(q), rows.residual);
+    sums[static_cast<std::size_t>(folds[i])].add(-model.by_coefficients(rows.jacobian, q), rows.residual);
   }
-  return sums;
-}
-
-NormalSums total(const std::vector<NormalSums>& parts) {
-  NormalSums sum(parts.front().linear.rows(), parts.front().linear.cols());
-  for (const NormalSums& part : parts) {
-    sum.square += part.square;
-    sum.linear += part.linear;
-    sum.residual += part.residual;
-  }
-  return sum;
+  std::vector<NormalSums> by_fold;
+  for (RowSums& fold : sums) by_fold.push_back(fold.sums());
+  return by_fold;
 }
 
 }  // namespace

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "baselines/baseline.hpp"
+#include "baselines/comparison.hpp"
+#include "config/files.hpp"
+#include "config/load_data_set.hpp"
+#include "config/load_job.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/dds_fleet.hpp"
+#include "coordinator/interrupt.hpp"
+#include "coordinator/result_folder.hpp"
+
+namespace demecal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Request {
+  std::string job_file, data_file, out;
+  int workers = static_cast<int>(std::thread::hardware_concurrency());
+  int domain = 0;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> max_effects;
+  bool json = false, baselines_only = false;
+};
+
+Job job_of(const Request& request) {
+  Job job = load_job(request.job_file);
+  if (request.seed) job.seed = *request.seed;
+  if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
+  if (!request.data_file.empty()) job.data_file = request.data_file;
+  return job;
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// All but our own, each timed with the registration that it starts from.
+void compare_baselines(const DataSet& data, const Job& job, Comparison& comparison) {
+  for (const Baseline& baseline : baselines()) {
+    const Clock::time_point begin = Clock::now();
+    const BaselineFit fit = baseline.fit(registered_arm(data, job.declared));
+    const double wall_s = seconds_since(begin);
+    comparison.methods.push_back(
+        {baseline.key, baseline.title, figures_by_set(fit, data), fit.parameters, wall_s, fit.chosen});
+  }
+}
+
+/// The numbers a model holds: those fitted, and the constants of its corrections.
+int numbers_in(const CalibratedModel& model) {
+  int numbers = static_cast<int>(model.estimates.size());
+  for (const JointCorrection& correction : model.robot.corrections) {
+    if (correction.is_neutral()) continue;
+    for (const Node& node : correction.formula()) numbers += node.primitive == Primitive::constant ? 1 : 0;
+  }
+  return numbers;
+}
+
+ExitCode compare_ours(const Request& request, const DataSet& data, const Job& job, Comparison& comparison) {
+  DdsOptions dds;
+  dds.domain = request.domain;
+  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(dds, request.workers); };
+  CalibrateOptions options;
+  options.quiet = request.json;
+  const CalibrateResult result = calibrate(data, job, make_fleet, watch_for_interrupt(), options);
+  if (result.end == RunEnd::no_worker) return ExitCode::no_worker;
+  if (!request.out.empty()) write_results(request.out, data, result);
+  const ErrorBySet errors = errors_by_set(result.model.robot, data);
+  comparison.methods.push_back({"demecal",
+                                "this job, closed loop and all",
+                                {errors.calibration, errors.validation, errors.accept},
+                                numbers_in(result.model),
+                                result.facts.wall_s,
+                                fmt::format("{} effects added", result.model.robot.effects.size())});
+  return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+ExitCode run(const Request& request) {
+  const Job job = job_of(request);
+  const DataSet data = load_data_set(job.data_file);
+  if (!request.out.empty()) make_writable(request.out);
+  Comparison comparison{job.name, data.robot.name, data.name, data.sha256, {}, {}};
+  for (const MeasuredPose& pose : data.poses) ++comparison.poses[static_cast<std::size_t>(pose.set)];
+  compare_baselines(data, job, comparison);
+  const ExitCode code = request.baselines_only ? ExitCode::done : compare_ours(request, data, job, comparison);
+  if (code == ExitCode::no_worker) {
+    fmt::print(stderr, "no worker came: the table is without this job's own method\n");
+  }
+  if (!request.out.empty()) write_file(request.out + "/comparison.json", comparison_json(comparison, 1));
+  fmt::print("{}", request.json ? comparison_json(comparison) : comparison_table(comparison));
+  return code;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command =
+      app.add_subcommand("compare", "fit methods of the literature to a job's poses, and the job itself: one table");
+  command->add_option("job", request->job_file, "JOB.yaml")->required();
+  command->add_option("--data", request->data_file, "data set in place of the job's");
+  command->add_option("--out", request->out, "folder for comparison.json and this job's results");
+  command->add_flag("--json", request->json, "one line of JSON");
+  command->add_flag("--baselines-only", request->baselines_only, "leave out the job itself, which takes longest");
+  command->add_option("--workers", request->workers, "local worker processes")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_option("--domain", request->domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
+  command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal
