@@ -5,7 +5,10 @@
 #include <string>
 
 #include "config/files.hpp"
+#include "config/load_matrices.hpp"
+#include "config/load_robot.hpp"
 #include "config/model_text.hpp"
+#include "config/read_yaml.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "formulas/corrected_arm.hpp"
@@ -14,7 +17,8 @@ namespace demecal {
 namespace {
 
 struct Request {
-  std::string model_file, out, target, format = "text";
+  std::string file, out, target, format = "text";
+  int derivative = 0;  ///< by this joint, from 1; 0: none
 };
 
 const std::map<std::string, CodeLanguage>& languages() {
@@ -31,20 +35,49 @@ void require_target(const Request& request, const CorrectedRobot& robot) {
   for (const auto& [target, tool] : robot.tools) {
     if (!target.empty()) known += (known.empty() ? "'" : ", '") + target + '\'';
   }
-  throw InputError({request.model_file, 0}, request.target,
+  throw InputError({request.file, 0}, request.target,
                    known.empty() ? "is no target of this model, which has but one tool point"
                                  : "is no target of this model; it has " + known);
 }
 
-ExitCode run(const Request& request) {
-  const CalibratedModel model = load_model(request.model_file);
-  require_target(request, model.robot);
-  Algebra algebra;
-  const CorrectedArm arm = corrected_arm(algebra, model.robot, request.target);
+/// A robot as its maker describes it.
+CorrectedRobot as_drawn(const Robot& robot) {
+  DataSet none;
+  none.robot = robot;
+  return nominal_robot(none);
+}
+
+Listing listing_of_robot(Algebra& algebra, const Request& request, const CorrectedRobot& robot,
+                         const std::string& title) {
+  require_target(request, robot);
+  const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
+  for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
+  return listing_of(arm, robot, title);
+}
+
+/// By what the file says that it is: a model, a robot, or matrices.
+Listing listing_asked(Algebra& algebra, const Request& request) {
+  const YamlNode file = read_yaml(request.file);
+  if (file.find("demecal_matrices") != nullptr) return load_matrices(algebra, request.file);
+  if (file.find("demecal_robot") != nullptr) {
+    const Robot robot = load_robot(request.file);
+    return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it");
+  }
+  const CalibratedModel model = load_model(request.file);
   const std::string title =
       fmt::format("{} as calibrated by the job {} (demecal {})", model.nominal.name, model.job, model.version);
-  const std::string code = code_of(listing_of(arm, model.robot, title), languages().at(request.format));
-  for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.model_file, note);
+  return listing_of_robot(algebra, request, model.robot, title);
+}
+
+ExitCode run(const Request& request) {
+  Algebra algebra;
+  Listing listing = listing_asked(algebra, request);
+  if (request.derivative > static_cast<int>(listing.actual.size())) {
+    throw InputError({request.file, 0}, std::to_string(request.derivative),
+                     "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
+  }
+  if (request.derivative > 0) listing = derivative(listing, request.derivative);
+  const std::string code = code_of(listing, languages().at(request.format));
   if (request.out.empty()) {
     fmt::print("{}", code);
   } else {
@@ -58,12 +91,14 @@ ExitCode run(const Request& request) {
 void add_export(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<Request>();
   CLI::App* command = app.add_subcommand("export", "the corrected forward model as formulas or code");
-  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
   command->add_option("--format", request->format, "text, c, python or matlab")
       ->check(CLI::IsMember({"text", "c", "python", "matlab"}))
       ->capture_default_str();
   command->add_option("--out", request->out, "file to write; without it, standard output");
   command->add_option("--target", request->target, "the tool point, where the model has several");
+  command->add_option("--derivative", request->derivative, "the pose's derivative by this joint, instead of the pose")
+      ->check(CLI::Range(1, kMaxJoints));
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

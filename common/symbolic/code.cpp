@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "symbolic/differentiate.hpp"
 #include "symbolic/shared_terms.hpp"
 #include "symbolic/values.hpp"
 
@@ -221,6 +222,17 @@ std::string commanded_joint(int joint) {
 }
 std::string actual_joint(int joint) {
   return "actual" + std::to_string(joint);
+}
+
+Listing derivative(const Listing& listing, int joint) {
+  Listing result = listing;
+  const std::string commanded = commanded_joint(joint), actual = actual_joint(joint);
+  const Expression follows = derivative(listing.actual[static_cast<std::size_t>(joint - 1)], commanded);
+  for (auto& row : result.pose) {
+    for (Expression& element : row) element = derivative(element, commanded) + derivative(element, actual) * follows;
+  }
+  result.remarks.push_back("Written is its derivative by " + commanded + ", per rad or m.");
+  return result;
 }
 
 std::string code_of(const Listing& listing, CodeLanguage language) {

@@ -21,6 +21,9 @@ struct Listing {
 std::string commanded_joint(int joint);
 std::string actual_joint(int joint);
 
+/// The listing whose pose is the derivative of this one's by a joint's command; joints count from 1.
+Listing derivative(const Listing& listing, int joint);
+
 /// The text of the file: functions h1 .. hn of a joint's command and forward of all of them, which gives the pose row
 /// by row (C: 16 numbers, Python: four lists, MATLAB: a matrix, and h beside it); as text, equations. What expressions
 /// share is computed once, in t1, t2 ...

@@ -2,7 +2,6 @@
 
 #include "errors/input_error.hpp"
 #include "symbolic/differentiate.hpp"
-#include "symbolic/parse_expression.hpp"
 
 namespace demecal {
 namespace {
@@ -15,12 +14,12 @@ SymbolicMatrix identity(Algebra& algebra) {
 
 }  // namespace
 
-SymbolicMatrix parse_matrix(Algebra& algebra, const MatrixText& text) {
+SymbolicMatrix parse_matrix(Algebra& algebra, const MatrixText& text, const SymbolNames& names) {
   SymbolicMatrix matrix = identity(algebra);
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
       try {
-        matrix[row][column] = parse_expression(algebra, text[row][column]);
+        matrix[row][column] = parse_expression(algebra, text[row][column], names);
       } catch (const InputError& error) {
         throw InputError(
             error.where(), error.value(),

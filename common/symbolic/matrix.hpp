@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/algebra.hpp"
+#include "symbolic/parse_expression.hpp"
 
 namespace demecal {
 
@@ -15,7 +15,7 @@ using SymbolicMatrix = std::vector<std::vector<Expression>>;
 using MatrixText = std::array<std::array<std::string, 4>, 3>;
 
 /// The matrix that the text writes. Throws InputError naming row, column and what is wrong there.
-SymbolicMatrix parse_matrix(Algebra& algebra, const MatrixText& text);
+SymbolicMatrix parse_matrix(Algebra& algebra, const MatrixText& text, const SymbolNames& names = {});
 
 SymbolicMatrix product(const SymbolicMatrix& a, const SymbolicMatrix& b);
 

@@ -20,7 +20,8 @@ bool begins_name(char character) {
 
 class Parser {
  public:
-  Parser(Algebra& algebra, std::string_view text) : algebra_(algebra), text_(text) {}
+  Parser(Algebra& algebra, std::string_view text, const SymbolNames& names)
+      : algebra_(algebra), text_(text), names_(names) {}
 
   Expression whole() {
     const Expression expression = sum();
@@ -144,7 +145,7 @@ class Parser {
     const bool known = small == "sin" || small == "cos" || small == "tan" || small == "sqrt" || small == "abs";
     if (!known) {
       if (next() == '(') fail("an operator, for " + name + " is no function here (sin cos tan sqrt abs)");
-      return algebra_.symbol(name);
+      return symbol(name, begin);
     }
     if (next() != '(') fail("'(' after " + name);
     const Expression argument = parenthesis();
@@ -156,6 +157,16 @@ class Parser {
     return square_root(argument);
   }
 
+  Expression symbol(const std::string& name, std::size_t begin) {
+    if (names_.empty()) return algebra_.symbol(name);
+    const auto known = names_.find(name);
+    if (known != names_.end()) return known->second;
+    std::string list;
+    for (const auto& entry : names_) list += (list.empty() ? "" : " ") + entry.first;
+    at_ = begin;
+    fail("one of the names known here (" + list + "), not " + name);
+  }
+
   Expression nonzero(Expression divisor) const {
     if (divisor.is(0.0)) fail("a tangent that is finite before this");
     return divisor;
@@ -163,14 +174,15 @@ class Parser {
 
   Algebra& algebra_;
   std::string_view text_;
+  const SymbolNames& names_;
   std::size_t at_ = 0;
   int nesting_ = 0;
 };
 
 }  // namespace
 
-Expression parse_expression(Algebra& algebra, std::string_view text) {
-  return Parser(algebra, text).whole();
+Expression parse_expression(Algebra& algebra, std::string_view text, const SymbolNames& names) {
+  return Parser(algebra, text, names).whole();
 }
 
 }  // namespace demecal

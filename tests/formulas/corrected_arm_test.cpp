@@ -86,6 +86,28 @@ TEST(CorrectedArm, HoldsAndFadesEffectsBeyondTheirRangesAsTheModelDoes) {
   }
 }
 
+TEST(CorrectedArm, DifferentiatesByEveryJointAsDifferencesDo) {
+  RandomStream stream{635};
+  const Chain nominal = random_arm(stream, 4, Convention::standard_dh, 0.2);
+  CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-2);
+  robot.described = heavy(stream, nominal);
+  robot.effects = random_effects(robot.described, stream, 2e-3, 1);
+  Algebra algebra;
+  const CorrectedArm arm = corrected_arm(algebra, robot, "");
+  for (int joint = 1; joint <= 4; ++joint) {
+    const Listing slope = derivative(listing_of(arm, robot, ""), joint);
+    for (int i = 0; i < 5; ++i) {
+      const JointVector q = random_joints(stream, nominal);
+      constexpr double kStep = 1e-5;
+      JointVector before = q, after = q;
+      before[joint - 1] -= kStep;
+      after[joint - 1] += kStep;
+      const Eigen::Matrix4d difference = (pose_at(arm, after) - pose_at(arm, before)) / (2 * kStep);
+      EXPECT_LT((pose_at({arm.actual, slope.pose, {}}, q) - difference).cwiseAbs().maxCoeff(), 1e-6) << joint;
+    }
+  }
+}
+
 TEST(CorrectedArm, NotesWhatDependsOnMoreThanTheJoints) {
   RandomStream stream{634};
   const Chain nominal = random_arm(stream, 3, Convention::standard_dh);
