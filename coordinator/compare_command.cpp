@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "coordinator/dds_fleet.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/result_folder.hpp"
+#include "expression/simplify.hpp"
 
 namespace demecal {
 namespace {
@@ -54,12 +56,15 @@ void compare_baselines(const DataSet& data, const Job& job, Comparison& comparis
   }
 }
 
-/// The numbers a model holds: those fitted, and the constants of its corrections.
-int numbers_in(const CalibratedModel& model) {
-  int numbers = static_cast<int>(model.estimates.size());
+/// Different constants within each of the corrections' formulas, without what changes no value.
+int constants_in(const CalibratedModel& model) {
+  int numbers = 0;
   for (const JointCorrection& correction : model.robot.corrections) {
-    if (correction.is_neutral()) continue;
-    for (const Node& node : correction.formula()) numbers += node.primitive == Primitive::constant ? 1 : 0;
+    std::set<double> different;
+    for (const Node& node : simplified(correction.formula())) {
+      if (node.primitive == Primitive::constant) different.insert(node.value);
+    }
+    if (!correction.is_neutral()) numbers += static_cast<int>(different.size());
   }
   return numbers;
 }
@@ -77,9 +82,10 @@ ExitCode compare_ours(const Request& request, const DataSet& data, const Job& jo
   comparison.methods.push_back({"demecal",
                                 "this job, closed loop and all",
                                 {errors.calibration, errors.validation, errors.accept},
-                                numbers_in(result.model),
+                                fitted + constants,
                                 result.facts.wall_s,
-                                fmt::format("{} effects added", result.model.robot.effects.size())});
+                                fmt::format("{} effects; {} numbers by least squares, {} constants in formulas",
+                                            result.model.robot.effects.size(), fitted, constants)});
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 

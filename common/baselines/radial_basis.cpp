@@ -13,7 +13,7 @@ namespace demecal {
 namespace {
 
 constexpr int kFolds = 5;
-constexpr std::array<std::size_t, 4> kCentres{10, 30, 100, 200};
+constexpr std::array<std::size_t, 5> kCentres{10, 30, 100, 200, 400};
 constexpr std::array<double, 4> kWidths{0.5, 1.0, 2.0, 4.0};  // in units of the root of the number of joints
 
 struct Network {

@@ -47,8 +47,12 @@ void gather(Gathered& gathered, double& constant, Expression expression, double 
   }
 }
 
+/// Sums of more parts are left as they are: every part would have to be held against every other, again and again.
+constexpr std::size_t kMostJoined = 64;
+
 /// Joins the first two parts that a theorem makes one of; whether there were any.
 bool join_two(std::vector<Part>& parts) {
+  if (parts.size() > kMostJoined) return false;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t j = i + 1; j < parts.size(); ++j) {
       if (std::abs(parts[i].second) != std::abs(parts[j].second)) continue;
@@ -105,7 +109,8 @@ Expression Algebra::interned(Kind kind, Function function, double value, const s
                              std::vector<Part> parts) {
   value += 0.0;  // no -0
   Key key{kind, function, std::bit_cast<std::uint64_t>(value), name, {}};
-  for (const auto& [part, amount] : parts) std::get<4>(key).emplace_back(part->id, amount);
+  for (const auto& [part, amount] : parts)
+    std::get<4>(key).emplace_back(part->id, std::bit_cast<std::uint64_t>(amount));
   const auto found = known_.find(key);
   if (found != known_.end()) return Expression(found->second);
   const auto id = static_cast<std::uint32_t>(terms_.size());

@@ -94,7 +94,9 @@ class Algebra {
   std::size_t size() const { return terms_.size(); }
 
  private:
-  using Key = std::tuple<Kind, Function, std::uint64_t, std::string, std::vector<std::pair<std::uint32_t, double>>>;
+  /// Numbers by their bits: what is no number has no place in an order.
+  using Key =
+      std::tuple<Kind, Function, std::uint64_t, std::string, std::vector<std::pair<std::uint32_t, std::uint64_t>>>;
 
   Expression interned(Kind kind, Function function, double value, const std::string& name, std::vector<Part> parts);
 

@@ -7,12 +7,14 @@
 #include <numbers>
 
 #include "errors/input_error.hpp"
+#include "symbolic/values.hpp"
 
 namespace demecal {
 namespace {
 
-constexpr int kDeepestNesting = 256;  // the parser calls itself, and text comes from strangers
-constexpr double kLargestExponent = 64.0;
+constexpr int kDeepestNesting = 256;       // the parser calls itself, and text comes from strangers
+constexpr double kLargestExponent = 64.0;  // as written
+constexpr double kLargestPower = 4096.0;   // of powers of powers
 
 bool begins_name(char character) {
   return character == '_' || std::isalpha(static_cast<unsigned char>(character));
@@ -25,7 +27,8 @@ class Parser {
 
   Expression whole() {
     const Expression expression = sum();
-    if (next() != '\0') fail("an operator (+ - * / ^) or the end");
+    if (at_ < text_.size() || next() != '\0') fail("an operator (+ - * / ^) or the end");
+    refuse_excess(expression);
     return expression;
   }
 
@@ -35,6 +38,18 @@ class Parser {
     std::string shown(text_.substr(0, kShown));
     if (text_.size() > kShown) shown += "...";
     throw InputError({}, shown, "column " + std::to_string(at_ + 1) + ": expected " + expected);
+  }
+
+  /// Numbers that no double holds, and powers of powers that no code can be written for.
+  void refuse_excess(Expression expression) const {
+    for (const Expression term : terms_of({&expression, 1})) {
+      bool fits = std::isfinite(term->value);
+      for (const Part& part : term->parts) {
+        fits = fits && std::isfinite(part.second);
+        fits = fits && (term->kind != Kind::product || std::abs(part.second) <= kLargestPower);
+      }
+      if (!fits) fail("numbers that a double can hold, and powers of at most 4096, before this");
+    }
   }
 
   char next() {
@@ -47,34 +62,33 @@ class Parser {
     return true;
   }
 
+  // Terms and factors are gathered before they are joined, so that long text takes no longer than it must.
   Expression sum() {
-    Expression left = product();
+    std::vector<Part> terms{{product(), 1.0}};
     while (true) {
       if (take('+')) {
-        left = left + product();
+        terms.emplace_back(product(), 1.0);
       } else if (take('-')) {
-        left = left - product();
+        terms.emplace_back(product(), -1.0);
       } else {
-        return left;
+        return terms.size() == 1 ? terms[0].first : algebra_.sum(terms);
       }
     }
   }
 
   Expression product() {
-    Expression left = signed_power();
+    std::vector<Part> factors{{signed_power(), 1.0}};
     while (true) {
       if (take('*')) {
-        left = left * signed_power();
+        factors.emplace_back(signed_power(), 1.0);
       } else if (take('/')) {
         const std::size_t begin = at_;
-        const Expression right = signed_power();
-        if (right.is(0.0)) {
-          at_ = begin;
-          fail("a divisor that is not 0");
-        }
-        left = left / right;
+        factors.emplace_back(signed_power(), -1.0);
+        if (!factors.back().first.is(0.0)) continue;
+        at_ = begin;
+        fail("a divisor that is not 0");
       } else {
-        return left;
+        return factors.size() == 1 ? factors[0].first : algebra_.product(factors);
       }
     }
   }

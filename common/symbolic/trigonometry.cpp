@@ -15,7 +15,7 @@ constexpr double kRounding = 4e-16;
 /// How many right angles a constant angle is, where it is a whole number of them.
 std::optional<int> right_angles(double angle) {
   const double count = std::round(angle / kRight);
-  if (std::abs(count) > 1000.0 || std::abs(angle - count * kRight) > kRounding * std::max(1.0, std::abs(angle))) {
+  if (!(std::abs(count) <= 1000.0) || std::abs(angle - count * kRight) > kRounding * std::max(1.0, std::abs(angle))) {
     return std::nullopt;
   }
   return (static_cast<int>(count) % 4 + 4) % 4;

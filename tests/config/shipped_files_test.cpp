@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> yaml_files(const std::filesystem::path& folde
 }
 
 TEST(ShippedFiles, SayWhatTheyAreForInTheirFirstLine) {
-  for (const char* folder : {"robots", "jobs", "scenarios", "preparation"}) {
+  for (const char* folder : {"robots", "jobs", "scenarios", "preparation", "matrices"}) {
     for (const auto& file : yaml_files(kSource / "configs" / folder)) {
       std::ifstream stream(file);
       std::string line;

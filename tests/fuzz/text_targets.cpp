@@ -10,6 +10,9 @@
 #include "monitor/event_line.hpp"
 #include "monitor/monitor_page.hpp"
 #include "monitor/watched.hpp"
+#include "symbolic/differentiate.hpp"
+#include "symbolic/parse_expression.hpp"
+#include "symbolic/spelling.hpp"
 #include "targets.hpp"
 
 namespace demecal::fuzz {
@@ -21,6 +24,16 @@ void read_formula(std::string_view bytes) {
     const Tree tree = parse(bytes, names);
     demand(is_valid(tree, static_cast<int>(names.size())), "what is parsed is a formula");
     demand(parse(to_text(tree, names), names) == tree, "a formula comes back from its text");
+  } catch (const InputError&) {
+  }
+}
+
+void read_expression(std::string_view bytes) {
+  try {
+    Algebra algebra;
+    const Expression expression = parse_expression(algebra, bytes);
+    demand(!Spelling(CodeLanguage::c)(expression).empty(), "what is parsed can be written");
+    derivative(expression, "q1");
   } catch (const InputError&) {
   }
 }
@@ -109,6 +122,9 @@ std::vector<Target> text_targets() {
   return {{"formula",
            {"0.004 * SIN(2 * theta - 1.2)", "(theta + q1) % -1e-3", "SQRTp(ABS(COS(s))) - SIGN(theta)"},
            read_formula},
+          {"expression",
+           {"-cos(PI/2)*sin(theta1)", "(a2*cos(q1) + d3^2)/(1.5e-1 - tan(x))", "sqrt(abs(q1)) - -q1*sin(q1 + PI)^2"},
+           read_expression},
           {"table", {"a,b\n1,2\n\"x\"\"y\", 3\r\n# no\n"}, read_table},
           {"events", {kEvents}, read_event_lines},
           {"journal", {some_journal()}, read_records_of},

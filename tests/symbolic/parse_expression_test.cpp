@@ -33,6 +33,10 @@ TEST(ParseExpression, SaysWhereTextIsNoExpression) {
   EXPECT_THAT(fault_of("x / (1 - 1)"), HasSubstr("column 4: expected a divisor that is not 0"));
   EXPECT_THAT(fault_of("x ^ 1.5"), HasSubstr("whole exponent"));
   EXPECT_THAT(fault_of("tan(PI/2)"), HasSubstr("tangent"));
+  EXPECT_THAT(fault_of("x*1e300*1e300"), HasSubstr("numbers that a double can hold"));
+  EXPECT_THAT(fault_of("1e300^9 - 1e300^9"), HasSubstr("numbers that a double can hold"));
+  EXPECT_THAT(fault_of("sin(1e300^9 - 1e300^9)"), HasSubstr("numbers that a double can hold"));
+  EXPECT_THAT(fault_of("((x^64)^64)^64"), HasSubstr("powers of at most 4096"));
   EXPECT_THAT(fault_of("1e999"), HasSubstr("a number that a double can hold"));
   EXPECT_THAT(fault_of(std::string(10000, '(')), HasSubstr("256"));
   EXPECT_THAT(fault_of(std::string(10000, '-') + "x"), HasSubstr("256"));
@@ -49,6 +53,24 @@ TEST(ParseExpression, NeverDoesWorseThanRefuseSpoiltText) {
   }
   EXPECT_GT(refused, 1000);
   EXPECT_LT(refused, 5000);
+}
+
+TEST(ParseExpression, ReadsSumsAndProductsOfThousandsOfParts) {
+  Algebra algebra;
+  std::string sum = "0", product = "1";
+  for (int i = 0; i < 20000; ++i) {
+    sum += "+sin(x" + std::to_string(i) + ")";
+    product += "*x" + std::to_string(i % 100);
+  }
+  EXPECT_EQ(parse_expression(algebra, sum)->parts.size(), 20000u);
+  EXPECT_EQ(parse_expression(algebra, product)->parts.size(), 100u);
+}
+
+TEST(ParseExpression, KnowsOnlyTheNamesItIsGiven) {
+  Algebra algebra;
+  const SymbolNames names{{"theta1", algebra.symbol("q1")}, {"a2", algebra.constant(0.5)}};
+  EXPECT_EQ(Spelling(CodeLanguage::text)(parse_expression(algebra, "a2*cos(theta1)", names)), "0.5*cos(q1)");
+  EXPECT_THROW(parse_expression(algebra, "q1", names), InputError);
 }
 
 TEST(ParseMatrix, ReadsTheFirstLinkOfThesisTable54) {

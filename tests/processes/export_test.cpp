@@ -1,0 +1,83 @@
+// demecal export and compare: formulas and tables from models, robots, matrices and jobs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::string kConfigs = std::string(DEMECAL_SOURCE_DIR) + "/configs/";
+
+TEST(Export, WritesAModelInEveryLanguageAndSaysWhatItLeavesOut) {
+  SmallJob job(20, 2, "  - {kind: backlash, joint: 2, width_rad: 0.002}\n");
+  const Ended found = run("demecal", {"diagnose", job.data(), "--declare", "registration", "--candidates",
+                                      "joint_offset,backlash", "--out", job.path("out")});
+  ASSERT_EQ(found.code, 0) << found.err;
+  const std::string model = job.path("out/model.yaml");
+  const bool lacks = job.text("out/model.yaml").find("kind: backlash") != std::string::npos;
+  for (const std::string format : {"text", "c", "python", "matlab"}) {
+    const Ended ended = run("demecal", {"export", model, "--format", format, "--out", job.path("arm." + format)});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, ::testing::IsEmpty());
+    EXPECT_EQ(ended.err.find("is left out, for it depends on") != std::string::npos, lacks) << ended.err;
+    EXPECT_EQ(run("demecal", {"export", model, "--format", format}).out, job.text("arm." + format));
+  }
+  EXPECT_THAT(job.text("arm.c"), HasSubstr("void forward(const double q[6], double pose[16])"));
+  EXPECT_EQ(run("demecal", {"export", model, "--format", "perl"}).code, 10);
+  EXPECT_EQ(run("demecal", {"export", model, "--target", "B"}).code, 11);
+  EXPECT_EQ(run("demecal", {"export", model, "--derivative", "7"}).code, 11);
+  EXPECT_EQ(run("demecal", {"export", job.job()}).code, 11);
+}
+
+TEST(Export, WritesRobotsAsDrawnAndMatricesOfTextShortened) {
+  const Ended robot = run("demecal", {"export", kConfigs + "robots/puma761.yaml"});
+  ASSERT_EQ(robot.code, 0) << robot.err;
+  EXPECT_THAT(robot.out, HasSubstr("cos(actual2 + actual3)"));
+  const Ended matrices = run("demecal", {"export", kConfigs + "matrices/puma761.yaml"});
+  ASSERT_EQ(matrices.code, 0) << matrices.err;
+  EXPECT_THAT(matrices.out, HasSubstr("cos(q2 + q3)"));
+  const Ended slope = run("demecal", {"export", kConfigs + "matrices/puma761.yaml", "--derivative", "6"});
+  EXPECT_THAT(slope.out, HasSubstr("pose(1,4) = 0\n"));
+}
+
+TEST(Compare, PutsTheBaselinesInOneTableAndItsJson) {
+  SmallJob job;
+  const Ended table = run("demecal", {"compare", job.job(), "--baselines-only"});
+  ASSERT_EQ(table.code, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("gain and offset per joint"));
+  const Ended ended = run("demecal", {"compare", job.job(), "--baselines-only", "--json", "--out", job.path("cmp")});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json json = Json::parse(ended.out);
+  ASSERT_EQ(json["methods"].size(), 8u);
+  const double alone = json["methods"][0]["error_mm"]["validation"]["rms"];
+  for (const Json& method : json["methods"]) {
+    EXPECT_LT(method["error_mm"]["validation"]["rms"], 1.5 * alone) << method;
+  }
+  EXPECT_EQ(Json::parse(job.text("cmp/comparison.json"))["data_sha256"], json["data_sha256"]);
+  EXPECT_EQ(run("demecal", {"compare", job.path("none.yaml"), "--baselines-only"}).code, 11);
+}
+
+TEST(Compare, RunsTheJobItselfAndLeavesItsResults) {
+  SmallJob job;
+  const Ended ended = run("demecal", {"compare", job.job(), "--json", "--max-effects", "0", "--workers", "1", "--out",
+                                      job.path("cmp"), "--domain", private_domain()});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json last = Json::parse(ended.out)["methods"].back();
+  EXPECT_EQ(last["method"], "demecal");
+  EXPECT_GT(last["parameters"], 6);
+  const Ended evaluated = run("demecal", {"evaluate", job.path("cmp/model.yaml"), job.data(), "--json"});
+  EXPECT_NEAR(Json::parse(evaluated.out)["error_mm"]["validation"]["rms"].get<double>(),
+              last["error_mm"]["validation"]["rms"].get<double>(), 1e-9);
+}
+
+}  // namespace
+}  // namespace demecal
