@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "baselines/baseline.hpp"
 #include "baselines/comparison.hpp"
@@ -79,13 +80,14 @@ ExitCode compare_ours(const Request& request, const DataSet& data, const Job& jo
   if (result.end == RunEnd::no_worker) return ExitCode::no_worker;
   if (!request.out.empty()) write_results(request.out, data, result);
   const ErrorBySet errors = errors_by_set(result.model.robot, data);
-  comparison.methods.push_back({"demecal",
-                                "this job, closed loop and all",
-                                {errors.calibration, errors.validation, errors.accept},
-                                fitted + constants,
-                                result.facts.wall_s,
-                                fmt::format("{} effects; {} numbers by least squares, {} constants in formulas",
-                                            result.model.robot.effects.size(), fitted, constants)});
+  const int fitted = static_cast<int>(result.model.estimates.size()), constants = constants_in(result.model);
+  ComparedMethod ours{"demecal", "this job, closed loop and all"};
+  ours.figures = {errors.calibration, errors.validation, errors.accept};
+  ours.parameters = fitted + constants;
+  ours.wall_s = result.facts.wall_s;
+  ours.chosen = fmt::format("{} effects; {} numbers by least squares, {} constants in formulas",
+                            result.model.robot.effects.size(), fitted, constants);
+  comparison.methods.push_back(std::move(ours));
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 

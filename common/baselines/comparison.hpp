@@ -14,7 +14,7 @@ struct ComparedMethod {
   std::array<ErrorFigures, 3> figures{};  ///< on calibration, validation and accept poses
   int parameters = 0;                     ///< numbers identified
   double wall_s = 0.0;
-  std::string chosen;  ///< by cross-validation, or why there are no figures
+  std::string chosen{};  ///< by cross-validation, or why there are no figures
 };
 
 struct Comparison {

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 const std::string kConfigs = std::string(DEMECAL_SOURCE_DIR) + "/configs/";
 
 TEST(Export, WritesAModelInEveryLanguageAndSaysWhatItLeavesOut) {
-  SmallJob job(20, 2, "  - {kind: backlash, joint: 2, width_rad: 0.002}\n");
+  SmallJob job(20, 2, "  backlash:\n    - {joint: 2, width_rad: 0.002}\n");
   const Ended found = run("demecal", {"diagnose", job.data(), "--declare", "registration", "--candidates",
                                       "joint_offset,backlash", "--out", job.path("out")});
   ASSERT_EQ(found.code, 0) << found.err;
