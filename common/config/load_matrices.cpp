@@ -42,6 +42,11 @@ Listing load_matrices(Algebra& algebra, const std::filesystem::path& path) {
   file.with_keys({"demecal_matrices", "name", "joints", "values", "matrices"});
   Listing listing{{file.at("name").text()}, {}, {}};
   const SymbolNames names = read_names(algebra, file, listing.actual);
+  std::string joints;
+  for (const YamlNode& name : file.at("joints").list()) joints += (joints.empty() ? "" : ", ") + name.text();
+  listing.remarks.push_back(
+      "q1 .. qn are " + joints +
+      " of the matrices, in rad or the unit of their lengths; the pose is their product, row by row.");
   listing.pose = parse_product(algebra, {});
   for (const YamlNode& node : file.at("matrices").list()) {
     try {
