@@ -57,15 +57,33 @@ void compare_baselines(const DataSet& data, const Job& job, Comparison& comparis
   }
 }
 
-/// Different constants within each of the corrections' formulas, without what changes no value.
+/// Numbers identified by least squares: of base, tools and links, and the effects' coefficients.
+int fitted_in(const CalibratedModel& model) {
+  int numbers = 0;
+  for (const ParameterEstimate& estimate : model.estimates) {
+    numbers += estimate.id.kind == ParameterId::Kind::effect ? 0 : 1;  // with the effects below
+  }
+  for (const Effect& effect : model.robot.effects) numbers += static_cast<int>(effect.values.size());
+  return numbers;
+}
+
+/// Different constants in a formula, without what changes no value.
+int constants_in(const Tree& formula) {
+  std::set<double> different;
+  for (const Node& node : simplified(formula)) {
+    if (node.primitive == Primitive::constant) different.insert(node.value);
+  }
+  return static_cast<int>(different.size());
+}
+
+/// Of all evolved formulas.
 int constants_in(const CalibratedModel& model) {
   int numbers = 0;
   for (const JointCorrection& correction : model.robot.corrections) {
-    std::set<double> different;
-    for (const Node& node : simplified(correction.formula())) {
-      if (node.primitive == Primitive::constant) different.insert(node.value);
-    }
-    if (!correction.is_neutral()) numbers += static_cast<int>(different.size());
+    if (!correction.is_neutral()) numbers += constants_in(correction.formula());
+  }
+  for (const Effect& effect : model.robot.effects) {
+    if (!effect.formula.empty()) numbers += constants_in(effect.formula);
   }
   return numbers;
 }
@@ -80,7 +98,7 @@ ExitCode compare_ours(const Request& request, const DataSet& data, const Job& jo
   if (result.end == RunEnd::no_worker) return ExitCode::no_worker;
   if (!request.out.empty()) write_results(request.out, data, result);
   const ErrorBySet errors = errors_by_set(result.model.robot, data);
-  const int fitted = static_cast<int>(result.model.estimates.size()), constants = constants_in(result.model);
+  const int fitted = fitted_in(result.model), constants = constants_in(result.model);
   ComparedMethod ours{"demecal", "this job, closed loop and all"};
   ours.figures = {errors.calibration, errors.validation, errors.accept};
   ours.parameters = fitted + constants;
