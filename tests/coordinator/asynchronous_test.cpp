@@ -1,6 +1,8 @@
 // Islands of an asynchronous run take what migrants have come, and wait for none.
 #include <gtest/gtest.h>
 
+#include "../config/temporary_folder.hpp"
+#include "disturbed_run.hpp"
 #include "in_memory_run.hpp"
 #include "mortal_transport.hpp"
 #include "worker/inbox.hpp"
@@ -82,6 +84,19 @@ TEST(Inbox, GivesTheNewestOfEachSourceOnce) {
   EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
   inbox.put({1, {0, 2}, 4, {individual(4)}});
   EXPECT_EQ(inbox.collect_new(sources, taken), Population{individual(4)});
+}
+
+TEST(AsynchronousRun, EndsWhateverBefallsIt) {
+  for (std::uint64_t schedule = 0; schedule < 30; ++schedule) {
+    CalibrationData data = small_run(20 + schedule % 3, schedule % 2 == 0 ? Topology::full : Topology::ring);
+    data.archipelago.asynchronous = true;
+    data.archipelago.migration_interval = 1;
+    const TemporaryFolder folder;
+    DisturbedRun disturbed(data, folder.path().string(), schedule);
+    const RunResult result = disturbed.run();
+    ASSERT_EQ(result.end, RunEnd::finished) << "schedule " << schedule << ":\n" << disturbed.happened().told;
+    for (const auto& [island, front] : result.fronts) EXPECT_FALSE(front.empty()) << "schedule " << schedule;
+  }
 }
 
 }  // namespace

@@ -43,14 +43,18 @@ inline CalibrationData small_run(std::uint64_t seed, Topology topology = Topolog
   return data;
 }
 
+/// Between checkpoints: after every epoch, or after many of them.
+inline constexpr std::chrono::milliseconds kAllCheckpoints{0}, kSomeCheckpoints{20};
+
 /// A worker in a thread of its own, from now until it is stopped or its run ends.
 class WorkerThread {
  public:
-  WorkerThread(const std::shared_ptr<Exchange>& exchange, const std::string& name, std::uint32_t slots = 1)
-      : WorkerThread(join(exchange, Role::worker, name), name, slots) {}
-  /// It tells of every epoch, and sends a checkpoint after each unless an interval is given.
+  /// It tells of every epoch.
+  WorkerThread(const std::shared_ptr<Exchange>& exchange, const std::string& name, std::uint32_t slots = 1,
+               std::chrono::milliseconds checkpoint_interval = kSomeCheckpoints)
+      : WorkerThread(join(exchange, Role::worker, name), name, slots, checkpoint_interval) {}
   WorkerThread(std::unique_ptr<Transport> transport, const std::string& name, std::uint32_t slots,
-               std::chrono::milliseconds checkpoint_interval = std::chrono::milliseconds(0))
+               std::chrono::milliseconds checkpoint_interval = kSomeCheckpoints)
       : transport_(std::move(transport)), thread_([this, name, slots, checkpoint_interval] {
           Worker(*transport_, {.name = name,
                                .host = "here",

@@ -146,7 +146,7 @@ TEST(EvolutionRun, EndsWhereLastCheckpointsCameButTheirWorkersDiedBeforeTheOutco
     RunState& state_;
   } observer(known);
   const auto exchange = make_exchange();
-  WorkerThread worker(exchange, "worker");
+  WorkerThread worker(exchange, "worker", 1, kAllCheckpoints);
   const auto transport = join(exchange, Role::coordinator, "coordinator");
   const std::atomic<bool> interrupt{false};
   const RunResult first = EvolutionRun(*transport, data, observer).run(interrupt, {});
