@@ -24,6 +24,8 @@ CalibrationData calibration_data(const Job& job, const std::vector<JointTraining
   data.archipelago.migrants = job.islands.migrants;
   data.archipelago.between_joints = job.islands.between_joints;
   data.archipelago.asynchronous = asynchronous;
+  data.archipelago.replacement = job.islands.replacement;
+  data.archipelago.spread = job.islands.spread;
   for (const JointTraining& training : trainings) {
     data.archipelago.joints.push_back(training.joint);
     data.tables.push_back(training.table);

@@ -19,6 +19,7 @@ struct Preparation {
   Fit declared;                         ///< everything declared but the joint corrections
   JointTargets targets;                 ///< of the calibration poses; empty where no corrections are declared
   std::vector<JointTraining> training;  ///< one per joint that gets islands
+  CorrectionOptions corrections;
 };
 
 /// Fits the declared model and computes what the joints should learn. Throws InputError naming the data file where

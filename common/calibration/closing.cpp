@@ -105,7 +105,7 @@ Preparation prepare_again(const DataSet& data, const Preparation& first, const C
   Preparation again = first;
   again.declared.robot = without_corrections(model);
   again.targets = joint_targets(data, poses_of(data, PoseSet::calibration), again.declared.robot);
-  again.training = training_tables(again.declared.robot.chain, again.targets);
+  again.training = training_tables(again.declared.robot.chain, again.targets, first.corrections);
   return again;
 }
 

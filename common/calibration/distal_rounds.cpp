@@ -60,7 +60,7 @@ void Rounds::prepare() {
   for (std::size_t i = 0; i < trainings_.size(); ++i) {
     JointTraining& training = trainings_[i];
     training = distal_training(training, poses, first_ ? std::nullopt : std::optional(training.scale_rad));
-    training.table.seeds = seeds_of(i);
+    training.table.seeds = first_ ? seed_trees(job_.corrections.seeds, training) : seeds_of(i);
   }
   first_ = false;
 }

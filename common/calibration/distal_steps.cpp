@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/correction_limit.hpp"
 #include "evolution/fitness.hpp"
 
 namespace demecal {
@@ -68,6 +69,7 @@ JointTraining distal_training(const JointTraining& like, std::span<const Lineari
   }
   training.scale_rad = scale_rad ? *scale_rad : round_scale(weights > 0.0 ? sum / weights : 0.0);
   for (double& target : training.table.target) target /= training.scale_rad;
+  limit_formulas(training);
   return training;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/correction_options.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/parameters.hpp"
 #include "fitting/declared_model.hpp"
@@ -26,6 +27,8 @@ struct IslandOptions {
   std::uint32_t migration_interval = 10;
   std::uint32_t migrants = 3;
   bool between_joints = false;
+  Replacement replacement = Replacement::worst;
+  double spread = 0.0;  ///< how far the parameters of a joint's islands lie apart, 0 to 1
 };
 
 struct ClosedLoopOptions {
@@ -52,6 +55,7 @@ struct Job {
   std::uint64_t seed = 1;
   DeclaredModel declared{.registration = true, .joint_corrections = true};
   GpParameters gp;
+  CorrectionOptions corrections;
   IslandOptions islands;
   ClosedLoopOptions closed_loop;
   DistalOptions distal;

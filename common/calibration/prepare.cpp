@@ -32,6 +32,7 @@ CorrectedRobot placed_in_frame(const DataSet& data, std::span<const std::size_t>
 Preparation prepare(const DataSet& data, const Job& job, const FitOptions& options) {
   Preparation preparation;
   preparation.nominal = nominal_robot(data);
+  preparation.corrections = job.corrections;
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   require_poses(poses.size(), data, job);
   preparation.registered = fit_registration(data, poses, job.declared, preparation.nominal, options);
@@ -40,7 +41,7 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
   require(preparation.declared, data);
   if (job.declared.joint_corrections) {
     preparation.targets = joint_targets(data, poses, preparation.declared.robot);
-    preparation.training = training_tables(preparation.declared.robot.chain, preparation.targets);
+    preparation.training = training_tables(preparation.declared.robot.chain, preparation.targets, job.corrections);
   }
   return preparation;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/correction_limit.hpp"
 #include "errors/check.hpp"
 
 namespace demecal {
@@ -31,6 +32,15 @@ JointTraining training_table(const JointTargets& targets, int joint) {
   return training;
 }
 
+/// A factor before the formula takes the divisor in.
+Tree divided(const Tree& formula, double divisor) {
+  const bool has_factor =
+      formula.size() > 2 && formula[0].primitive == Primitive::multiply && formula[1].primitive == Primitive::constant;
+  const double factor = (has_factor ? formula[1].value : 1.0) / divisor;
+  const Tree rest = has_factor ? Tree(formula.begin() + 2, formula.end()) : formula;
+  return factor == 1.0 ? rest : apply(Primitive::multiply, constant_tree(factor), rest);
+}
+
 }  // namespace
 
 double round_scale(double mean_absolute) {
@@ -42,15 +52,29 @@ double round_scale(double mean_absolute) {
   return power;
 }
 
-std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets) {
+std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets,
+                                           const CorrectionOptions& options) {
   std::vector<JointTraining> tables;
   if (targets.poses.empty()) return tables;
   for (int joint = 0; joint < chain.size(); ++joint) {
     if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
     JointTraining training = training_table(targets, joint);
-    if (training.range_rad.upper - training.range_rad.lower > kLeastMotionRad) tables.push_back(std::move(training));
+    if (training.range_rad.upper - training.range_rad.lower <= kLeastMotionRad) continue;
+    training.largest_rad = options.largest_rad;
+    training.table.seeds = seed_trees(options.seeds, training);
+    limit_formulas(training);
+    tables.push_back(std::move(training));
   }
   return tables;
+}
+
+std::vector<Tree> seed_trees(const std::vector<SeedFormula>& seeds, const JointTraining& training) {
+  std::vector<Tree> trees;
+  for (const SeedFormula& seed : seeds) {
+    if (seed.joint == SeedFormula::kEveryJoint || seed.joint == static_cast<int>(training.joint))
+      trees.push_back(divided(seed.formula, training.scale_rad));
+  }
+  return trees;
 }
 
 JointCorrection correction_from(const JointTraining& training, const Tree& evolved) {

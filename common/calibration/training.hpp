@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "calibration/correction_options.hpp"
 #include "calibration/joint_targets.hpp"
 #include "evolution/fitness.hpp"
 
@@ -16,10 +18,17 @@ struct JointTraining {
   double scale_rad = 1.0;  ///< 1, 2 or 5 times a power of ten: the largest that the mean absolute target reaches
   Interval range_rad;      ///< of theta in the table
   AngleBranch branch;
+  double largest_rad = std::numeric_limits<double>::infinity();  ///< that the user allows the correction to become
 };
 
 /// Tables of every revolute joint that moves over the targets' poses by more than 1 mrad; the others stay neutral.
-std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets);
+/// Formulas are limited by correction_limit_rad(); those of `options` that are for the joint are the tables' seeds.
+std::vector<JointTraining> training_tables(const Chain& chain, const JointTargets& targets,
+                                           const CorrectionOptions& options = {});
+
+/// The formulas that are for the training's joint, in units of its scale: what correction_from() makes the same
+/// corrections of.
+std::vector<Tree> seed_trees(const std::vector<SeedFormula>& seeds, const JointTraining& training);
 
 /// The largest 1, 2 or 5 times a power of ten that `mean_absolute` reaches, at least 1e-12.
 double round_scale(double mean_absolute);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "config/files.hpp"
+#include "config/read_correction_options.hpp"
 #include "config/read_gp.hpp"
 #include "config/read_yaml.hpp"
 
@@ -39,7 +40,8 @@ DeclaredModel read_declared(const YamlNode& list) {
 }
 
 IslandOptions read_islands(const YamlNode& node, int population_size) {
-  node.with_keys({"per_joint", "topology", "migration_interval", "migrants", "between_joints"});
+  node.with_keys(
+      {"per_joint", "topology", "migration_interval", "migrants", "between_joints", "replacement", "spread"});
   IslandOptions islands;
   const auto count = [&](std::string_view key, std::uint32_t& value, std::int64_t lower, std::int64_t upper) {
     if (const YamlNode* found = node.find(key)) value = static_cast<std::uint32_t>(found->whole_number(lower, upper));
@@ -51,6 +53,11 @@ IslandOptions read_islands(const YamlNode& node, int population_size) {
     islands.topology =
         topology->one_of<Topology>({{"none", Topology::none}, {"ring", Topology::ring}, {"full", Topology::full}});
   }
+  if (const YamlNode* replacement = node.find("replacement")) {
+    islands.replacement =
+        replacement->one_of<Replacement>({{"worst", Replacement::worst}, {"random", Replacement::random}});
+  }
+  if (const YamlNode* spread = node.find("spread")) islands.spread = spread->number(0.0, 1.0);
   if (const YamlNode* between = node.find("between_joints")) islands.between_joints = between->truth();
   return islands;
 }
@@ -129,10 +136,15 @@ Job load_job(const std::filesystem::path& path) {
   if (const YamlNode* model = root.find("model")) {
     job.declared = read_declared(model->with_keys({"declared"}).at("declared"));
   }
-  if (const YamlNode* gp = root.find("gp")) job.gp = read_gp(*gp);
+  if (const YamlNode* gp = root.find("gp")) {
+    job.gp = read_gp(*gp);
+    job.corrections = read_correction_options(*gp);
+  }
   if (const YamlNode* islands = root.find("islands")) job.islands = read_islands(*islands, job.gp.population_size);
   if (const YamlNode* loop = root.find("closed_loop")) job.closed_loop = read_closed_loop(*loop);
   if (const YamlNode* distal = root.find("distal")) job.distal = read_distal(*distal);
+  if (!job.corrections.seeds.empty() && job.method == Method::distal && job.distal.form == DistalForm::sequential)
+    root.at("gp").fail("", "has seed formulas, for which the sequential form of distal learning has no place");
   return job;
 }
 

@@ -11,7 +11,7 @@ struct CountKey {
   std::string_view key;
   int GpParameters::*value;
 };
-constexpr std::array<CountKey, 10> kCounts{{{"population_size", &GpParameters::population_size},
+constexpr std::array<CountKey, 11> kCounts{{{"population_size", &GpParameters::population_size},
                                             {"number_generations", &GpParameters::number_generations},
                                             {"tournament_size", &GpParameters::tournament_size},
                                             {"initial_max_tree_depth1", &GpParameters::initial_max_tree_depth1},
@@ -20,7 +20,8 @@ constexpr std::array<CountKey, 10> kCounts{{{"population_size", &GpParameters::p
                                             {"max_tree_nodes", &GpParameters::max_tree_nodes},
                                             {"min_tree_depth", &GpParameters::min_tree_depth},
                                             {"invalid_attempts", &GpParameters::invalid_attempts},
-                                            {"constant_steps", &GpParameters::constant_steps}}};
+                                            {"constant_steps", &GpParameters::constant_steps},
+                                            {"restart_after", &GpParameters::restart_after}}};
 
 struct RateKey {
   std::string_view key;
@@ -34,7 +35,9 @@ constexpr std::array<RateKey, 6> kRates{{{"crossover_rate", &GpParameters::cross
                                          {"constant_share", &GpParameters::constant_share}}};
 
 std::vector<std::string> known_keys() {
-  std::vector<std::string> keys{"functions", "constants_range", "constants", "linear_scaling"};
+  std::vector<std::string> keys{
+      "functions",        "constants_range",         "constants",     "linear_scaling", "no_duplicates",
+      "function_weights", "largest_correction_mrad", "seed_formulas", "seed_models"};
   for (const CountKey& count : kCounts) keys.emplace_back(count.key);
   for (const RateKey& rate : kRates) keys.emplace_back(rate.key);
   return keys;
@@ -91,6 +94,8 @@ GpParameters read_gp(const YamlNode& node) {
                                                               {"lamarckian", ConstantPolicy::lamarckian},
                                                               {"baldwin", ConstantPolicy::baldwin}});
   }
+  if (const YamlNode* weights = node.find("function_weights")) parameters.function_weights = weights->numbers();
+  if (const YamlNode* none = node.find("no_duplicates")) parameters.no_duplicates = none->truth();
   if (const YamlNode* scaling = node.find("linear_scaling")) parameters.linear_scaling = scaling->truth();
   check_together(parameters, node);
   return parameters;

@@ -16,6 +16,9 @@ struct IslandKey {
 
 enum class Topology { none, ring, full };
 
+/// Whose place immigrants take: the worst residents', or those of any but the fittest.
+enum class Replacement { worst, random };
+
 struct Archipelago {
   std::vector<std::uint32_t> joints;  ///< those that get a correction, ascending
   std::uint32_t demes_per_joint = 2;
@@ -24,6 +27,8 @@ struct Archipelago {
   std::uint32_t migrants = 3;             ///< elites an island sends per epoch
   bool between_joints = false;            ///< whether deme d of one joint also feeds deme d of the next joint
   bool asynchronous = false;              ///< whether islands take what migrants are there and wait for none
+  Replacement replacement = Replacement::worst;
+  double spread = 0.0;  ///< how far the parameters of a joint's islands lie apart, 0 to 1: see parameters_of()
 
   bool operator==(const Archipelago&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "errors/check.hpp"
@@ -18,6 +19,7 @@ Breeder::Breeder(const GpParameters& parameters, const TrainingTable& table, std
     : parameters_(parameters),
       fitness_(table, budget_bytes),
       learning_(table, parameters),
+      is_safe_(table),
       variation_(parameters, static_cast<int>(table.variables.size())) {}
 
 SharedPopulation Breeder::enter(const std::vector<Tree>& trees) {
@@ -57,7 +59,9 @@ void Breeder::collect(const SharedPopulation& parents) {
   live_ = parents.roots;
   for (const NodeId model : parents.models)
     if (model != 0) live_.push_back(model);
-  fitness_.forget(store_.collect(live_));
+  const std::span<const NodeId> dropped = store_.collect(live_);
+  fitness_.forget(dropped);
+  is_safe_.forget(dropped);
   learning_.forget();
   size_after_collection_ = store_.size();
 }
@@ -68,9 +72,27 @@ void Breeder::vary(RandomStream& random, const SharedPopulation& parents) {
   offspring_.roots.resize(parents.roots.size());
   offspring_.roots[0] = parents.roots[fittest(parents.fitness)];
   NodeId surplus = 0;
-  for (std::size_t i = 1; i < offspring_.roots.size(); i += 2)
-    make_pair(random, parents, offspring_.roots[i],
-              i + 1 < offspring_.roots.size() ? offspring_.roots[i + 1] : surplus);
+  ++variation_count_;
+  if (parameters_.no_duplicates) make_different(random, offspring_.roots[0]);
+  for (std::size_t i = 1; i < offspring_.roots.size(); i += 2) {
+    const bool both = i + 1 < offspring_.roots.size();
+    make_pair(random, parents, offspring_.roots[i], both ? offspring_.roots[i + 1] : surplus);
+    if (!parameters_.no_duplicates) continue;
+    make_different(random, offspring_.roots[i]);
+    if (both) make_different(random, offspring_.roots[i + 1]);
+  }
+}
+
+// From all offspring made different before.
+void Breeder::make_different(RandomStream& random, NodeId& formula) {
+  const auto is_new = [&] {
+    if (bred_.size() < store_.end()) bred_.resize(store_.end(), 0);
+    return bred_[formula] != variation_count_;
+  };
+  for (int attempt = 0; !is_new() && attempt < parameters_.invalid_attempts; ++attempt)
+    variation_.mutate(random, store_, formula);
+  is_new();
+  bred_[formula] = variation_count_;
 }
 
 void Breeder::make_pair(RandomStream& random, const SharedPopulation& parents, NodeId& daughter, NodeId& son) {

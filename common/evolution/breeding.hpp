@@ -6,6 +6,7 @@
 
 #include "evolution/constant_learning.hpp"
 #include "evolution/parameters.hpp"
+#include "evolution/safe_formulas.hpp"
 #include "evolution/shared_fitness.hpp"
 #include "evolution/shared_population.hpp"
 #include "evolution/variation.hpp"
@@ -16,7 +17,9 @@ namespace demecal {
 /// Breeds generations, keeping the formulas, what is known of them and its memory. Elitism 1: the fittest parent comes
 /// first, unchanged. All others are made in pairs by parents from two tournaments. CROSSOVER_RATE and MUTATION_RATE are
 /// independent chances: a pair is crossed with the one, and then each of the two, crossed or copied, is mutated with
-/// the other; what neither touched is reproduction.
+/// the other; what neither touched is reproduction. Where no_duplicates is on, an offspring that equals an earlier one
+/// is mutated until it does not, up to invalid_attempts times; fitted constants may make equals of different ones
+/// after.
 class Breeder {
  public:
   /// `budget_bytes` bounds the memory for columns that are kept; results do not depend on it.
@@ -29,6 +32,9 @@ class Breeder {
   double fitness(NodeId root);
   /// Has a formula of the store take place i, and learn what constants it is fitted with, whatever the share.
   void settle(NodeId root, SharedPopulation& population, std::size_t i);
+  /// Whether a formula of the store surely keeps to the table's limit.
+  bool limits() const { return is_safe_.is_on(); }  ///< whether there is one
+  bool is_safe(NodeId root) { return is_safe_(store_, root); }
   const NodeStore& store() const { return store_; }
   const SharedFitness& known() const { return fitness_; }
   const ConstantLearning& learning() const { return learning_; }
@@ -49,16 +55,20 @@ class Breeder {
  private:
   void collect(const SharedPopulation& parents);
   void make_pair(RandomStream& random, const SharedPopulation& parents, NodeId& daughter, NodeId& son);
+  void make_different(RandomStream& random, NodeId& formula);
   std::uint64_t count_new(const SharedPopulation& parents);
 
   GpParameters parameters_;
   NodeStore store_;
   SharedFitness fitness_;
   ConstantLearning learning_;
+  SafeFormulas is_safe_;
   Variation variation_;
   SharedPopulation offspring_;
   std::vector<NodeId> live_;
   std::vector<std::uint64_t> seen_;  ///< by node: the last generation that had it as an individual
+  std::vector<std::uint64_t> bred_;  ///< by node: the last variation that made it an offspring
+  std::uint64_t variation_count_ = 0;
   std::uint64_t generation_ = 0;
   std::size_t size_after_collection_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "evolution/fitness.hpp"
 
+#include <cmath>
+
 #include "errors/check.hpp"
 
 namespace demecal {
@@ -8,6 +10,7 @@ void check_columns(const TrainingTable& table) {
   DEMECAL_CHECK(!table.variables.empty() && table.weight.size() == table.target.size(),
                 "variables=" << table.variables.size() << " weights=" << table.weight.size()
                              << " targets=" << table.target.size());
+  DEMECAL_CHECK(table.variables.size() == 1 || std::isinf(table.limit), "limit=" << table.limit);
   for (const auto& column : table.variables)
     DEMECAL_CHECK(column.size() == table.target.size(), column.size() << " rows of " << table.target.size());
 }

@@ -1,6 +1,7 @@
 // How well a formula fits: the weighted sum of errors over a joint's calibration rows.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "evolution/error_sum.hpp"
@@ -15,11 +16,15 @@ struct TrainingTable {
   std::vector<double> weight;  ///< 0 to 1: poses near a singularity count less
   Loss loss = Loss::absolute;  ///< what fitness sums
   std::vector<Tree> seeds{};   ///< formulas that every first population holds, where they fit its limits
+  /// What the size of a formula may be at most between its variable's least and greatest row; where that is limited
+  /// there is one variable.
+  double limit = std::numeric_limits<double>::infinity();
 
   bool operator==(const TrainingTable&) const = default;
 };
 
-/// A programmer's error where the columns are not of equal length or there is no variable.
+/// A programmer's error where the columns are not of equal length, there is no variable, or there are several and a
+/// limit.
 void check_columns(const TrainingTable& table);
 
 /// The fitness of one formula at a time.

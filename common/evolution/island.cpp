@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "errors/check.hpp"
+#include "evolution/island_parameters.hpp"
 #include "evolution/selection.hpp"
 #include "evolution/tree_generation.hpp"
 #include "evolution/tree_index.hpp"
@@ -13,6 +15,8 @@
 
 namespace demecal {
 namespace {
+
+constexpr double kRefused = std::numeric_limits<double>::infinity();
 
 bool stands_in(const Population& population, const Tree& tree) {
   return std::any_of(population.begin(), population.end(), [&](const Individual& one) { return one.tree == tree; });
@@ -35,11 +39,11 @@ double share_of_different(const Population& population) {
 
 Island::Island(const GpParameters& parameters, const Archipelago& archipelago, const TrainingTable& table,
                IslandKey key, std::uint64_t seed)
-    : parameters_(parameters),
+    : parameters_(parameters_of(parameters, archipelago, key.deme)),
       archipelago_(archipelago),
       variables_(static_cast<int>(table.variables.size())),
       seeds_(table.seeds),
-      breeder_(parameters, table),
+      breeder_(parameters_, table),
       key_(key),
       seed_(seed) {
   const auto fault = find_fault(parameters);
@@ -65,8 +69,9 @@ std::uint32_t Island::generations_of_epoch() const {
 void Island::run_epoch(const Population& immigrants, const std::function<void()>& after_generation) {
   DEMECAL_CHECK(!finished(), "epoch=" << state_.epoch << " of " << epochs_total());
   RandomStream random{seed_, key_.joint, key_.deme, state_.epoch};
-  if (residents_.roots.empty()) enter_population(random);
-  take_in(immigrants);
+  enter_population(random);
+  const double best_before = residents_.fitness[fittest(residents_.fitness)];
+  take_in(immigrants, random);
   ParetoFront front(std::move(state_.front));
   offer_all(front);
   const std::uint32_t generations = generations_of_epoch();
@@ -75,6 +80,9 @@ void Island::run_epoch(const Population& immigrants, const std::function<void()>
     offer_all(front);
     if (after_generation) after_generation();
   }
+  refuse_unsafe(archipelago_.migrants);
+  const bool has_gained = state_.epoch == 0 || residents_.fitness[fittest(residents_.fitness)] < best_before;
+  state_.without_gain = has_gained ? 0 : state_.without_gain + 1;
   write_population();
   forget_models();
   state_.front = std::move(front).release();
@@ -90,13 +98,19 @@ std::vector<Tree> Island::first_trees(RandomStream& random) const {
   return trees;
 }
 
-// The first population, or that of a state another worker reached.
+bool Island::is_stagnant() const {
+  return parameters_.restart_after > 0 && state_.without_gain >= static_cast<std::uint32_t>(parameters_.restart_after);
+}
+
+// The first population, one that begins anew, or that of a state another worker reached.
 void Island::enter_population(RandomStream& random) {
-  if (state_.epoch == 0) {
+  if (state_.epoch == 0 || is_stagnant()) {
     residents_ = breeder_.enter(first_trees(random));
     state_.evaluations += residents_.roots.size();
+    state_.without_gain = 0;
     return;
   }
+  if (!residents_.roots.empty()) return;
   for (const Individual& individual : state_.population) residents_.roots.push_back(breeder_.enter(individual.tree));
   residents_.fitness = fitness_of(state_.population);
   residents_.models = residents_.roots;
@@ -109,12 +123,37 @@ void Island::forget_models() {
     std::fill(residents_.models.begin(), residents_.models.end(), NodeId{0});
 }
 
-void Island::offer_all(ParetoFront& front) const {
+// Only what would enter is judged: of most formulas it never matters whether they are safe.
+void Island::offer_all(ParetoFront& front) {
   for (std::size_t i = 0; i < residents_.roots.size(); ++i) {
     const NodeId model = residents_.models[i];
-    const double fitness = residents_.fitness[i];
-    if (model != 0 && front.wants(breeder_.store()[model].whole.nodes, fitness))
+    double& fitness = residents_.fitness[i];
+    if (model == 0 || !front.wants(breeder_.store()[model].whole.nodes, fitness)) continue;
+    if (breeder_.is_safe(model))
       front.offer({breeder_.store().tree(model), fitness});
+    else
+      fitness = kRefused;
+  }
+  refuse_unsafe(1);
+}
+
+// Until so many different ones of the fittest are safe.
+void Island::refuse_unsafe(std::size_t most) {
+  if (!breeder_.limits()) return;
+  std::vector<NodeId> safe;
+  std::vector<double>& fitness = residents_.fitness;
+  while (safe.size() < most) {
+    std::size_t best = fitness.size();
+    for (std::size_t i = 0; i < fitness.size(); ++i) {
+      const bool is_known = std::find(safe.begin(), safe.end(), residents_.roots[i]) != safe.end();
+      if (!is_known && std::isfinite(fitness[i]) && (best == fitness.size() || fitness[i] < fitness[best])) best = i;
+    }
+    if (best == fitness.size()) return;
+    const NodeId model = residents_.models[best] != 0 ? residents_.models[best] : residents_.roots[best];
+    if (breeder_.is_safe(model))
+      safe.push_back(residents_.roots[best]);
+    else
+      fitness[best] = kRefused;
   }
 }
 
@@ -133,18 +172,20 @@ bool Island::fits(const Tree& tree) const {
          (parameters_.max_tree_nodes == 0 || tree.size() <= static_cast<std::size_t>(parameters_.max_tree_nodes));
 }
 
-void Island::take_in(const Population& immigrants) {
+void Island::take_in(const Population& immigrants, RandomStream& random) {
   std::vector<NodeId>& roots = residents_.roots;
-  const std::vector<std::size_t> ranked = ranking(residents_.fitness);
+  std::vector<std::size_t> places = ranking(residents_.fitness);
+  places.erase(places.begin());
+  std::reverse(places.begin(), places.end());
   std::size_t taken = 0;
   for (const Individual& immigrant : immigrants) {
-    if (taken + 1 >= roots.size()) break;
+    if (taken >= places.size()) break;
     if (!fits(immigrant.tree)) continue;
     const NodeId root = breeder_.enter(immigrant.tree);
     if (std::find(roots.begin(), roots.end(), root) != roots.end()) continue;
-    ++taken;
-    const std::size_t worst = ranked[ranked.size() - taken];
-    breeder_.settle(root, residents_, worst);
+    if (archipelago_.replacement == Replacement::random)
+      std::swap(places[taken], places[taken + random.index(places.size() - taken)]);
+    breeder_.settle(root, residents_, places[taken++]);
   }
   state_.evaluations += taken;
   state_.migrants_taken += taken;

@@ -19,7 +19,8 @@ struct IslandState {
   std::uint64_t evaluations = 0;
   std::uint64_t migrants_taken = 0;
   Population population;
-  Population front;  ///< members of the ParetoFront over all generations
+  Population front;                ///< members of the ParetoFront over all generations
+  std::uint32_t without_gain = 0;  ///< epochs since its best grew better or the population began anew
 
   bool operator==(const IslandState&) const = default;
 };
@@ -45,11 +46,14 @@ class Island {
 
   IslandKey key() const { return key_; }
   /// Epoch 0: ramped half-and-half with the neutral model in it (thesis 3.3.3, 4.4.1), the table's seeds in place of
-  /// the last of it; no generation is bred. Later: `immigrants` replace the worst individuals, then migration_interval
-  /// generations are bred, or as many as remain. Immigrants are evaluated on this island's table; duplicates of
-  /// residents and trees that do not fit it (too deep, or of variables it lacks) are left out; the best resident is
-  /// never replaced. Must not be finished. `after_generation` is called after each; where it throws, the island is left
-  /// amid the epoch and only restore() or destruction may follow.
+  /// the last of it; no generation is bred. Later: after restart_after epochs without gain a population as the first
+  /// takes the place of all residents (the front stays); then `immigrants` replace residents, the worst or any, and
+  /// migration_interval generations are bred, or as many as remain. Immigrants are evaluated on this island's table;
+  /// duplicates of residents and trees that do not fit it (too deep, or of variables it lacks) are left out; the best
+  /// resident is never replaced. Formulas that may break the table's limit (see SafeFormulas) do not enter the front;
+  /// where they would, or are the fittest, or would leave as emigrants, they lose their fitness. Must not be finished.
+  /// `after_generation` is called after each; where it throws, the island is left amid the epoch and only restore() or
+  /// destruction may follow.
   void run_epoch(const Population& immigrants, const std::function<void()>& after_generation = {});
   bool finished() const;               ///< all generations are bred
   std::uint32_t epochs_total() const;  ///< the first, and as many as number_generations takes
@@ -65,8 +69,10 @@ class Island {
  private:
   std::vector<Tree> first_trees(RandomStream& random) const;
   void enter_population(RandomStream& random);
-  void take_in(const Population& immigrants);
-  void offer_all(ParetoFront& front) const;
+  void take_in(const Population& immigrants, RandomStream& random);
+  bool is_stagnant() const;
+  void offer_all(ParetoFront& front);
+  void refuse_unsafe(std::size_t most);
   void write_population();
   void forget_models();
   bool fits(const Tree& tree) const;

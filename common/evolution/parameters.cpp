@@ -84,6 +84,16 @@ std::optional<ParameterFault> function_fault(const std::vector<Primitive>& funct
   return std::nullopt;
 }
 
+std::optional<ParameterFault> weights_fault(const GpParameters& p) {
+  const auto is_weight = [](double weight) { return weight > 0.0 && std::isfinite(weight); };
+  for (const double weight : p.function_weights)
+    if (!is_weight(weight)) return ParameterFault{"function_weights", text_of(weight), "must be finite and above 0"};
+  if (!p.function_weights.empty() && p.function_weights.size() != p.functions.size())
+    return ParameterFault{"function_weights", text_of(p.function_weights.size()),
+                          "must be as many as the functions: " + text_of(p.functions.size())};
+  return std::nullopt;
+}
+
 std::optional<ParameterFault> constants_fault(const GpParameters& p) {
   if (p.constants > ConstantPolicy::baldwin)
     return ParameterFault{"constants", text_of(static_cast<int>(p.constants)), "must be a known policy"};
@@ -108,6 +118,8 @@ std::optional<ParameterFault> find_fault(const GpParameters& p) {
   if (p.tournament_size > p.population_size)
     return ParameterFault{"tournament_size", text_of(p.tournament_size), "must not exceed population_size"};
   if (auto fault = function_fault(p.functions)) return fault;
+  if (auto fault = weights_fault(p)) return fault;
+  if (p.restart_after < 0) return ParameterFault{"restart_after", text_of(p.restart_after), "must not be negative"};
   return constants_fault(p);
 }
 

@@ -37,9 +37,12 @@ struct GpParameters {
   double constants_lower = 0.0;  ///< range of the ephemeral constant
   double constants_upper = 1.0;
   ConstantPolicy constants = ConstantPolicy::none;
-  int constant_steps = 10;      ///< of Levenberg and Marquardt, on each formula that is fitted
-  double constant_share = 1.0;  ///< of each generation that is fitted: its fittest new formulas
-  bool linear_scaling = false;  ///< whether formulas are judged by the best a + b * formula
+  int constant_steps = 10;                 ///< of Levenberg and Marquardt, on each formula that is fitted
+  double constant_share = 1.0;             ///< of each generation that is fitted: its fittest new formulas
+  bool linear_scaling = false;             ///< whether formulas are judged by the best a + b * formula
+  bool no_duplicates = false;              ///< whether offspring that a generation holds already are varied again
+  int restart_after = 0;                   ///< epochs without gain before an island's population begins anew; 0: never
+  std::vector<double> function_weights{};  ///< how often each function is drawn beside the others; empty: all alike
 
   bool operator==(const GpParameters&) const = default;
 };
@@ -54,8 +57,8 @@ struct ParameterFault {
 /// The first broken rule: counts positive, rates within 0 to 1, min_tree_depth <= initial_max_tree_depth1 <=
 /// initial_max_tree_depth2 <= max_tree_depth <= 15, max_tree_nodes 0 or enough for every tree of
 /// initial_max_tree_depth2, tournament no larger than the population, at least one function, no
-/// function twice, constants_lower < constants_upper and both finite, a known policy for constants. Nothing where all
-/// hold.
+/// function twice, no weights of functions or one for each, finite and above 0, constants_lower < constants_upper and
+/// both finite, a known policy for constants. Nothing where all hold.
 std::optional<ParameterFault> find_fault(const GpParameters& parameters);
 
 }  // namespace demecal

@@ -1,6 +1,7 @@
 #include "evolution/tree_generation.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "evolution/tree_index.hpp"
 
@@ -12,6 +13,14 @@ constexpr int kGrowAttempts = 1000;
 
 void append_function(Primitive function, Tree& tree) {
   tree.push_back({function, 0, 0.0});
+}
+
+Primitive weighed_function(RandomStream& random, const NodeSet& nodes) {
+  const std::vector<double>& weights = nodes.weights;
+  double left = random.real(0.0, std::accumulate(weights.begin(), weights.end(), 0.0));
+  std::size_t i = 0;
+  while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
+  return nodes.functions[i];
 }
 
 void grow_at_least(RandomStream& random, const NodeSet& nodes, int min_depth, int max_depth, Tree& tree) {
@@ -33,7 +42,8 @@ struct Ramp {
 }  // namespace
 
 NodeSet node_set(const GpParameters& parameters, int variables) {
-  return {parameters.functions, variables, parameters.constants_lower, parameters.constants_upper};
+  return {parameters.functions, variables, parameters.constants_lower, parameters.constants_upper,
+          parameters.function_weights};
 }
 
 void append_terminal(RandomStream& random, const NodeSet& nodes, Tree& tree) {
@@ -51,7 +61,8 @@ int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tr
     append_terminal(random, nodes, tree);
     return 0;
   }
-  const Primitive function = nodes.functions[drawn - terminals];
+  const Primitive function =
+      nodes.weights.empty() ? nodes.functions[drawn - terminals] : weighed_function(random, nodes);
   append_function(function, tree);
   int deepest = 0;
   for (int argument = 0; argument < arity(function); ++argument)
@@ -61,7 +72,8 @@ int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tr
 
 void append_full(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree) {
   if (depth == 0) return append_terminal(random, nodes, tree);
-  const Primitive function = nodes.functions[random.index(nodes.functions.size())];
+  const Primitive function =
+      nodes.weights.empty() ? nodes.functions[random.index(nodes.functions.size())] : weighed_function(random, nodes);
   append_function(function, tree);
   for (int argument = 0; argument < arity(function); ++argument) append_full(random, nodes, depth - 1, tree);
 }

@@ -16,13 +16,15 @@ struct NodeSet {
   int variables = 1;
   double constants_lower = 0.0;
   double constants_upper = 1.0;
+  std::vector<double> weights{};  ///< of the functions; empty: all alike
 };
 
 NodeSet node_set(const GpParameters& parameters, int variables);
 
 /// Appends a random terminal to `tree`, each of T equally likely.
 void append_terminal(RandomStream& random, const NodeSet& nodes, Tree& tree);
-/// Appends a tree of at most `depth` to `tree`, every node above that depth drawn from T and N alike (fig. 3-4).
+/// Appends a tree of at most `depth` to `tree`, every node above that depth drawn from T and N alike (fig. 3-4);
+/// among functions by their weights.
 /// Returns the depth it came to.
 int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree);
 /// Appends a tree whose leaves all lie at `depth` to `tree` (fig. 3-5).

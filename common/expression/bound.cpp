@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "errors/check.hpp"
+#include "expression/limit.hpp"
 
 namespace demecal {
 namespace {
@@ -54,11 +56,27 @@ class IntervalWalk {
   std::vector<Interval> stack_;
 };
 
+double size_of(const Interval& values) {
+  return std::max(std::abs(values.lower), std::abs(values.upper));
+}
+
+bool stays_within(IntervalWalk& walk, const Interval& piece, double largest, int halvings) {
+  if (size_of(walk(piece)) <= largest) return true;
+  if (halvings == 0) return false;
+  const double middle = std::midpoint(piece.lower, piece.upper);
+  return stays_within(walk, {piece.lower, middle}, largest, halvings - 1) &&
+         stays_within(walk, {middle, piece.upper}, largest, halvings - 1);
+}
+
+void check_range(const Interval& range) {
+  DEMECAL_CHECK(range.lower <= range.upper && std::isfinite(range.upper - range.lower),
+                "range=" << range.lower << ".." << range.upper);
+}
+
 }  // namespace
 
 Interval bound(std::span<const Node> tree, Interval range, int pieces) {
-  DEMECAL_CHECK(range.lower <= range.upper && std::isfinite(range.upper - range.lower),
-                "range=" << range.lower << ".." << range.upper);
+  check_range(range);
   DEMECAL_CHECK(pieces >= 1, "pieces=" << pieces);
   IntervalWalk walk(tree);
   const auto end_of = [&](int piece) {
@@ -70,8 +88,13 @@ Interval bound(std::span<const Node> tree, Interval range, int pieces) {
 }
 
 double magnitude_bound(std::span<const Node> tree, Interval range, int pieces) {
-  const Interval values = bound(tree, range, pieces);
-  return std::max(std::abs(values.lower), std::abs(values.upper));
+  return size_of(bound(tree, range, pieces));
+}
+
+bool stays_within(std::span<const Node> tree, Interval range, double largest, int halvings) {
+  check_range(range);
+  IntervalWalk walk(tree);
+  return stays_within(walk, range, largest, halvings);
 }
 
 }  // namespace demecal

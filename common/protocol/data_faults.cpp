@@ -24,6 +24,8 @@ Fault archipelago_fault(const Archipelago& a) {
   if (a.demes_per_joint < 1 || a.demes_per_joint > kMostDemes) return "no demes, or too many";
   if (a.topology != Topology::none && a.topology != Topology::ring && a.topology != Topology::full)
     return "unknown topology";
+  if (a.replacement != Replacement::worst && a.replacement != Replacement::random) return "unknown replacement";
+  if (!(a.spread >= 0.0 && a.spread <= 1.0)) return "a spread outside 0 to 1";
   if (a.migration_interval < 1) return "migration interval is 0";
   return std::nullopt;
 }
@@ -48,6 +50,8 @@ Fault table_fault(const TrainingTable& table, const GpParameters& parameters) {
   const auto variables = static_cast<int>(table.variables.size());
   if (!std::all_of(table.seeds.begin(), table.seeds.end(), [&](const Tree& seed) { return is_valid(seed, variables); }))
     return "a seed is no complete formula";
+  if (!(table.limit >= 0.0)) return "a limit that is no size";
+  if (variables > 1 && std::isfinite(table.limit)) return "a limit on formulas of several variables";
   return std::nullopt;
 }
 

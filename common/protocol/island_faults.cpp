@@ -55,6 +55,7 @@ Fault front_fault(const Population& front, const Bounds& bounds) {
 
 Fault state_fault(const IslandState& state, const Bounds& bounds) {
   if (state.epoch > bounds.epochs()) return "more epochs than the run has";
+  if (state.without_gain > state.epoch) return "more epochs without gain than epochs";
   if (state.generation != bounds.generations_after(state.epoch)) return "generations do not agree with epochs";
   const auto residents = state.epoch == 0 ? 0 : static_cast<std::size_t>(bounds.parameters.population_size);
   if (state.population.size() != residents) return "a population of the wrong size";

@@ -52,6 +52,9 @@ wire::GpParameters encode(const GpParameters& p) {
   encoded.constant_steps(p.constant_steps);
   encoded.constant_share(p.constant_share);
   encoded.linear_scaling(p.linear_scaling);
+  encoded.no_duplicates(p.no_duplicates);
+  encoded.restart_after(p.restart_after);
+  encoded.function_weights(p.function_weights);
   return encoded;
 }
 
@@ -84,6 +87,9 @@ std::optional<GpParameters> decode(const wire::GpParameters& p) {
   decoded.constant_steps = p.constant_steps();
   decoded.constant_share = p.constant_share();
   decoded.linear_scaling = p.linear_scaling();
+  decoded.no_duplicates = p.no_duplicates();
+  decoded.restart_after = p.restart_after();
+  decoded.function_weights = p.function_weights();
   return decoded;
 }
 
@@ -120,19 +126,33 @@ wire::Archipelago encode(const Archipelago& a) {
   encoded.migrants(a.migrants);
   encoded.between_joints(a.between_joints);
   encoded.asynchronous(a.asynchronous);
+  encoded.replacement(a.replacement == Replacement::worst ? wire::WORST_LEAVE : wire::ANY_LEAVE);
+  encoded.spread(a.spread);
   return encoded;
+}
+
+std::optional<Replacement> decode(wire::Replacement replacement) {
+  switch (replacement) {
+    case wire::WORST_LEAVE:
+      return Replacement::worst;
+    case wire::ANY_LEAVE:
+      return Replacement::random;
+  }
+  return std::nullopt;
 }
 
 std::optional<Archipelago> decode(const wire::Archipelago& a) {
   const auto topology = decode(a.topology());
-  if (!topology) return std::nullopt;
+  const auto replacement = decode(a.replacement());
+  if (!topology || !replacement) return std::nullopt;
   std::vector<std::uint32_t> joints;
   for (const std::uint32_t joint : a.joints()) {
     if (joint == 0) return std::nullopt;
     joints.push_back(joint - 1);
   }
-  return Archipelago{std::move(joints), a.demes_per_joint(), *topology,       a.migration_interval(),
-                     a.migrants(),      a.between_joints(),  a.asynchronous()};
+  return Archipelago{std::move(joints),      a.demes_per_joint(), *topology,
+                     a.migration_interval(), a.migrants(),        a.between_joints(),
+                     a.asynchronous(),       *replacement,        a.spread()};
 }
 
 wire::TrainingTable encode(const TrainingTable& table) {
@@ -143,6 +163,7 @@ wire::TrainingTable encode(const TrainingTable& table) {
   encoded.weight(table.weight);
   encoded.loss(table.loss == Loss::absolute ? wire::ABSOLUTE_ERROR : wire::SQUARED_ERROR);
   for (const Tree& seed : table.seeds) encoded.seeds().push_back(encode(seed));
+  encoded.limit(table.limit);
   return encoded;
 }
 
@@ -169,6 +190,7 @@ std::optional<TrainingTable> decode(const wire::TrainingTable& table) {
     if (!seed) return std::nullopt;
     decoded.seeds.push_back(std::move(*seed));
   }
+  decoded.limit = table.limit();
   return decoded;
 }
 

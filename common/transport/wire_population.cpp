@@ -84,6 +84,7 @@ wire::IslandState encode(const IslandState& state) {
   encoded.migrants_taken(state.migrants_taken);
   encoded.population(encode(state.population));
   encoded.front(encode(state.front));
+  encoded.without_gain(state.without_gain);
   return encoded;
 }
 
@@ -91,8 +92,8 @@ std::optional<IslandState> decode(const wire::IslandState& state) {
   auto population = decode(state.population());
   auto front = decode(state.front());
   if (!population || !front) return std::nullopt;
-  return IslandState{state.epoch(),          state.generation(),     state.evaluations(),
-                     state.migrants_taken(), std::move(*population), std::move(*front)};
+  return IslandState{state.epoch(),          state.generation(), state.evaluations(), state.migrants_taken(),
+                     std::move(*population), std::move(*front),  state.without_gain()};
 }
 
 std::vector<wire::Migrants> encode(const std::vector<Migrants>& emigrations) {

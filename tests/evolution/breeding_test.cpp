@@ -45,6 +45,30 @@ TEST(Ranking, OrdersByFitnessThenIndex) {
   EXPECT_EQ(fittest(fitness), 1u);
 }
 
+TEST(Breeding, HoldsNoFormulaTwiceWhereItMustNot) {
+  GpParameters parameters = small_parameters();
+  parameters.mutation_rate = 0.05;  // most offspring are copies otherwise
+  parameters.crossover_rate = 0.3;
+  const TrainingTable table = smooth_lesson();
+  const auto most_duplicates = [&](bool none) {
+    parameters.no_duplicates = none;
+    RandomStream random{79};
+    Breeder breeder(parameters, table);
+    SharedPopulation population = first_population(random, parameters, breeder);
+    std::size_t most = 0;
+    for (int generation = 0; generation < 200; ++generation) {
+      const double best = population.fitness[fittest(population.fitness)];
+      breeder.breed(random, population);
+      EXPECT_LE(population.fitness[fittest(population.fitness)], best);
+      const std::set<NodeId> different(population.roots.begin(), population.roots.end());
+      most = std::max(most, population.roots.size() - different.size());
+    }
+    return most;
+  };
+  EXPECT_EQ(most_duplicates(true), 0u);
+  EXPECT_GT(most_duplicates(false), 20u);
+}
+
 TEST(Breeding, KeepsLimitsSizeTrueFitnessAndTheBest) {
   const GpParameters parameters = small_parameters();
   const TrainingTable table = smooth_lesson();

@@ -22,6 +22,13 @@ inline TrainingTable smooth_lesson(std::size_t rows = 30, double phase = 0.4) {
   return table;
 }
 
+/// Of order 1, but a quotient with a pole between two rows fits it best.
+inline TrainingTable lesson_with_a_pole(std::size_t rows = 30) {
+  TrainingTable table = smooth_lesson(rows);
+  for (std::size_t i = 0; i < rows; ++i) table.target[i] = 0.25 / (table.variables[0][i] - 0.3);
+  return table;
+}
+
 /// Two variables and random targets.
 inline TrainingTable two_variable_lesson(RandomStream& random, std::size_t rows = 12) {
   TrainingTable table{{std::vector<double>(rows), std::vector<double>(rows)}, std::vector<double>(rows), {}};

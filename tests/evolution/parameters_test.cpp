@@ -57,6 +57,12 @@ TEST(Parameters, ThatBreakARuleAreNamedWithKeyAndValue) {
       {"max_tree_nodes", "-1", [](GpParameters& p) { p.max_tree_nodes = -1; }},
       {"functions", "[]", [](GpParameters& p) { p.functions.clear(); }},
       {"functions", "SIN", [](GpParameters& p) { p.functions.push_back(Primitive::sine); }},
+      {"function_weights", "2",
+       [](GpParameters& p) {
+         p.function_weights = {1.0, 2.0};
+       }},
+      {"function_weights", "0", [](GpParameters& p) { p.function_weights.assign(p.functions.size(), 0.0); }},
+      {"restart_after", "-1", [](GpParameters& p) { p.restart_after = -1; }},
       {"functions", "terminal", [](GpParameters& p) { p.functions.push_back(Primitive::variable); }},
       {"constants_lower", "-inf", [](GpParameters& p) { p.constants_lower = -kInfinity; }},
       {"constants_upper", "inf", [](GpParameters& p) { p.constants_upper = kInfinity; }},

@@ -48,6 +48,29 @@ TEST(Grow, DrawsTerminalsAndFunctionsAlike) {
   for (const auto& [primitive, count] : roots) EXPECT_NEAR(count, kDraws / 10, 200) << static_cast<int>(primitive);
 }
 
+TEST(Grow, DrawsFunctionsByTheirWeights) {
+  RandomStream random{35};
+  GpParameters parameters;
+  parameters.function_weights = {1.0, 2.0, 3.0, 4.0, 0.5, 0.5, 4.0, 5.0};
+  const NodeSet nodes = node_set(parameters, 1);
+  std::map<Primitive, int> grown, full;
+  constexpr int kDraws = 20000;
+  for (int trial = 0; trial < kDraws; ++trial) {
+    Tree tree;
+    append_grown(random, nodes, 1, tree);
+    ++grown[tree.front().primitive];
+    tree.clear();
+    append_full(random, nodes, 1, tree);
+    ++full[tree.front().primitive];
+  }
+  for (std::size_t i = 0; i < parameters.functions.size(); ++i) {
+    const double share = parameters.function_weights[i] / 20.0;
+    EXPECT_NEAR(full[parameters.functions[i]], share * kDraws, 250);
+    EXPECT_NEAR(grown[parameters.functions[i]], 0.8 * share * kDraws, 250);
+  }
+  EXPECT_NEAR(grown[Primitive::variable], kDraws / 10, 200);
+}
+
 TEST(Full, HasAllLeavesAtItsDepth) {
   RandomStream random{33};
   const NodeSet nodes = node_set(GpParameters{}, 2);

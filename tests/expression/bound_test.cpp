@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "expression/evaluate.hpp"
+#include "expression/limit.hpp"
 #include "expression/text.hpp"
 #include "random_tree.hpp"
 
@@ -120,6 +121,28 @@ TEST(Bound, OfAConstantIsItsValue) {
 TEST(Bound, OfSizeIsTheLargestAbsoluteValue) {
   EXPECT_NEAR(magnitude_bound(parse("theta - 3"), {0.0, 1.0}), 3.0, 1e-12);
   EXPECT_NEAR(magnitude_bound(parse("theta + 3"), {0.0, 1.0}), 4.0, 1e-12);
+}
+
+// The 256 pieces are those that the most halvings give.
+TEST(StaysWithin, SaysWhatTheBoundOnAllPiecesSays) {
+  RandomStream random{6, 3};
+  int inside = 0, outside = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Tree tree = random_tree(random, 6);
+    const Interval range{random.real(-4.0, 0.0), random.real(0.0, 4.0)};
+    const double size = magnitude_bound(tree, range);
+    const double largest = random.real(0.0, 3.0);
+    if (std::abs(size - largest) <= 1e-9 * largest) continue;
+    ASSERT_EQ(stays_within(tree, range, largest), size < largest) << to_text(tree);
+    (size < largest ? inside : outside) += 1;
+  }
+  EXPECT_GT(inside, 200);
+  EXPECT_GT(outside, 200);
+}
+
+TEST(StaysWithin, RefusesPolesWhateverTheLimit) {
+  EXPECT_FALSE(stays_within(parse("1 % (theta - 0.3)"), {0.0, 1.0}, 1e300));
+  EXPECT_TRUE(stays_within(parse("1 % (theta + 0.3)"), {0.0, 1.0}, 4.0));
 }
 
 TEST(Bound, AcceptsARangeOfOnePoint) {

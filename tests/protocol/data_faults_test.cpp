@@ -67,6 +67,15 @@ const std::vector<Spoiling>& spoilings() {
       {"a seed that is no formula", [](auto& d) { d.tables[0].seeds = {Tree{}}; }},
       {"a seed of a variable that is not there", [](auto& d) { d.tables[0].seeds = {variable_tree(1)}; }},
       {"more seeds than individuals", [](auto& d) { d.tables[0].seeds.assign(21, variable_tree(0)); }},
+      {"a limit below 0", [](auto& d) { d.tables[0].limit = -1.0; }},
+      {"a limit that is no number", [](auto& d) { d.tables[0].limit = std::nan(""); }},
+      {"a limit on formulas of several variables",
+       [](auto& d) {
+         d.tables[0].variables.push_back(d.tables[0].target);
+         d.tables[0].limit = 3.0;
+       }},
+      {"an unknown replacement", [](auto& d) { d.archipelago.replacement = static_cast<Replacement>(2); }},
+      {"a spread above 1", [](auto& d) { d.archipelago.spread = 1.5; }},
       {"a weight above 1", [](auto& d) { d.tables[0].weight[11] = 1.1; }},
   };
   return all;

@@ -43,7 +43,7 @@ class RandomMessages {
     return individuals;
   }
 
-  IslandState state() { return {number(), number(), number(), number(), population(), population()}; }
+  IslandState state() { return {number(), number(), number(), number(), population(), population(), number()}; }
 
   Migrants migrants() { return {number(), island(), number(), population(5), worker_}; }
 
@@ -61,6 +61,7 @@ class RandomMessages {
       table.loss = random_.chance(0.5) ? Loss::squared : Loss::absolute;
       table.seeds.resize(random_.index(3));
       for (Tree& seed : table.seeds) seed = tree();
+      if (random_.chance(0.5)) table.limit = random_.real();
     }
     return data;
   }
@@ -118,6 +119,9 @@ class RandomMessages {
     p.constant_steps = count();
     p.constant_share = real();
     p.linear_scaling = random_.chance(0.5);
+    p.no_duplicates = random_.chance(0.5);
+    p.restart_after = count();
+    p.function_weights.assign(random_.index(8), real());
     return p;
   }
 
@@ -126,6 +130,8 @@ class RandomMessages {
     Archipelago a{{}, number(), topologies[random_.index(3)], number(), number(), random_.chance(0.5)};
     for (std::uint32_t joint = 0; joint < 7; ++joint)
       if (random_.chance(0.5)) a.joints.push_back(joint);
+    a.replacement = random_.chance(0.5) ? Replacement::random : Replacement::worst;
+    a.spread = real();
     return a;
   }
 

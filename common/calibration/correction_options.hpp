@@ -1,0 +1,23 @@
+// What a job asks of joint corrections besides the parameters of evolution.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "expression/tree.hpp"
+
+namespace demecal {
+
+/// A correction to begin with, such as a user's guess or an earlier run's result.
+struct SeedFormula {
+  static constexpr int kEveryJoint = -1;
+  int joint = kEveryJoint;  ///< from 0
+  Tree formula;             ///< of theta, rad
+};
+
+struct CorrectionOptions {
+  double largest_rad = std::numeric_limits<double>::infinity();  ///< that any correction may become in its range
+  std::vector<SeedFormula> seeds;
+};
+
+}  // namespace demecal
