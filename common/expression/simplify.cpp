@@ -1,8 +1,11 @@
 #include "expression/simplify.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "expression/evaluate.hpp"
 #include "expression/fold.hpp"
+#include "expression/linear_form.hpp"
 
 namespace demecal {
 namespace {
@@ -79,6 +82,21 @@ Tree called(Primitive function, Tree a) {
   return apply(function, std::move(a));
 }
 
+// Only a sum or a product can have terms to collect.
+Tree shorter_by_terms(Tree tree) {
+  switch (tree.front().primitive) {
+    case Primitive::add:
+    case Primitive::subtract:
+    case Primitive::multiply:
+    case Primitive::divide: {
+      Tree linear = LinearForm(tree).tree();
+      return !linear.empty() && linear.size() < tree.size() ? linear : tree;
+    }
+    default:
+      return tree;
+  }
+}
+
 }  // namespace
 
 Tree simplified(const Tree& tree) {
@@ -86,6 +104,28 @@ Tree simplified(const Tree& tree) {
       tree, [](const Node& node) { return Tree{node}; },
       [](Primitive function, Tree argument) { return called(function, std::move(argument)); },
       [](Primitive function, Tree left, Tree right) { return joined(function, std::move(left), std::move(right)); });
+}
+
+Tree collected(const Tree& tree) {
+  return fold<Tree>(
+      tree, [](const Node& node) { return Tree{node}; },
+      [](Primitive function, Tree argument) { return called(function, std::move(argument)); },
+      [](Primitive function, Tree left, Tree right) {
+        return shorter_by_terms(joined(function, std::move(left), std::move(right)));
+      });
+}
+
+Tree simplified_over(const Tree& tree, const std::vector<std::vector<double>>& columns, double tolerance) {
+  Tree shorter = collected(tree);
+  ColumnEvaluator evaluate(columns), evaluate_shorter(columns);
+  const std::span<const double> values = evaluate(tree), shorter_values = evaluate_shorter(shorter);
+  double largest = 0.0, furthest = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(values[i]));
+    furthest = std::max(furthest, std::abs(values[i] - shorter_values[i]));
+    if (!std::isfinite(values[i] - shorter_values[i])) return simplified(tree);
+  }
+  return furthest <= tolerance * largest ? shorter : simplified(tree);
 }
 
 }  // namespace demecal

@@ -77,5 +77,57 @@ TEST(Simplified, LeavesConstantsThatOverflow) {
   EXPECT_EQ(simplified(huge), huge);
 }
 
+TEST(Collected, GathersTermsAndConstants) {
+  const auto simple = [](const char* text) { return to_text(collected(parse(text))); };
+  EXPECT_EQ(simple("2 * theta + theta * 3"), "5 * theta");
+  EXPECT_EQ(simple("theta + 1 + theta + 2 - theta"), "theta + 3");
+  EXPECT_EQ(simple("2 * SIN(theta) - 5 * SIN(theta)"), "-3 * SIN(theta)");
+  EXPECT_EQ(simple("2 * (theta + 1) - 2 * theta"), "2");
+  EXPECT_EQ(simple("0.5 * SIN(theta) + 0.5 * COS(theta)"), "0.5 * (SIN(theta) + COS(theta))");
+  EXPECT_EQ(simple("SIN(theta + theta + theta) + theta % 2 + theta % 2"), "SIN(3 * theta) + theta");
+  EXPECT_EQ(simple("2 * theta * (3 * COS(theta))"), "6 * (theta * COS(theta))");
+  EXPECT_EQ(simple("4 - theta - theta - theta"), "4 - 3 * theta");
+}
+
+TEST(Collected, KeepsToTheProtectedQuotient) {
+  const auto simple = [](const char* text) { return to_text(collected(parse(text))); };
+  // Where theta is 0 these are 1 times the factor, 1, and 2.
+  for (const char* text : {"3 * (theta % SIN(theta))", "(3 * theta) % theta", "1 % theta + 1 % SIN(theta)"})
+    EXPECT_EQ(collected(parse(text)), parse(text));
+  EXPECT_EQ(simple("theta % 0 + theta % 0"), "2");
+}
+
+TEST(Collected, KeepsValuesToRoundingAndIsNeverLonger) {
+  RandomStream random{102};
+  int shorter = 0, compared = 0, exact = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Tree tree = redundant_tree(random, 1 + static_cast<int>(random.index(5)));
+    std::vector<std::vector<double>> columns(2, std::vector<double>(20));
+    for (auto& column : columns)
+      for (std::size_t row = 0; row < column.size(); ++row) column[row] = row == 0 ? 0.0 : random.real(-3.0, 3.0);
+    const Tree simple = simplified_over(tree, columns);
+    ASSERT_TRUE(is_valid(simple, 2));
+    ASSERT_LE(collected(tree).size(), simplified(tree).size()) << to_text(tree, {"x", "y"});
+    ASSERT_LE(simple.size(), tree.size());
+    shorter += simple.size() < simplified(tree).size();
+    exact += simple.size() > collected(tree).size();
+    double largest = 0.0;
+    std::vector<double> expected;
+    for (std::size_t row = 0; row < 20; ++row) {
+      expected.push_back(value_if_finite(tree, columns[0][row], columns[1][row]));
+      if (!std::isnan(expected.back())) largest = std::max(largest, std::abs(expected.back()));
+    }
+    for (std::size_t row = 0; row < 20; ++row) {
+      if (std::isnan(expected[row])) continue;
+      const double point[]{columns[0][row], columns[1][row]};
+      ASSERT_NEAR(evaluate(simple, point), expected[row], 1e-9 * largest) << to_text(tree, {"x", "y"});
+      ++compared;
+    }
+  }
+  EXPECT_GT(shorter, 100);
+  EXPECT_LT(exact, 100);
+  EXPECT_GT(compared, 50000);
+}
+
 }  // namespace
 }  // namespace demecal
