@@ -14,16 +14,6 @@ bool is_formula(const Effect& effect) {
   return effect.kind == "symbolic";
 }
 
-/// Measured numbers that have a part in tool errors.
-double rows_at(const DataSet& data, std::span<const std::size_t> poses) {
-  double rows = 0.0;
-  for (const std::size_t pose : poses) {
-    const MeasurementRows measured = rows_of(data.poses[pose]);
-    rows += measured.position > 0 ? measured.position : measured.distances;
-  }
-  return rows;
-}
-
 }  // namespace
 
 CorrectedRobot without_formulas(const CorrectedRobot& robot) {
@@ -41,8 +31,9 @@ bool asks_for_formulas(const LoopOutcome& loop, const CorrectedRobot& robot, con
 
 double description_nats(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses,
                         const std::vector<Candidate>& candidates) {
-  const double squares = sum(Jury(data, poses, robot).squared_errors(robot));
-  double nats = 0.5 * rows_at(data, poses) * std::log(std::max(squares, 1e-300));
+  const Jury jury(data, poses, robot);
+  const double squares = sum(jury.squared_errors(robot));
+  double nats = 0.5 * jury.rows() * std::log(std::max(squares, 1e-300));
   for (const Effect& effect : robot.effects) {
     nats += 0.5 * static_cast<double>(effect.values.size()) * std::log(static_cast<double>(poses.size())) +
             price_nats(effect, candidates);

@@ -25,7 +25,9 @@ PairedDifference paired(const SquaredErrors& worse, const SquaredErrors& better)
 Jury::Jury(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) : data_(data) {
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = data.poses[index];
-    if (rows_of(pose).position + rows_of(pose).distances == 0) continue;
+    const MeasurementRows measured = rows_of(pose);
+    if (measured.position + measured.distances == 0) continue;
+    rows_ += measured.position > 0 ? measured.position : measured.distances;
     poses_.push_back(index);
     motions_.push_back(robot.motions(Stop(pose), pose.target));
   }

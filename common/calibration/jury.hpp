@@ -26,6 +26,9 @@ class Jury {
  public:
   Jury(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot);
 
+  /// Measured numbers that have a part in tool errors.
+  double rows() const { return rows_; }
+
   /// Joints after the robot's corrections, one vector per pose.
   std::vector<JointVector> corrected(const CorrectedRobot& robot) const;
   /// The same joints with `correction` alone at `joint` (from 0).
@@ -39,6 +42,7 @@ class Jury {
  private:
   const DataSet& data_;
   std::vector<std::size_t> poses_;
+  double rows_ = 0.0;
   std::vector<std::vector<EffectMotion>> motions_;
 };
 

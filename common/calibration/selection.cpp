@@ -3,52 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/correction_limit.hpp"
 #include "calibration/jury.hpp"
-#include "fitting/median.hpp"
+#include "evolution/brief_forms.hpp"
+#include "expression/limit.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr int kSweeps = 5;
-constexpr double kMostOverTarget = 3.0;
 constexpr double kEarned = 2.0;  ///< standard errors of the gain: about one false keep in forty
 
 struct Trial {
   JointCorrection correction;
-  std::size_t length = 0;
   SquaredErrors errors;
   double sum = 0.0;
 };
 
-/// The target error that one row in twenty exceeds: the largest ones are often poses near a singularity.
-double large_target_rad(const JointTraining& training) {
-  std::vector<double> sizes;
-  const double least = training.table.loss == Loss::squared ? median(training.table.weight) : 1.0;
-  for (std::size_t row = 0; row < training.table.target.size(); ++row) {
-    if (training.table.weight[row] >= least) sizes.push_back(std::abs(training.table.target[row]));
-  }
-  if (sizes.empty()) return 0.0;
-  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), place, sizes.end());
-  return *place * training.scale_rad;
-}
-
-bool is_below(const JointCorrection& correction, double large_rad) {
-  return magnitude_bound(correction.formula(), correction.range_rad()) <= kMostOverTarget * large_rad;
+bool is_below(const JointCorrection& correction, double limit_rad) {
+  return stays_within(correction.formula(), correction.range_rad(), limit_rad);
 }
 
 /// A joint's candidates: those evolved, then those from elsewhere.
 std::vector<Trial> trials_of(const JointCandidates& candidates) {
   std::vector<Trial> trials;
-  const double large_rad = large_target_rad(candidates.training);
-  const auto add = [&](const JointCorrection& correction, std::size_t length) {
-    if (is_below(correction, large_rad)) trials.push_back({correction, length, {}, 0.0});
+  const double limit_rad = correction_limit_rad(candidates.training);
+  const auto add = [&](const JointCorrection& correction) {
+    if (is_below(correction, limit_rad)) trials.push_back({correction, {}, 0.0});
   };
   for (const Individual& individual : candidates.front) {
-    add(correction_from(candidates.training, individual.tree), individual.tree.size());
+    add(correction_from(candidates.training, individual.tree));
   }
+  for (const Tree& tree : candidates.brief) add(correction_from(candidates.training, tree));
   for (const JointCorrection& other : candidates.others) {
-    if (!other.is_neutral()) add(other, other.formula().size());
+    if (!other.is_neutral()) add(other);
   }
   return trials;
 }
@@ -65,17 +53,13 @@ std::vector<Trial> try_all(const Jury& deciding, const CorrectedRobot& robot, co
   return trials;
 }
 
-/// The shortest trial not significantly worse than the best; null where there is none.
-const Trial* frugal(const std::vector<Trial>& trials) {
-  const auto best =
-      std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.sum < b.sum; });
-  const Trial* chosen = nullptr;
-  for (const Trial& trial : trials) {
-    const PairedDifference behind = paired(trial.errors, best->errors);
-    const bool close = &trial == &*best || behind.mean <= 0.5 * behind.standard_error;
-    if (close && (chosen == nullptr || trial.length < chosen->length)) chosen = &trial;
-  }
-  return chosen;
+/// The trial of the briefest description; of equals the first. Null where there is none.
+const Trial* briefest(const std::vector<Trial>& trials, double rows) {
+  const auto nats = [rows](const Trial& trial) {
+    return message_nats(trial.correction.formula(), std::max(trial.sum, 1e-300), rows);
+  };
+  const auto best = std::ranges::min_element(trials, {}, nats);
+  return best == trials.end() ? nullptr : &*best;
 }
 
 /// Poses by what they are asked.
@@ -102,7 +86,7 @@ JointCorrection choose(const Juries& juries, CorrectedRobot robot, const JointCa
   robot.corrections[joint] = JointCorrection{};
   const std::vector<JointVector> neutral = juries.deciding.corrected(robot);
   const std::vector<Trial> trials = try_all(juries.deciding, robot, neutral, candidates);
-  const Trial* chosen = frugal(trials);
+  const Trial* chosen = briefest(trials, juries.deciding.rows());
   choice.kept = false;
   if (chosen == nullptr) return {};
   const PairedDifference gain = paired(juries.deciding.squared_errors(robot, neutral), chosen->errors);
@@ -135,10 +119,10 @@ Selection settle(const Juries& juries, Selection selection, std::span<const Join
 /// Every joint with what fits its own targets best: the targets belong together, one joint's with another's.
 CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates> candidates) {
   for (const JointCandidates& joint : candidates) {
-    const double large_rad = large_target_rad(joint.training);
+    const double limit_rad = correction_limit_rad(joint.training);
     for (const Individual& individual : joint.front) {  // falling fitness: the last one that is bounded stays
       const JointCorrection correction = correction_from(joint.training, individual.tree);
-      if (is_below(correction, large_rad)) robot.corrections[joint.training.joint] = correction;
+      if (is_below(correction, limit_rad)) robot.corrections[joint.training.joint] = correction;
     }
   }
   return robot;
@@ -163,8 +147,17 @@ std::vector<CorrectedRobot> starts_of(const CorrectedRobot& declared, std::span<
 
 }  // namespace
 
+void write_briefly(JointCandidates& candidates, const GpParameters& parameters) {
+  BriefForms forms(candidates.training.table, parameters);
+  candidates.brief.clear();
+  for (const Individual& individual : candidates.front) {
+    candidates.brief.push_back(forms.simplified(individual.tree));
+    candidates.brief.push_back(forms.fitted(candidates.brief.back()));
+  }
+}
+
 bool is_bounded(const JointCorrection& correction, const JointTraining& training) {
-  return is_below(correction, large_target_rad(training));
+  return is_below(correction, correction_limit_rad(training));
 }
 
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,

@@ -6,6 +6,7 @@
 
 #include "calibration/training.hpp"
 #include "evolution/individual.hpp"
+#include "evolution/parameters.hpp"
 
 namespace demecal {
 
@@ -13,6 +14,7 @@ namespace demecal {
 struct JointCandidates {
   JointTraining training;
   Population front;
+  std::vector<Tree> brief{};              ///< what the front comes to, written down briefly
   std::vector<JointCorrection> others{};  ///< corrections from elsewhere, the same place of every joint's belonging
                                           ///< together
 };
@@ -31,18 +33,20 @@ struct Selection {
   std::vector<JointChoice> choices;  ///< one per candidate list, in its order
 };
 
-/// Whether interval arithmetic holds a correction below three times the training's 95th percentile of target errors
-/// over its range, over rows of full weight; in tables of squared errors, over those that count no less than the median
-/// one. What is not (a pole, most often) is not considered (thesis 6.2.2).
+/// Fills in the front's brief forms: simplified, and with constants fitted to the training by least squares.
+void write_briefly(JointCandidates& candidates, const GpParameters& parameters);
+
+/// Whether interval arithmetic holds a correction within its limit (see correction_limit_rad) over its range. What is
+/// not (a pole, most often) is not considered (thesis 6.2.2).
 bool is_bounded(const JointCorrection& correction, const JointTraining& training);
 
 /// Joint by joint, in sweeps until nothing changes: once from all joints neutral, once from all joints with what fits
 /// their own targets best (the targets of a pose belong together), and once from every set of corrections from
-/// elsewhere; whichever ends best. Of a joint's candidates, with the other joints as they stand, the shortest is taken
-/// whose mean squared tool error over the `deciding` poses is within half a standard error (paired, pose by pose) of
-/// the best. It is kept only if it beats the neutral correction by more than two standard errors on these poses and on
-/// the `fitted` ones too, and the whole never does worse on the deciding poses than no correction. A candidate that is
-/// not bounded is not considered. `deciding` holds validation poses; the calibration poses where there are none.
+/// elsewhere; whichever ends best. Of a joint's candidates, with the other joints as they stand, that is taken which,
+/// with the tool errors it leaves at the `deciding` poses, is described in the fewest nats (see message_nats). It is
+/// kept only if it beats the neutral correction by more than two standard errors on these poses and on the `fitted`
+/// ones too, and the whole never does worse on the deciding poses than no correction. A candidate that is not bounded
+/// is not considered. `deciding` holds validation poses; the calibration poses where there are none.
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
                              std::span<const std::size_t> deciding, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates);

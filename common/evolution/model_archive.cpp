@@ -5,8 +5,6 @@
 #include <numeric>
 
 #include "errors/check.hpp"
-#include "expression/simplify.hpp"
-
 namespace demecal {
 namespace {
 
@@ -26,15 +24,9 @@ TrainingTable joined(TrainingTable rows, const TrainingTable& more) {
 
 }  // namespace
 
-double message_nats(const Tree& tree, double square, double rows) {
-  double nats = 0.5 * rows * std::log(square);
-  for (const Node& node : tree) nats += node.primitive == Primitive::constant ? 1.0 + 0.5 * std::log(rows) : 1.0;
-  return nats;
-}
-
 ModelArchive::ModelArchive(const TrainingTable& training, const TrainingTable& validation,
                            const GpParameters& parameters)
-    : fit_(training, parameters),
+    : brief_(training, parameters),
       rows_(joined(training, validation)),
       weights_(std::accumulate(rows_.weight.begin(), rows_.weight.end(), 0.0)),
       evaluate_(rows_.variables) {}
@@ -60,11 +52,10 @@ void ModelArchive::offer(const Population& front) {
   for (const Individual& member : front) {
     offered.emplace_back(member.tree.size(), member.fitness);
     if (std::binary_search(last_.begin(), last_.end(), offered.back())) continue;
-    const Tree tree = simplified(member.tree);
+    const Tree tree = brief_.simplified(member.tree);
     const double square = offer(tree);
     if (front_.members().empty() || square > kNear * front_.members().back().fitness) continue;
-    NodeStore store;
-    offer(store.tree(fit_.by_squares(store, store.enter(tree)).root));
+    offer(brief_.fitted(tree));
   }
   last_ = std::move(offered);
 }

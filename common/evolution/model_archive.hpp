@@ -4,14 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "evolution/constant_fit.hpp"
+#include "evolution/brief_forms.hpp"
 #include "evolution/individual.hpp"
 
 namespace demecal {
-
-/// Nats that it takes to write down the errors, normal and of unknown size, of a formula with mean square `square` over
-/// `rows` rows, and the formula: one for every node and log(rows) / 2 more for every constant (after Rissanen 1978).
-double message_nats(const Tree& tree, double square, double rows);
 
 /// Keeps the best formula of each length by its weighted mean squared error over the rows that evolution learnt from
 /// and as many as it never saw: for the ones a formula may be fitted too well, for the others only chosen too well.
@@ -32,7 +28,7 @@ class ModelArchive {
   double mean_square(const Tree& tree);
   double offer(const Tree& tree);
 
-  ConstantFit fit_;
+  BriefForms brief_;
   TrainingTable rows_;
   double weights_ = 0.0;
   ColumnEvaluator evaluate_;
