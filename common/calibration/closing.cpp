@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/shortened.hpp"
 #include "diagnosis/final_fit.hpp"
 #include "fitting/scatter.hpp"
 
@@ -87,17 +88,19 @@ void tidy(DiagnosedModel& model) {
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
                            const DiagnosedModel& model) {
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
-  Calibration result{
-      .robot = model.robot, .estimates = estimates_of(data, declared, model), .joints = {}, .unseen = {}};
+  Calibration result{.robot = with_shortened_corrections(model.robot),
+                     .estimates = estimates_of(data, declared, model),
+                     .joints = {},
+                     .unseen = {}};
   JointTargets now;
-  if (has_corrections(model.robot)) now = joint_targets(data, fitted, without_corrections(model.robot));
-  result.joints = joint_summaries(preparation.targets, now, model.robot);
+  if (has_corrections(result.robot)) now = joint_targets(data, fitted, without_corrections(result.robot));
+  result.joints = joint_summaries(preparation.targets, now, result.robot);
   for (JointSummary& summary : result.joints) {
     if (summary.kept) continue;
     summary.note = why_neutral(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
   }
   result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
-  result.index_after_mm2 = performance_index_mm2(model.robot, data, fitted);
+  result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);
   return result;
 }
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "calibration/calibration.hpp"
+#include "calibration/shortened.hpp"
 #include "effects/measurement.hpp"
-#include "expression/simplify.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
@@ -15,19 +15,6 @@ std::string why_neutral(const Job& job, const Selection& selection, const DataSe
     if (choice.joint == joint) return "no evolved correction earned its place on the validation poses";
   }
   return "the joint hardly moves over the calibration poses";
-}
-
-/// Corrections with the scale of their training taken into what is left of them, over their data and all their range.
-void shorten_corrections(std::span<const JointCandidates> candidates, CorrectedRobot& robot) {
-  constexpr int kGrid = 512;
-  for (const JointCandidates& joint : candidates) {
-    JointCorrection& correction = robot.corrections[joint.training.joint];
-    if (correction.is_neutral()) continue;
-    std::vector<std::vector<double>> angles_rad = joint.training.table.variables;
-    const auto [lower, upper] = correction.range_rad();
-    for (int i = 0; i <= kGrid; ++i) angles_rad[0].push_back(std::lerp(lower, upper, static_cast<double>(i) / kGrid));
-    correction = {simplified_over(correction.formula(), angles_rad), correction.branch(), correction.range_rad()};
-  }
 }
 
 /// The declared numbers fitted again with the corrections in place, where the deciding poses agree.
@@ -65,8 +52,10 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
   const std::vector<std::size_t> deciding = deciding_poses(data);
   const Selection selection = select_corrections(data, fitted, deciding, preparation.declared.robot, candidates);
-  Calibration result{.robot = selection.robot, .estimates = preparation.declared.estimates, .joints = {}, .unseen = {}};
-  shorten_corrections(candidates, result.robot);
+  Calibration result{.robot = with_shortened_corrections(selection.robot),
+                     .estimates = preparation.declared.estimates,
+                     .joints = {},
+                     .unseen = {}};
   bool any = false;
   for (const JointChoice& choice : selection.choices) any = any || choice.kept;
   if (any) refit(data, job, deciding, options, result);
