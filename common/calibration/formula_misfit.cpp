@@ -1,5 +1,6 @@
 #include "calibration/formula_misfit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,13 @@ namespace {
 
 constexpr int kTurnAboutZ = 5;
 constexpr double kNewShare = 1e-5;  ///< of a column's square: less of it beyond the model is rounding
+
+/// A constant and the functions up to ABS or, in formulas that have others, all functions.
+double words_for(const Tree& tree) {
+  const auto is_later = [](const Node& node) { return node.primitive > Primitive::absolute; };
+  const auto last = std::ranges::any_of(tree, is_later) ? kPrimitives.back().primitive : Primitive::absolute;
+  return static_cast<double>(last);
+}
 
 bool is_round(double value) {
   return std::abs(2.0 * value - std::round(2.0 * value)) < 1e-12;
@@ -92,7 +100,7 @@ double FormulaMisfit::gain_nats(const Tree& tree) {
 }
 
 double description_nats(const Tree& tree, int variables, std::size_t poses) {
-  const double word = std::log(static_cast<double>(kPrimitives.size()) - 1.0 + variables);
+  const double word = std::log(words_for(tree) + variables);
   double nats = 0.0;
   for (const Node& node : tree) {
     nats += word;

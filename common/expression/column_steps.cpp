@@ -49,6 +49,9 @@ constexpr auto add = [](double a, double b) { return a + b; };
 constexpr auto subtract = [](double a, double b) { return a - b; };
 constexpr auto multiply = [](double a, double b) { return a * b; };
 constexpr auto divide = [](double a, double b) { return protected_divide(a, b); };
+constexpr auto minimum = [](double a, double b) { return lesser_of(a, b); };
+constexpr auto maximum = [](double a, double b) { return greater_of(a, b); };
+constexpr auto square = [](double x) { return x * x; };
 constexpr auto absolute = [](double x) { return std::abs(x); };
 
 }  // namespace
@@ -134,6 +137,39 @@ void run(std::span<const Step> steps, std::size_t begin, std::size_t rows) {
         break;
       case code_of(Primitive::absolute, Form::column):
         unary(left, out, rows, absolute);
+        break;
+      case code_of(Primitive::minimum, Form::column):
+        binary(left, right, out, rows, minimum);
+        break;
+      case code_of(Primitive::minimum, Form::column_constant):
+        unary(left, out, rows, with_right(minimum, constant));
+        break;
+      case code_of(Primitive::minimum, Form::constant_column):
+        unary(left, out, rows, with_left(minimum, constant));
+        break;
+      case code_of(Primitive::maximum, Form::column):
+        binary(left, right, out, rows, maximum);
+        break;
+      case code_of(Primitive::maximum, Form::column_constant):
+        unary(left, out, rows, with_right(maximum, constant));
+        break;
+      case code_of(Primitive::maximum, Form::constant_column):
+        unary(left, out, rows, with_left(maximum, constant));
+        break;
+      case code_of(Primitive::logarithm, Form::column):
+        unary(left, out, rows, inline_protected_logarithm);
+        break;
+      case code_of(Primitive::exponential, Form::column):
+        unary(left, out, rows, inline_bounded_exponential);
+        break;
+      case code_of(Primitive::hyperbolic_tangent, Form::column):
+        unary(left, out, rows, inline_hyperbolic_tangent);
+        break;
+      case code_of(Primitive::arc_tangent, Form::column):
+        unary(left, out, rows, inline_arc_tangent);
+        break;
+      case code_of(Primitive::square, Form::column):
+        unary(left, out, rows, square);
         break;
       default:
         break;

@@ -191,6 +191,13 @@ const double* ConstantModel::negated(const double* column) {
   return emit(Primitive::multiply, {column, 0.0, false}, {nullptr, -1.0, false});
 }
 
+// 1 where a column is above 0, 0 where it is below.
+const double* ConstantModel::share_of(const double* column) {
+  const double* const sign = emit(Primitive::sign, {column, 0.0, false});
+  const double* const from_zero = emit(Primitive::add, {nullptr, 1.0, false}, {sign, 0.0, false});
+  return emit(Primitive::multiply, {nullptr, 0.5, false}, {from_zero, 0.0, false});
+}
+
 void ConstantModel::send(std::uint32_t part, const double* slope) {
   const double*& sum = parts_[part].slope;
   sum = sum == nullptr ? slope : emit(Primitive::add, {sum, 0.0, false}, {slope, 0.0, false});
@@ -251,6 +258,45 @@ void ConstantModel::sweep_back(const Part& part) {
     case Primitive::absolute:
       send(part.left, product(slope, column(emit(Primitive::sign, left))));
       break;
+    case Primitive::logarithm: {
+      const double* const nonzero = emit(Primitive::absolute, column(emit(Primitive::sign, left)));
+      send(part.left, product(column(emit(Primitive::divide, slope, left)), column(nonzero)));
+      break;
+    }
+    case Primitive::exponential: {
+      const double* const size = emit(Primitive::absolute, left);
+      const double* const room = emit(Primitive::subtract, {nullptr, kLargestExponent, false}, column(size));
+      const double* const rate = product(column(share_of(room)), part.value);
+      send(part.left, product(slope, column(rate)));
+      break;
+    }
+    case Primitive::hyperbolic_tangent: {
+      const double* const squared = emit(Primitive::square, part.value);
+      const double* const rate = emit(Primitive::subtract, {nullptr, 1.0, false}, column(squared));
+      send(part.left, product(slope, column(rate)));
+      break;
+    }
+    case Primitive::arc_tangent: {
+      const double* const squared = emit(Primitive::square, left);
+      const double* const rate = emit(Primitive::add, {nullptr, 1.0, false}, column(squared));
+      send(part.left, emit(Primitive::divide, slope, column(rate)));
+      break;
+    }
+    case Primitive::square: {
+      const double* const twice = emit(Primitive::add, left, left);
+      send(part.left, product(slope, column(twice)));
+      break;
+    }
+    case Primitive::minimum:
+    case Primitive::maximum: {
+      const bool least = part.primitive == Primitive::minimum;
+      const double* const ahead = emit(Primitive::subtract, least ? right : left, least ? left : right);
+      const double* const share = share_of(ahead);
+      if (to_left) send(part.left, product(slope, column(share)));
+      if (to_right)
+        send(part.right, product(slope, column(emit(Primitive::subtract, {nullptr, 1.0, false}, column(share)))));
+      break;
+    }
     default:
       jumps_ = true;
   }

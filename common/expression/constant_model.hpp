@@ -79,6 +79,7 @@ class ConstantModel {
   const double* emit(Primitive primitive, const Operand& argument);
   const double* emit(Primitive primitive, const Operand& left, const Operand& right);
   const double* negated(const double* column);
+  const double* share_of(const double* column);
 
   PaddedColumns columns_;
   std::size_t strip_rows_;

@@ -51,7 +51,10 @@ Tree quotient(const Tree& a, const Tree& b) {
 }
 
 Tree call(Primitive function, const Tree& argument) {
-  if (is_constant(argument)) return constant_tree(value_of(function, argument.front().value));
+  if (is_constant(argument)) {
+    const double value = value_of(function, argument.front().value);
+    if (std::isfinite(value)) return constant_tree(value);
+  }
   return apply(function, argument);
 }
 
@@ -72,6 +75,19 @@ Tree slope_of_root(const Piece& x, const Tree& value) {
   return product(call(Primitive::sign, x.value), quotient(x.slope, sum(value, value)));
 }
 
+// 1 where a tree is above 0, 0 where it is below.
+Tree share_of(const Tree& tree) {
+  return product(constant_tree(0.5), sum(constant_tree(1.0), call(Primitive::sign, tree)));
+}
+
+Piece lesser(Primitive function, const Piece& f, const Piece& g) {
+  if (f.value == g.value) return f;
+  const Tree ahead = function == Primitive::minimum ? difference(g.value, f.value) : difference(f.value, g.value);
+  const Tree share = share_of(ahead);
+  return {folded(function, f.value, g.value),
+          sum(product(share, f.slope), product(difference(constant_tree(1.0), share), g.slope))};
+}
+
 Piece called(Primitive function, const Piece& x) {
   const Tree value = call(function, x.value);
   if (is_constant(value) || is(x.slope, 0.0)) return {value, constant_tree(0.0)};
@@ -84,6 +100,20 @@ Piece called(Primitive function, const Piece& x) {
       return {value, slope_of_root(x, value)};
     case Primitive::absolute:
       return {value, product(call(Primitive::sign, x.value), x.slope)};
+    case Primitive::logarithm: {
+      const Tree sign = call(Primitive::sign, x.value);
+      return {value, product(sign, quotient(x.slope, product(sign, x.value)))};
+    }
+    case Primitive::exponential: {
+      const Tree room = difference(constant_tree(kLargestExponent), call(Primitive::absolute, x.value));
+      return {value, product(product(share_of(room), value), x.slope)};
+    }
+    case Primitive::hyperbolic_tangent:
+      return {value, product(difference(constant_tree(1.0), call(Primitive::square, value)), x.slope)};
+    case Primitive::arc_tangent:
+      return {value, quotient(x.slope, sum(constant_tree(1.0), call(Primitive::square, x.value)))};
+    case Primitive::square:
+      return {value, product(product(constant_tree(2.0), x.value), x.slope)};
     default:
       return {value, constant_tree(0.0)};
   }
@@ -97,6 +127,9 @@ Piece joined(Primitive function, const Piece& f, const Piece& g) {
       return {difference(f.value, g.value), difference(f.slope, g.slope)};
     case Primitive::multiply:
       return {product(f.value, g.value), sum(product(f.slope, g.value), product(f.value, g.slope))};
+    case Primitive::minimum:
+    case Primitive::maximum:
+      return lesser(function, f, g);
     default: {
       const Tree value = quotient(f.value, g.value);
       if (is_constant(value)) return {value, constant_tree(0.0)};

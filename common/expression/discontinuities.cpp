@@ -17,12 +17,12 @@ double at(std::span<const Node> tree, double x) {
   return evaluate(tree, std::span<const double>(&x, 1));
 }
 
-// The subtrees at whose zeros a formula can jump: arguments of SIGN and divisors.
+// The subtrees at whose zeros a formula can jump: arguments of SIGN and LOGp, and divisors.
 std::vector<std::span<const Node>> switches(std::span<const Node> tree) {
   std::vector<std::span<const Node>> found;
   for (std::size_t i = 0; i < tree.size(); ++i) {
     std::size_t begin = 0;
-    if (tree[i].primitive == Primitive::sign) begin = i + 1;
+    if (tree[i].primitive == Primitive::sign || tree[i].primitive == Primitive::logarithm) begin = i + 1;
     if (tree[i].primitive == Primitive::divide) begin = subtree_end(tree, i + 1);
     if (begin != 0) found.push_back(tree.subspan(begin, subtree_end(tree, begin) - begin));
   }

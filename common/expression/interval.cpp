@@ -78,6 +78,23 @@ Interval image_of_root(const Interval& x) {
   return outward(holds(x, 0.0) ? 0.0 : std::min(at_lower, at_upper), std::max(at_lower, at_upper));
 }
 
+// What a rising function is between its values at the ends, each of which errs by a few units in the last place.
+Interval rising(double at_lower, double at_upper) {
+  constexpr double kSlack = 8.0 * std::numeric_limits<double>::epsilon();
+  return {at_lower - kSlack * std::abs(at_lower), at_upper + kSlack * std::abs(at_upper)};
+}
+
+Interval image_of_logarithm(const Interval& x) {
+  const Interval size = image_of_size(x);
+  const double greatest = protected_logarithm(size.upper);
+  if (size.lower == 0.0) return {-kInfinity, std::max(0.0, rising(greatest, greatest).upper)};
+  return rising(protected_logarithm(size.lower), greatest);
+}
+
+Interval within(const Interval& values, double lower, double upper) {
+  return {std::max(lower, values.lower), std::min(upper, values.upper)};
+}
+
 }  // namespace
 
 Interval unbounded() {
@@ -105,6 +122,16 @@ Interval image(Primitive function, const Interval& x) {
       return image_of_root(x);
     case Primitive::absolute:
       return image_of_size(x);
+    case Primitive::logarithm:
+      return image_of_logarithm(x);
+    case Primitive::exponential:
+      return rising(bounded_exponential(x.lower), bounded_exponential(x.upper));
+    case Primitive::hyperbolic_tangent:
+      return within(rising(hyperbolic_tangent(x.lower), hyperbolic_tangent(x.upper)), -1.0, 1.0);
+    case Primitive::arc_tangent:
+      return rising(arc_tangent(x.lower), arc_tangent(x.upper));
+    case Primitive::square:
+      return image_of_twins(Primitive::multiply, x);
     default:
       return unbounded();
   }
@@ -121,6 +148,10 @@ Interval image(Primitive function, const Interval& left, const Interval& right) 
       return hull_of_corners(left, right, [](double x, double y) { return x * y; });
     case Primitive::divide:
       return quotient(left, right);
+    case Primitive::minimum:
+      return {std::min(left.lower, right.lower), std::min(left.upper, right.upper)};
+    case Primitive::maximum:
+      return {std::max(left.lower, right.lower), std::max(left.upper, right.upper)};
     default:
       return unbounded();
   }
@@ -136,6 +167,9 @@ Interval image_of_twins(Primitive function, const Interval& x) {
       const Interval size = image_of_size(x);
       return image(Primitive::multiply, size, size);
     }
+    case Primitive::minimum:
+    case Primitive::maximum:
+      return x;
     default:
       return image(function, x, x);
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "expression/exponential.hpp"
 #include "expression/sine.hpp"
 
 namespace demecal {
@@ -23,7 +24,14 @@ enum class Primitive : std::uint8_t {
   cosine,
   sign,
   square_root,  // SIN COS SIGN SQRTp
-  absolute      // ABS
+  absolute,     // ABS
+  logarithm,
+  exponential,
+  hyperbolic_tangent,
+  arc_tangent,  // LOGp EXPb TANH ATAN
+  square,
+  minimum,
+  maximum  // SQUARE MIN MAX
 };
 
 struct PrimitiveTraits {
@@ -32,7 +40,7 @@ struct PrimitiveTraits {
   std::string_view symbol;  ///< as printed in the thesis's notation; empty for terminals
 };
 
-inline constexpr std::array<PrimitiveTraits, 11> kPrimitives{{
+inline constexpr std::array<PrimitiveTraits, 18> kPrimitives{{
     {Primitive::constant, 0, ""},
     {Primitive::variable, 0, ""},
     {Primitive::add, 2, "+"},
@@ -44,6 +52,13 @@ inline constexpr std::array<PrimitiveTraits, 11> kPrimitives{{
     {Primitive::sign, 1, "SIGN"},
     {Primitive::square_root, 1, "SQRTp"},
     {Primitive::absolute, 1, "ABS"},
+    {Primitive::logarithm, 1, "LOGp"},
+    {Primitive::exponential, 1, "EXPb"},
+    {Primitive::hyperbolic_tangent, 1, "TANH"},
+    {Primitive::arc_tangent, 1, "ATAN"},
+    {Primitive::square, 1, "SQUARE"},
+    {Primitive::minimum, 2, "MIN"},
+    {Primitive::maximum, 2, "MAX"},
 }};
 
 constexpr const PrimitiveTraits& traits(Primitive primitive) {
@@ -66,6 +81,14 @@ inline double protected_square_root(double x) {
 inline double sign_of(double x) {
   return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x);
 }
+/// The lesser of two, and the greater; not a number where one of them is none, lest a failed evaluation look like a
+/// value.
+inline double lesser_of(double a, double b) {
+  return a < b || a != a ? a : b;
+}
+inline double greater_of(double a, double b) {
+  return a > b || a != a ? a : b;
+}
 
 /// The value of a function of one argument; 0 for primitives of another arity.
 inline double value_of(Primitive function, double argument) {
@@ -80,6 +103,16 @@ inline double value_of(Primitive function, double argument) {
       return protected_square_root(argument);
     case Primitive::absolute:
       return std::abs(argument);
+    case Primitive::logarithm:
+      return protected_logarithm(argument);
+    case Primitive::exponential:
+      return bounded_exponential(argument);
+    case Primitive::hyperbolic_tangent:
+      return hyperbolic_tangent(argument);
+    case Primitive::arc_tangent:
+      return arc_tangent(argument);
+    case Primitive::square:
+      return argument * argument;
     default:
       return 0.0;
   }
@@ -95,6 +128,10 @@ inline double value_of(Primitive function, double left, double right) {
       return left * right;
     case Primitive::divide:
       return protected_divide(left, right);
+    case Primitive::minimum:
+      return lesser_of(left, right);
+    case Primitive::maximum:
+      return greater_of(left, right);
     default:
       return 0.0;
   }

@@ -25,7 +25,8 @@ bool is_square(const Tree& tree) {
   return Tree(tree.begin() + 1, second) == Tree(second, tree.end());
 }
 bool is_never_negative(const Tree& tree) {
-  return is(tree, Primitive::absolute) || is(tree, Primitive::square_root) || is_square(tree);
+  return is(tree, Primitive::absolute) || is(tree, Primitive::square_root) || is(tree, Primitive::square) ||
+         is(tree, Primitive::exponential) || is_square(tree);
 }
 
 Tree sum(Tree a, Tree b) {
@@ -66,8 +67,10 @@ Tree joined(Primitive function, Tree a, Tree b) {
       return difference(std::move(a), std::move(b));
     case Primitive::multiply:
       return product(std::move(a), std::move(b));
-    default:
+    case Primitive::divide:
       return quotient(std::move(a), std::move(b));
+    default:
+      return a == b ? a : apply(function, a, b);
   }
 }
 
@@ -77,7 +80,9 @@ Tree called(Primitive function, Tree a) {
     if (std::isfinite(value)) return constant_tree(value);
   }
   if (function == Primitive::absolute && is_never_negative(a)) return a;
-  if (function == Primitive::square_root && is(a, Primitive::absolute)) a.erase(a.begin());
+  const bool takes_sizes =
+      function == Primitive::square_root || function == Primitive::logarithm || function == Primitive::square;
+  if (takes_sizes && is(a, Primitive::absolute)) a.erase(a.begin());
   if (function == Primitive::sign && is(a, Primitive::sign)) return a;
   return apply(function, std::move(a));
 }

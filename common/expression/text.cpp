@@ -32,7 +32,13 @@ std::string written(double constant) {
   return {digits.data(), end.ptr};
 }
 
+bool is_operator(const PrimitiveTraits& function) {
+  return function.arity == 2 && std::isalpha(static_cast<unsigned char>(function.symbol.front())) == 0;
+}
+
 Written joined(Primitive function, Written left, Written right) {
+  if (!is_operator(traits(function)))
+    return {std::string(traits(function).symbol) + "(" + left.text + ", " + right.text + ")"};
   const Precedence own = precedence_of(function);
   if (left.precedence < own) left.text = "(" + left.text + ")";
   // Operators bind from the left, and even a sum's order counts: rounding makes a + (b + c) another value.
@@ -77,7 +83,7 @@ class Parser {
   std::optional<Primitive> operator_of(Precedence precedence) {
     const char character = next();
     for (const PrimitiveTraits& operation : kPrimitives) {
-      if (operation.arity == 2 && operation.symbol.front() == character &&
+      if (is_operator(operation) && operation.symbol.front() == character &&
           precedence_of(operation.primitive) == precedence) {
         ++at_;
         return operation.primitive;
@@ -117,6 +123,17 @@ class Parser {
     return tree;
   }
 
+  Tree call_of_two(Primitive function) {
+    if (++nesting_ > kDeepestNesting) fail("no more than " + std::to_string(kDeepestNesting) + " nested parentheses");
+    take('(', "'('");
+    const Tree left = chain(Precedence::sum);
+    take(',', "an operator (+ - * %) or ','");
+    const Tree right = chain(Precedence::sum);
+    take(')', "an operator (+ - * %) or ')'");
+    --nesting_;
+    return apply(function, left, right);
+  }
+
   Tree number() {
     const bool negative = text_[at_] == '-';
     if (negative) ++at_;
@@ -137,10 +154,10 @@ class Parser {
     while (end < text_.size() && (text_[end] == '_' || std::isalnum(static_cast<unsigned char>(text_[end])))) ++end;
     const std::string_view name = text_.substr(begin, end - begin);
     for (const PrimitiveTraits& function : kPrimitives) {
-      if (function.arity == 1 && function.symbol == name) {
+      if (function.arity != 0 && !is_operator(function) && function.symbol == name) {
         at_ = end;
         if (next() != '(') fail("'(' after " + std::string(name));
-        return apply(function.primitive, parenthesis());
+        return function.arity == 1 ? apply(function.primitive, parenthesis()) : call_of_two(function.primitive);
       }
     }
     const auto found = std::find(names_.begin(), names_.end(), name);
@@ -153,7 +170,7 @@ class Parser {
     std::string list;
     for (const std::string& name : names_) list += name + " ";
     for (const PrimitiveTraits& function : kPrimitives) {
-      if (function.arity == 1) list.append(function.symbol).append(" ");
+      if (function.arity != 0 && !is_operator(function)) list.append(function.symbol).append(" ");
     }
     list.pop_back();
     return list;

@@ -1,4 +1,5 @@
-// Formulas as text in the thesis's notation (theta, + - * %, SIN COS SIGN SQRTp), written and read back to the bit.
+// Formulas as text in the thesis's notation (theta, + - * %, SIN COS SIGN SQRTp, and later ones), written and read back
+// to the bit.
 #pragma once
 
 #include <span>

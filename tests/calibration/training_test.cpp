@@ -55,6 +55,33 @@ TEST(Training, AJointThatStandsStillGetsNoTable) {
   for (const JointTraining& training : training_tables(puma(), targets)) EXPECT_NE(training.joint, 3U);
 }
 
+TEST(Training, SeedsAreTheSameCorrectionsInUnitsOfTheScale) {
+  const CorrectionOptions options{
+      0.004, {{SeedFormula::kEveryJoint, parse("0.002 * SIN(theta)")}, {2, parse("COS(theta) * 0.001")}}};
+  for (const JointTraining& training : training_tables(puma(), some_targets(1e-3), options)) {
+    const std::vector<Tree>& seeds = training.table.seeds;
+    ASSERT_EQ(seeds.size(), training.joint == 2 ? 2U : 1U);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const JointCorrection correction = correction_from(training, seeds[i]);
+      const double theta = 0.5 * (training.range_rad.lower + training.range_rad.upper);
+      EXPECT_NEAR(correction(theta), evaluate(options.seeds[i].formula, {&theta, 1}), 1e-15);
+    }
+  }
+}
+
+TEST(Training, LimitsFormulasToThreeTimesLargeTargetsAndToWhatTheUserAllows) {
+  const JointTargets targets = some_targets(1e-3);
+  const std::vector<JointTraining> free = training_tables(puma(), targets);
+  const std::vector<JointTraining> tight = training_tables(puma(), targets, {1e-4, {}});
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    double largest = 0.0;
+    for (const double target : free[i].table.target) largest = std::max(largest, std::abs(target));
+    EXPECT_GT(free[i].table.limit, 1.0);
+    EXPECT_LE(free[i].table.limit, 3.0 * largest);
+    EXPECT_NEAR(tight[i].table.limit * tight[i].scale_rad, 1e-4, 1e-15);
+  }
+}
+
 TEST(Training, CorrectionIsTheEvolvedTreeTimesTheScale) {
   const JointTraining training = training_tables(puma(), some_targets(1e-3))[1];
   const Tree evolved = parse("SIN(theta)+0.25");

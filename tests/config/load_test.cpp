@@ -124,6 +124,46 @@ TEST(LoadJob, ReadsHowConstantsAreFitted) {
   EXPECT_TRUE(job.gp.linear_scaling);
 }
 
+TEST(LoadJob, ReadsHowEvolutionKeepsItsVariety) {
+  const Samples samples;
+  const char* const kText =
+      "demecal_job: 1\ndata: d.yaml\n"
+      "gp: {no_duplicates: true, restart_after: 5, functions: [\"+\", TANH, MAX], function_weights: [1, 2, 0.5]}\n"
+      "islands: {replacement: random, spread: 0.4}\n";
+  const Job job = load_job(samples.folder.write("varied.yaml", kText));
+  EXPECT_TRUE(job.gp.no_duplicates);
+  EXPECT_EQ(job.gp.restart_after, 5);
+  EXPECT_THAT(job.gp.functions, ElementsAre(Primitive::add, Primitive::hyperbolic_tangent, Primitive::maximum));
+  EXPECT_THAT(job.gp.function_weights, ElementsAre(1.0, 2.0, 0.5));
+  EXPECT_EQ(job.islands.replacement, Replacement::random);
+  EXPECT_EQ(job.islands.spread, 0.4);
+}
+
+TEST(LoadJob, ReadsWhatIsAskedOfCorrections) {
+  const Samples samples;
+  const char* const kText =
+      "demecal_job: 1\ndata: d.yaml\n"
+      "gp: {largest_correction_mrad: 5, seed_formulas: [\"0.002 * SIN(theta)\", {joint: 2, expression: theta}]}\n";
+  const Job job = load_job(samples.folder.write("seeded.yaml", kText));
+  EXPECT_DOUBLE_EQ(job.corrections.largest_rad, 0.005);
+  ASSERT_EQ(job.corrections.seeds.size(), 2u);
+  EXPECT_EQ(job.corrections.seeds[0].joint, SeedFormula::kEveryJoint);
+  EXPECT_EQ(job.corrections.seeds[0].formula.size(), 4u);
+  EXPECT_EQ(job.corrections.seeds[1].joint, 1);
+  EXPECT_EQ(job.corrections.seeds[1].formula, variable_tree(0));
+}
+
+TEST(LoadJob, RefusesSeedsThatAreNoFormulasOrHaveNoPlace) {
+  const Samples samples;
+  for (const char* const rest :
+       {"gp: {seed_formulas: [\"SIN(\"]}\n", "gp: {seed_formulas: [{joint: 0, expression: theta}]}\n",
+        "gp: {seed_models: [nowhere.yaml]}\n", "gp: {largest_correction_mrad: 0}\n", "gp: {function_weights: [1, 2]}\n",
+        "islands: {spread: 1.5}\n", "gp: {seed_formulas: [theta]}\nmethod: distal\ndistal: {form: sequential}\n"}) {
+    const std::string text = std::string("demecal_job: 1\ndata: d.yaml\n") + rest;
+    EXPECT_THROW(load_job(samples.folder.write("refused.yaml", text)), InputError) << rest;
+  }
+}
+
 TEST(LoadJob, DeclaresByTheSameWordsFromACommandLine) {
   const std::vector<std::string> words{"tool", "joint_corrections"};
   const DeclaredModel declared = declared_of(words);

@@ -89,18 +89,23 @@ TEST(Text, ReadsAModelPrintedInTheThesis) {
 }
 
 TEST(Text, NamesTheColumnAndWhatWasExpectedThere) {
-  EXPECT_EQ(rule_of(""), "column 1: expected a number, theta SIN COS SIGN SQRTp ABS or '('");
-  EXPECT_EQ(rule_of("theta + "), "column 9: expected a number, theta SIN COS SIGN SQRTp ABS or '('");
+  EXPECT_EQ(rule_of(""),
+            "column 1: expected a number, theta SIN COS SIGN SQRTp ABS LOGp EXPb TANH ATAN SQUARE MIN MAX or '('");
+  EXPECT_EQ(rule_of("theta + "),
+            "column 9: expected a number, theta SIN COS SIGN SQRTp ABS LOGp EXPb TANH ATAN SQUARE MIN MAX or '('");
   EXPECT_EQ(rule_of("theta theta"), "column 7: expected an operator (+ - * %) or the end");
   EXPECT_EQ(rule_of("theta / 2"), "column 7: expected an operator (+ - * %) or the end");
   EXPECT_EQ(rule_of("(theta"), "column 7: expected an operator (+ - * %) or ')'");
   EXPECT_EQ(rule_of("theta)"), "column 6: expected an operator (+ - * %) or the end");
   EXPECT_EQ(rule_of("SIN theta"), "column 5: expected '(' after SIN");
   EXPECT_EQ(rule_of("-theta"), "column 2: expected a number after '-'");
-  EXPECT_EQ(rule_of("1 + Theta"), "column 5: expected theta SIN COS SIGN SQRTp ABS, not Theta");
-  EXPECT_EQ(rule_of("sin(theta)"), "column 1: expected theta SIN COS SIGN SQRTp ABS, not sin");
+  EXPECT_EQ(rule_of("1 + Theta"),
+            "column 5: expected theta SIN COS SIGN SQRTp ABS LOGp EXPb TANH ATAN SQUARE MIN MAX, not Theta");
+  EXPECT_EQ(rule_of("sin(theta)"),
+            "column 1: expected theta SIN COS SIGN SQRTp ABS LOGp EXPb TANH ATAN SQUARE MIN MAX, not sin");
   EXPECT_EQ(rule_of("1e999"), "column 1: expected a number that a double can hold");
-  EXPECT_EQ(rule_of("inf"), "column 1: expected theta SIN COS SIGN SQRTp ABS, not inf");
+  EXPECT_EQ(rule_of("inf"),
+            "column 1: expected theta SIN COS SIGN SQRTp ABS LOGp EXPb TANH ATAN SQUARE MIN MAX, not inf");
   EXPECT_EQ(rule_of("."), "column 1: expected a number");
 }
 
