@@ -44,6 +44,7 @@ RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience pati
     throw;
   }
   end(how == RunEnd::finished ? Control::State::finished : Control::State::cancelled);
+  if (how == RunEnd::interrupted) hear_last_words();
   RunResult result = state_.result(how);
   count_strangers();
   result.waited_share = std::move(waited_share_);
@@ -76,6 +77,16 @@ RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patien
 /// The last figures of an island may come after its outcome; they are worth a moment.
 bool EvolutionRun::waits_for_history() {
   return !state_.all_told() && Clock::now() - last_news_ < kBelated;
+}
+
+/// Workers tell how far their islands are when a run is cancelled.
+void EvolutionRun::hear_last_words() {
+  const Clock::time_point end = Clock::now() + kBelated;
+  while (Clock::now() < end) {
+    const std::optional<Message> message = transport_.receive(kTick);
+    if (!message) return;
+    receive(*message);
+  }
 }
 
 void EvolutionRun::end(Control::State state) {

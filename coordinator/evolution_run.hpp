@@ -68,6 +68,7 @@ class EvolutionRun {
   RunEnd work(const std::atomic<bool>& interrupt, RunPatience patience);
   bool waits_for_history();
   void end(Control::State state);
+  void hear_last_words();
   void receive(const Message& message);
   void take(const WorkerStatus& status);
   void take(const Progress& progress);

@@ -163,6 +163,9 @@ void Worker::take(const Migrants& migrants) {
 
 void Worker::take(const Control& control) {
   if (control.state == Control::State::running) return;
+  if (control.state == Control::State::cancelled)
+    for (const auto& [place, tenancy] : tenancies_)
+      if (place.first == control.run && !busy_.contains(tenancy)) tell_all(*tenancy);
   if (ended_.insert(control.run).second) ended_in_order_.push_back(control.run);
   if (ended_in_order_.size() > kMostEnded) {
     ended_.erase(ended_in_order_.front());

@@ -1,5 +1,6 @@
 #include "transport/dds_writers.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "errors/check.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 
+constexpr std::size_t kMostOver = 64;
 /// What is larger travels in parts.
 constexpr std::size_t kDatagram_bytes = 60'000;
 
@@ -60,8 +62,11 @@ void DdsWriters::send(const Message& message) {
 bool DdsWriters::hold(const TopicKey& key, const Message& message) {
   if (key.topic != Topic::checkpoint) return false;
   std::unique_lock lock(mutex_);
-  const auto last = published_.find(key);
-  const bool in_parts = last != published_.end() && last->second;
+  const auto travels_in_parts = [&key](const Values& values) {
+    const auto last = values.find(key);
+    return last != values.end() && last->second;
+  };
+  const bool in_parts = travels_in_parts(published_) || travels_in_parts(ended_);
   lock.unlock();
   const bool must_wait = in_parts && !have_arrived(place_of(key));
   lock.lock();
@@ -80,7 +85,11 @@ void DdsWriters::write(const TopicKey& key, const Message& message) {
   if (!written) throw std::runtime_error("DDS: cannot write to " + topic_name(key.topic, key.island.joint));
   if (key.run == 0 || key.topic == Topic::control) return;
   const std::lock_guard lock(mutex_);
-  published_[key] = in_parts;
+  if (std::ranges::find(over_, key.run) == over_.end()) {
+    published_[key] = in_parts;
+  } else {
+    ended_[key] = true;  // a last word, which goes again when it has arrived
+  }
 }
 
 /// Whether all this place's values have reached all who read them. To ask for one key alone would not do, since Fast
@@ -92,6 +101,8 @@ bool DdsWriters::have_arrived(Place place) {
 void DdsWriters::withdraw(RunId run) {
   {
     const std::lock_guard lock(mutex_);
+    over_.push_back(run);
+    if (over_.size() > kMostOver) over_.pop_front();
     std::erase_if(published_, [&](const auto& value) {
       if (value.first.run != run) return false;
       ended_.insert(value);

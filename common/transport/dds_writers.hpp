@@ -1,6 +1,7 @@
 // A participant's writers, and what they have said of runs that go on.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -45,6 +46,8 @@ class DdsWriters {
   Values published_;                  ///< those of runs that go on
   Values ended_;                      ///< those of runs that are over
   std::map<TopicKey, Message> held_;  ///< checkpoints that wait
+  std::deque<RunId> over_;  ///< the last ones that were taken back: what is still said of them goes when it has
+                            ///< arrived
 };
 
 }  // namespace demecal

@@ -14,7 +14,7 @@ Job small_job() {
   Job job;
   job.seed = 8;
   job.gp.population_size = 20;
-  job.gp.number_generations = 400;
+  job.gp.number_generations = 1500;
   job.islands = {.per_joint = 3, .topology = Topology::ring, .migration_interval = 1, .migrants = 2};
   return job;
 }
@@ -75,7 +75,7 @@ class Forgetful : public Transport {
     const auto* checkpoint = std::get_if<Checkpoint>(&*message);
     if (checkpoint != nullptr && checkpoint->island == IslandKey{0, 0}) return std::nullopt;
     const auto* progress = std::get_if<Progress>(&*message);
-    if (progress != nullptr && progress->epoch == kMigrantEpochs + 60 && lose_worker_)
+    if (progress != nullptr && progress->epoch == 3 * kMigrantEpochs && lose_worker_)
       std::exchange(lose_worker_, nullptr)();
     return message;
   }

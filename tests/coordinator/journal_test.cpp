@@ -41,7 +41,7 @@ class Recording : public RunObserver {
 RunResult run_recorded(const CalibrationData& data, RunState state, RunJournal& journal) {
   journal.begin(state.data());
   const auto exchange = make_exchange();
-  WorkerThread worker(exchange, "worker");
+  WorkerThread worker(exchange, "worker", 1, kAllCheckpoints);
   const auto transport = join(exchange, Role::coordinator, "coordinator");
   Recording recording(journal);
   const std::atomic<bool> interrupt{false};

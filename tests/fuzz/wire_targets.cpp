@@ -42,8 +42,12 @@ void use(const IslandTask& task) {
   if (find_fault(task, the_run())) return;
   static const auto run = std::make_shared<RunData>(RunData{the_run()});
   Tenancy tenancy(run, task);
-  if (!tenancy.finished()) tenancy.run_epoch({}, [] {});
-  demand(!find_fault(tenancy.migrants(), the_run()), "what an island sends is sound");
+  if (!tenancy.finished()) {
+    tenancy.run_epoch({}, [] {});
+    demand(!find_fault(tenancy.last_migrants(), the_run()), "what an island sends is sound");
+    const auto progress = tenancy.due_progress("w", std::chrono::milliseconds(0));
+    demand(progress && !find_fault(*progress, the_run()), "what an island tells is sound");
+  }
   demand(!find_fault(tenancy.outcome("w"), the_run()) || !tenancy.finished(), "what an island ends with is sound");
 }
 
