@@ -123,7 +123,11 @@ DeclaredModel declared_of(std::span<const std::string> words) {
 }
 
 Job load_job(const std::filesystem::path& path) {
-  const YamlNode root = read_yaml(path);
+  return read_job(read_yaml(path));
+}
+
+Job read_job(const YamlNode& root) {
+  const std::filesystem::path path = root.file;
   root.of_version("job", 1).with_keys(
       {"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop", "distal"});
   Job job;

@@ -45,7 +45,7 @@ const YamlNode& YamlNode::with_keys(std::span<const std::string> allowed) const 
   require_map(*this);
   for (const YamlNode& child : children) {
     if (std::find(allowed.begin(), allowed.end(), child.name) != allowed.end()) continue;
-    throw InputError({file, child.line}, child.name,
+    throw InputError({child.file, child.line}, child.name,
                      "is no key" + (key.empty() ? "" : " of " + key) + "; the nearest is '" +
                          nearest_name(child.name, allowed) + "'");
   }

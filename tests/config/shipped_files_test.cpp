@@ -8,6 +8,7 @@
 #include "config/load_job.hpp"
 #include "config/load_robot.hpp"
 #include "config/load_scenario.hpp"
+#include "config/study_grid.hpp"
 #include "config/write_data_set.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "temporary_folder.hpp"
@@ -29,7 +30,7 @@ std::vector<std::filesystem::path> yaml_files(const std::filesystem::path& folde
 }
 
 TEST(ShippedFiles, SayWhatTheyAreForInTheirFirstLine) {
-  for (const char* folder : {"robots", "jobs", "scenarios", "preparation", "matrices"}) {
+  for (const char* folder : {"robots", "jobs", "grids", "scenarios", "preparation", "matrices"}) {
     for (const auto& file : yaml_files(kSource / "configs" / folder)) {
       std::ifstream stream(file);
       std::string line;
@@ -48,6 +49,14 @@ TEST(ShippedFiles, RobotsLoad) {
 TEST(ShippedFiles, JobsAndScenariosLoad) {
   for (const auto& file : yaml_files(kSource / "configs/jobs")) EXPECT_NO_THROW(load_job(file)) << file;
   for (const auto& file : yaml_files(kSource / "configs/scenarios")) EXPECT_NO_THROW(load_scenario(file)) << file;
+}
+
+TEST(ShippedFiles, GridsAreValidOnTheDemoJob) {
+  const auto files = yaml_files(kSource / "configs/grids");
+  EXPECT_FALSE(files.empty());
+  for (const auto& file : files) {
+    EXPECT_GT(grid_cells(kSource / "configs/jobs/demo.yaml", load_grid(file)).size(), 1u) << file;
+  }
 }
 
 TEST(ShippedFiles, ScenariosCanBeMeasuredAndReadBack) {
