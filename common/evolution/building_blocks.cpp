@@ -126,6 +126,11 @@ bool stands_alone(const Holders& holders) {
                       [&](const auto& within) { return within.second == holders.individuals; });
 }
 
+std::size_t functions_in(const Tree& form) {
+  return static_cast<std::size_t>(
+      std::count_if(form.begin(), form.end(), [](const Node& node) { return node.primitive != Primitive::variable; }));
+}
+
 }  // namespace
 
 Tree block_form(const Tree& formula) {
@@ -140,12 +145,13 @@ std::string block_text(const Tree& form, const VariableNames& names) {
   return to_text(form, with_constant);
 }
 
-std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, std::size_t least_joints) {
+std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, const BlockLimits& limits) {
   Forms forms;
   for (std::size_t i = 0; i < fronts.size(); ++i) count(fronts[i], i + 1, forms);
   std::vector<BuildingBlock> blocks;
   for (const auto& [form, holders] : forms) {
-    if (holders.joints.size() < least_joints || !stands_alone(holders)) continue;
+    if (holders.joints.size() < limits.least_joints || functions_in(form) < limits.least_functions) continue;
+    if (!stands_alone(holders)) continue;
     const double share = holders.rank_shares / static_cast<double>(holders.individuals);
     blocks.push_back({form, holders.joints.size(), holders.islands, holders.individuals, share});
   }

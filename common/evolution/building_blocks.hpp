@@ -36,9 +36,14 @@ Tree block_form(const Tree& formula);
 /// The form as text, its constants "c"; `names` are those of the formula's own variables.
 std::string block_text(const Tree& form, const VariableNames& names = theta_only());
 
-/// The forms of functions of a variable that stand, as a whole or within another, in individuals of at least
-/// `least_joints` joints' fronts: by joints, islands, individuals and nodes, more first. Left out is a form that every
-/// individual which has it has within one and the same larger form.
-std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, std::size_t least_joints = 2);
+/// Which forms are worth a line.
+struct BlockLimits {
+  std::size_t least_joints = 2;     ///< that hold it
+  std::size_t least_functions = 2;  ///< in it: what every formula is made of is no block
+};
+
+/// The forms that stand, as a whole or within another, in members of the fronts: by joints, islands, individuals and
+/// nodes, more first. Left out is a form that every individual which has it has within one and the same larger form.
+std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, const BlockLimits& limits = {});
 
 }  // namespace demecal

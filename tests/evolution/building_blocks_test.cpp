@@ -105,6 +105,15 @@ const BuildingBlock* find(const std::vector<BuildingBlock>& blocks, const std::s
   return found == blocks.end() ? nullptr : &*found;
 }
 
+constexpr BlockLimits kAnyBlock{.least_joints = 2, .least_functions = 1};
+
+TEST(BuildingBlocks, AreNoSingleFunctionsUnlessAskedFor) {
+  const auto fronts = planted_fronts(parse("SIN(theta)"), [](std::uint32_t, int i) { return i == 4; });
+  EXPECT_EQ(find(building_blocks(fronts), "SIN(theta)"), nullptr);
+  ASSERT_NE(find(building_blocks(fronts, kAnyBlock), "SIN(theta)"), nullptr);
+  EXPECT_EQ(find(building_blocks(fronts, kAnyBlock), "SIN(theta)")->individuals, 6U);
+}
+
 TEST(BuildingBlocks, FindWhatWasPlantedWithItsCounts) {
   const auto holds = [](std::uint32_t island, int i) { return island != 3 && i >= 8; };  // the two fittest of five
   const auto blocks = building_blocks(planted_fronts(parse("SIN(2.5 * theta)"), holds));
@@ -118,17 +127,17 @@ TEST(BuildingBlocks, FindWhatWasPlantedWithItsCounts) {
 
 TEST(BuildingBlocks, OfOneJointAreNotShared) {
   const auto holds = [](std::uint32_t island, int) { return island / 2 == 1; };
-  const auto fronts = planted_fronts(parse("TANH(theta)"), holds);
-  EXPECT_EQ(find(building_blocks(fronts), "TANH(theta)"), nullptr);
-  const auto of_one = building_blocks(fronts, 1);
-  ASSERT_NE(find(of_one, "TANH(theta)"), nullptr);
-  EXPECT_EQ(find(of_one, "TANH(theta)")->islands, 2U);
-  EXPECT_EQ(find(of_one, "TANH(theta)")->individuals, 20U);
+  const auto fronts = planted_fronts(parse("TANH(0.5 * theta)"), holds);
+  EXPECT_EQ(find(building_blocks(fronts), "TANH(c * theta)"), nullptr);
+  const auto of_one = building_blocks(fronts, {.least_joints = 1, .least_functions = 2});
+  ASSERT_NE(find(of_one, "TANH(c * theta)"), nullptr);
+  EXPECT_EQ(find(of_one, "TANH(c * theta)")->islands, 2U);
+  EXPECT_EQ(find(of_one, "TANH(c * theta)")->individuals, 20U);
 }
 
 TEST(BuildingBlocks, LeaveOutWhatStandsOnlyWithinALargerOne) {
   const auto holds = [](std::uint32_t, int i) { return i % 2 == 0; };
-  const auto blocks = building_blocks(planted_fronts(parse("TANH(ATAN(theta))"), holds));
+  const auto blocks = building_blocks(planted_fronts(parse("TANH(ATAN(theta))"), holds), kAnyBlock);
   EXPECT_NE(find(blocks, "TANH(ATAN(theta))"), nullptr);
   EXPECT_EQ(find(blocks, "ATAN(theta)"), nullptr);
 }
@@ -136,14 +145,15 @@ TEST(BuildingBlocks, LeaveOutWhatStandsOnlyWithinALargerOne) {
 TEST(BuildingBlocks, KeepWhatStandsElsewhereToo) {
   auto fronts = planted_fronts(parse("TANH(ATAN(theta))"), [](std::uint32_t, int i) { return i == 0; });
   fronts[0].members.push_back({parse("ATAN(theta)"), 0.5});
-  const auto blocks = building_blocks(fronts);
+  const auto blocks = building_blocks(fronts, kAnyBlock);
   ASSERT_NE(find(blocks, "ATAN(theta)"), nullptr);
   EXPECT_EQ(find(blocks, "ATAN(theta)")->individuals, 7U);
   EXPECT_EQ(find(blocks, "TANH(ATAN(theta))")->individuals, 6U);
 }
 
 TEST(BuildingBlocks, AreSortedByHowManyHoldThemAndHoldAVariable) {
-  const auto blocks = building_blocks(planted_fronts(parse("theta"), [](std::uint32_t, int) { return false; }), 1);
+  const auto blocks = building_blocks(planted_fronts(parse("theta"), [](std::uint32_t, int) { return false; }),
+                                      {.least_joints = 1, .least_functions = 1});
   ASSERT_GT(blocks.size(), 10U);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     EXPECT_GT(blocks[i].form.size(), 1U);
@@ -157,7 +167,8 @@ TEST(BuildingBlocks, AreSortedByHowManyHoldThemAndHoldAVariable) {
 }
 
 TEST(BuildingBlocks, AreNoneOfFormulasWithoutVariables) {
-  EXPECT_THAT(building_blocks(std::vector<IslandFront>{{0, {{neutral_tree(), 1.0}, {parse("SIN(0.3)"), 2.0}}}}, 1),
+  EXPECT_THAT(building_blocks(std::vector<IslandFront>{{0, {{neutral_tree(), 1.0}, {parse("SIN(0.3)"), 2.0}}}},
+                              {.least_joints = 1, .least_functions = 0}),
               IsEmpty());
   EXPECT_THAT(building_blocks({}), IsEmpty());
 }
