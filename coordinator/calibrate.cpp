@@ -85,6 +85,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   Evolutions evolutions(job, make_fleet, interrupt, options);
   const std::vector<JointCandidates> candidates = learn(data, job, evolutions, result);
   result.end = evolutions.end();
+  result.fronts = evolutions.take_fronts();
   result.calibration = conclude(data, job, result.preparation, candidates);
   result.before = result.calibration.robot;
   if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -43,7 +44,8 @@ struct CalibrateResult {
   CorrectedRobot before;  ///< what the closed loop started from
   LoopOutcome loop;
   std::vector<Progress> history;
-  std::vector<DistalStep> distal;  ///< of distal learning, before the loop
+  std::vector<DistalStep> distal;          ///< of distal learning, before the loop
+  std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
   RunFacts facts;
 };
 

@@ -17,6 +17,7 @@ void add_export(CLI::App& app, ExitCode& exit_code);
 void add_prepare(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
+void add_study(CLI::App& app, ExitCode& exit_code);
 void add_monitor(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace demecal

@@ -165,7 +165,9 @@ void Evolutions::note(RunResult& result, int generations, bool shown) {
   facts_.migrations += result.migrations;
   facts_.dropped_samples += result.dropped;
   facts_.waited_share.merge(result.waited_share);
-  if (shown) generations_shown_ += static_cast<std::uint32_t>(generations);
+  if (!shown) return;
+  generations_shown_ += static_cast<std::uint32_t>(generations);
+  fronts_ = std::move(result.fronts);
 }
 
 }  // namespace demecal

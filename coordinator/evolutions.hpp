@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "calibration/distal_rounds.hpp"
@@ -32,6 +34,8 @@ class Evolutions {
   RunEnd end() const { return end_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
+  /// What the islands of the last run that was shown ended with.
+  std::map<IslandKey, Population> take_fronts() { return std::move(fronts_); }
   const RunFacts& facts() const { return facts_; }
 
  private:
@@ -46,6 +50,7 @@ class Evolutions {
   const CalibrateOptions& options_;
   RunEnd end_ = RunEnd::finished;
   std::vector<Progress> history_;
+  std::map<IslandKey, Population> fronts_;
   RunFacts facts_;
   std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
 };

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   demecal::add_prepare(app, exit_code);
   demecal::add_simulate(app, exit_code);
   demecal::add_report(app, exit_code);
+  demecal::add_study(app, exit_code);
   demecal::add_monitor(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "config/files.hpp"
+#include "config/load_data_set.hpp"
+#include "config/study_grid.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/dds_fleet.hpp"
+#include "coordinator/interrupt.hpp"
+#include "coordinator/result_folder.hpp"
+#include "coordinator/study.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kMostSeeds = 10000;
+
+struct Request {
+  std::string job_file, grid_file, data_file, out;
+  std::vector<std::string> set;
+  int seeds = 6;
+  std::optional<std::uint64_t> seed;
+  int workers = static_cast<int>(std::thread::hardware_concurrency());
+  int domain = 0;
+  std::size_t blocks = 12;
+  bool closed_loop = false, json = false, quiet = false;
+};
+
+/// The axes of the options and of the grid file.
+std::vector<GridAxis> axes_of(const Request& request) {
+  std::vector<GridAxis> axes;
+  if (!request.grid_file.empty()) axes = load_grid(request.grid_file);
+  for (const std::string& option : request.set) axes.push_back(read_axis(option));
+  return axes;
+}
+
+Study study_of(const Request& request, const std::vector<GridAxis>& axes, const std::vector<GridCell>& cells,
+               const DataSet& data) {
+  Study study{.job = cells.front().job.name,
+              .robot = data.robot.name,
+              .data = data.name,
+              .data_sha256 = data.sha256,
+              .version = DEMECAL_VERSION,
+              .closed_loop = request.closed_loop,
+              .keys = {},
+              .cells = {},
+              .seeds = {},
+              .runs = {},
+              .blocks = {}};
+  for (const GridAxis& axis : axes) study.keys.push_back(axis.key);
+  for (const GridCell& cell : cells) study.cells.push_back(cell.values);
+  const std::uint64_t first = request.seed.value_or(cells.front().job.seed);
+  for (int i = 0; i < request.seeds; ++i) study.seeds.push_back(first + static_cast<std::uint64_t>(i));
+  return study;
+}
+
+std::vector<Job> jobs_of(const Request& request, const std::vector<GridCell>& cells) {
+  std::vector<Job> jobs;
+  for (const GridCell& cell : cells) {
+    jobs.push_back(cell.job);
+    if (!request.closed_loop) jobs.back().closed_loop.max_effects = 0;
+  }
+  return jobs;
+}
+
+void tell(const Study& study, const StudyRun& run) {
+  std::string cell;
+  for (std::size_t i = 0; i < study.keys.size(); ++i) {
+    cell += fmt::format("{} {}, ", study.keys[i], study.cells[run.cell][i]);
+  }
+  const bool validated = std::isfinite(run.validation_mm);
+  fmt::print(stderr, "[{}/{}] {}seed {}: {} rms {:.4f} mm, {} nodes, {:.1f} s\n", study.runs.size(),
+             study.cells.size() * study.seeds.size(), cell, run.seed, validated ? "validation" : "calibration",
+             validated ? run.validation_mm : run.calibration_mm, run.nodes, run.wall_s);
+}
+
+void write(const std::string& folder, const Study& study) {
+  write_file(folder + "/study.csv", study_csv(study));
+  write_file(folder + "/study.json", study_json(study, 1));
+}
+
+ExitCode print_end(const Request& request, const Study& study, RunEnd end) {
+  if (request.json) {
+    fmt::print("{}", study_json(study));
+  } else {
+    fmt::print("{}", study_table(study));
+    if (request.blocks > 0) fmt::print("\n{}", blocks_table(study, request.blocks));
+    fmt::print("\n{}: {}/study.csv, study.json\n", study.interrupted ? "What was reached" : "Results", request.out);
+  }
+  if (end == RunEnd::no_worker) {
+    fmt::print(stderr, "no worker came: start `demecal-worker --domain {}`, or leave --workers at its default\n",
+               request.domain);
+    return ExitCode::no_worker;
+  }
+  return study.interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+ExitCode run(const Request& request) {
+  const std::vector<GridAxis> axes = axes_of(request);
+  const std::vector<GridCell> cells = grid_cells(request.job_file, axes);
+  const std::string& data_file = request.data_file.empty() ? cells.front().job.data_file : request.data_file;
+  const DataSet data = load_data_set(data_file);
+  make_writable(request.out);
+  Study study = study_of(request, axes, cells, data);
+  DdsOptions dds;
+  dds.domain = request.domain;
+  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(dds, request.workers); };
+  CalibrateOptions options;
+  options.quiet = true;
+  const auto on_run = [&](const StudyOutcome& reached) {
+    study.runs = reached.runs;
+    study.interrupted = study.runs.size() < study.cells.size() * study.seeds.size();
+    if (!request.quiet) tell(study, study.runs.back());
+    write(request.out, study);
+  };
+  const StudyOutcome outcome =
+      run_study(data, jobs_of(request, cells), study.seeds, make_fleet, watch_for_interrupt(), options, on_run);
+  study.interrupted = outcome.end != RunEnd::finished;
+  study.islands = outcome.fronts.size();
+  study.blocks = building_blocks(outcome.fronts);
+  write(request.out, study);
+  return print_end(request, study, outcome.end);
+}
+
+/// What is wrong with an option's value is a wrong argument.
+ExitCode run_or_refuse(const Request& request) {
+  try {
+    return run(request);
+  } catch (const InputError& error) {
+    if (!error.where().file.starts_with("--set ")) throw;
+    fmt::print(stderr, "{}\n", error.what());
+    return ExitCode::wrong_arguments;
+  }
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* command = app.add_subcommand(
+      "study", "calibrate with a grid of parameters and seeds: what each does to error, length and time");
+  command->add_option("job", request->job_file, "JOB.yaml")->required();
+  command->add_option("--out", request->out, "folder for study.csv and study.json")->required();
+  command->add_option("--grid", request->grid_file, "GRID.yaml: keys of the job, each with the list of its values");
+  command
+      ->add_option("--set", request->set,
+                   "KEY=VALUE,VALUE,... of gp, islands, distal, or method: gp.population_size=100,300")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--seeds", request->seeds, "seeds for every cell, from the job's on")
+      ->check(CLI::Range(1, kMostSeeds))
+      ->capture_default_str();
+  command->add_option("--seed", request->seed, "the first seed (default: the job's)");
+  command->add_flag("--closed-loop", request->closed_loop, "close each job's loop too, which takes much longer");
+  command->add_option("--data", request->data_file, "data set in place of the job's");
+  command->add_option("--blocks", request->blocks, "how many shared building blocks to print; 0: none")
+      ->capture_default_str();
+  command->add_flag("--json", request->json, "one line of JSON");
+  command->add_flag("--quiet", request->quiet, "no progress, only the result");
+  command->add_option("--workers", request->workers, "local worker processes; 0 waits for workers started elsewhere")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_option("--domain", request->domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command->callback([request, &exit_code] { exit_code = run_or_refuse(*request); });
+}
+
+}  // namespace demecal
