@@ -18,7 +18,8 @@ enum class Kind { constant, symbol, sum, product, function };
 
 /// What sums and products cannot say. `divide_or_one` is the protected division of evolved formulas, `divide_or_zero`
 /// gives 0 where the divisor is 0, `round` goes away from zero at halves, `if_not_negative(c, a, b)` is a where c >= 0
-/// and b elsewhere; `formula` is an evolved formula, whose steps and their order stay as they are.
+/// and b elsewhere; `logarithm_or_zero`, `bounded_exponential`, `square`, `lesser` and `greater` are those of evolved
+/// formulas; `formula` is an evolved formula, whose steps and their order stay as they are.
 enum class Function {
   sine,
   cosine,
@@ -32,6 +33,12 @@ enum class Function {
   divide_or_one,
   divide_or_zero,
   if_not_negative,
+  logarithm_or_zero,
+  bounded_exponential,
+  arc_tangent,
+  square,
+  lesser,
+  greater,
   formula
 };
 

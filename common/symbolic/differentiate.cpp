@@ -3,6 +3,7 @@
 #include <map>
 
 #include "expression/differentiate.hpp"
+#include "expression/exponential.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {
@@ -87,8 +88,20 @@ class Differentiation {
         return called(Function::sign, at) * by[0];
       case Function::square_root:
         return called(Function::divide_or_zero, {0.5 * by[0], expression});
+      case Function::logarithm_or_zero:
+        return called(Function::divide_or_zero, {by[0], at[0]});
+      case Function::bounded_exponential: {
+        const Expression room = kLargestExponent - called(Function::absolute, at);
+        return 0.5 * (called(Function::sign, {room}) + 1.0) * expression * by[0];
+      }
+      case Function::arc_tangent:
+        return by[0] / (at[0] * at[0] + 1.0);
+      case Function::square:
+        return 2.0 * at[0] * by[0];
+      case Function::lesser:
       case Function::minimum:
         return chosen(at[1] - at[0], by);
+      case Function::greater:
       case Function::maximum:
         return chosen(at[0] - at[1], by);
       case Function::divide_or_one:

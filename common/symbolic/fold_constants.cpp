@@ -35,6 +35,18 @@ double value_of(Function function, std::span<const double> arguments) {
       return arguments[1] == 0.0 ? 0.0 : a / arguments[1];
     case Function::if_not_negative:
       return a >= 0.0 ? arguments[1] : arguments[2];
+    case Function::logarithm_or_zero:
+      return protected_logarithm(a);
+    case Function::bounded_exponential:
+      return bounded_exponential(a);
+    case Function::arc_tangent:
+      return arc_tangent(a);
+    case Function::square:
+      return a * a;
+    case Function::lesser:
+      return lesser_of(a, arguments[1]);
+    case Function::greater:
+      return greater_of(a, arguments[1]);
     case Function::formula:
       break;
   }
@@ -54,6 +66,8 @@ std::optional<Expression> folded(Function function, const std::vector<Expression
   switch (function) {
     case Function::minimum:
     case Function::maximum:
+    case Function::lesser:
+    case Function::greater:
       if (first == arguments[1]) return first;
       break;
     case Function::if_not_negative:

@@ -42,8 +42,37 @@ Function function_of(Primitive primitive) {
       return Function::sign;
     case Primitive::square_root:
       return Function::square_root;
-    default:
+    case Primitive::absolute:
       return Function::absolute;
+    case Primitive::logarithm:
+      return Function::logarithm_or_zero;
+    case Primitive::exponential:
+      return Function::bounded_exponential;
+    case Primitive::hyperbolic_tangent:
+      return Function::hyperbolic_tangent;
+    case Primitive::arc_tangent:
+      return Function::arc_tangent;
+    case Primitive::square:
+      return Function::square;
+    case Primitive::minimum:
+      return Function::lesser;
+    case Primitive::maximum:
+      return Function::greater;
+    default:
+      break;
+  }
+  DEMECAL_CHECK(false, traits(primitive).symbol << " is written with an operator");
+}
+
+/// What is written as a call, not as an operator between two arguments.
+bool is_called(Primitive primitive) {
+  switch (primitive) {
+    case Primitive::add:
+    case Primitive::subtract:
+    case Primitive::multiply:
+      return false;
+    default:
+      return arity(primitive) > 0;
   }
 }
 
@@ -175,6 +204,18 @@ std::string Spelling::name(Function function) const {
       return "divide_or_zero";
     case Function::if_not_negative:
       return "if_not_negative";
+    case Function::logarithm_or_zero:
+      return "logarithm_or_zero";
+    case Function::bounded_exponential:
+      return "bounded_exponential";
+    case Function::arc_tangent:
+      return of("atan", "math.atan", "atan");
+    case Function::square:
+      return "square";
+    case Function::lesser:
+      return "lesser_of";
+    case Function::greater:
+      return "greater_of";
     case Function::formula:
       break;
   }
@@ -183,8 +224,7 @@ std::string Spelling::name(Function function) const {
 
 std::string Spelling::formula(const Tree& tree, const std::vector<std::string>& variables) const {
   const auto binary = [&](Primitive primitive, const Written& left, const Written& right) -> Written {
-    if (primitive == Primitive::divide)
-      return {name(Function::divide_or_one) + '(' + left.text + ", " + right.text + ')'};
+    if (is_called(primitive)) return {name(function_of(primitive)) + '(' + left.text + ", " + right.text + ')'};
     const Precedence own = primitive == Primitive::multiply ? Precedence::product : Precedence::sum;
     // The order of steps counts: what stands to the right is done first.
     const std::string last = right.precedence <= own ? '(' + right.text + ')' : right.text;
@@ -211,8 +251,7 @@ std::set<Function> functions_in(const std::vector<Expression>& expressions) {
       continue;
     }
     for (const Node& node : term.algebra().tree_of(term->name)) {
-      const bool called = arity(node.primitive) == 1 || node.primitive == Primitive::divide;
-      if (called) found.insert(function_of(node.primitive));
+      if (is_called(node.primitive)) found.insert(function_of(node.primitive));
     }
   }
   return found;

@@ -73,6 +73,10 @@ Judged judged_arm() {
   const Tree tree =
       parse("0.001 * SQRTp(theta - 0.3) - 0.002 % (theta - -1.5) * SIGN(theta) + 0.001 * ABS(COS(theta))");
   judged.robot.corrections[0] = {tree, {true, 2.5}, {1.0, 4.0}};
+  const Tree later = parse(
+      "0.001 * LOGp(theta) + 0.0002 * EXPb(0.5 * theta) - 0.001 * TANH(theta) * ATAN(2 * theta) + "
+      "0.0003 * SQUARE(theta - 0.5) + MIN(0.001 * theta, 0.0005) * MAX(SIN(theta), -0.25) + EXPb(900 * theta - 930)");
+  judged.robot.corrections[2] = {later, {true, 0.0}, {-4.0, 4.0}};
   judged.robot.corrections[1] = {};
   for (int i = 0; i < 40; ++i) judged.stops.push_back(1.5 * random_joints(stream, nominal));
   return judged;
@@ -185,7 +189,8 @@ TEST(Code, InMatlabHasWholeStatementsAndCallsOnlyWhatIsThere) {
   EXPECT_EQ(count(code, "\n *end(?=\n)"), count(code, "(^|\n)function ") + count(code, "\n *if "));
   const std::string without_remarks = std::regex_replace(code, std::regex("%[^\n]*"), "");
   const std::regex called(R"(([A-Za-z_]\w*)\()");
-  std::set<std::string> known{"sin", "cos", "tanh", "sign", "abs", "sqrt", "round", "min", "max", "zeros", "q", "pose"};
+  std::set<std::string> known{"sin", "cos",   "tanh", "sign", "abs",  "sqrt", "round", "min",
+                              "max", "zeros", "q",    "pose", "atan", "log",  "exp",   "isnan"};
   const std::regex defined(R"(function \S+(?: h\])? = (\w+)\()");
   for (std::sregex_iterator it(code.begin(), code.end(), defined), end; it != end; ++it) {
     known.insert((*it)[1]);

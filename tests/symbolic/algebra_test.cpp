@@ -105,6 +105,26 @@ TEST(Algebra, DifferentiatesAsDifferencesDo) {
   }
 }
 
+TEST(Algebra, DifferentiatesTheFunctionsOfEvolvedFormulas) {
+  RandomStream stream{604};
+  for (const Function function : {Function::logarithm_or_zero, Function::bounded_exponential, Function::arc_tangent,
+                                  Function::square, Function::lesser, Function::greater}) {
+    for (int i = 0; i < 100; ++i) {
+      Algebra algebra;
+      const Expression a = algebra.symbol("a"), other = sine(2.0 * a);
+      const Expression expression = algebra.function(function, {a, other});
+      const double at = stream.real(-20, 20), step = 1e-6 * std::max(1.0, std::abs(at));
+      // Beside a kink, and beside the singularity of the logarithm, differences tell nothing.
+      if (std::abs(at) < 0.1 || std::abs(std::abs(at) - 16) < 0.1 || std::abs(at - std::sin(2 * at)) < 0.1) continue;
+      const double by_differences =
+          (value_of(expression, {{"a", at + step}}) - value_of(expression, {{"a", at - step}})) / (2 * step);
+      EXPECT_NEAR(value_of(derivative(expression, "a"), {{"a", at}}), by_differences,
+                  1e-6 * std::max(1.0, std::abs(by_differences)))
+          << Spelling(CodeLanguage::text)(expression) << " at " << at;
+    }
+  }
+}
+
 std::string simplified_text(const std::string& text) {
   Algebra algebra;
   return Spelling(CodeLanguage::text)(parse_expression(algebra, text));
