@@ -1,5 +1,8 @@
-// The data set that comes with the project is what the scenario that comes with it gives.
+// The data sets that come with the project are what the scenarios that come with it give.
 #include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
 
 #include "config/load_data_set.hpp"
 #include "config/load_scenario.hpp"
@@ -8,9 +11,13 @@
 namespace demecal {
 namespace {
 
-TEST(ShippedData, IsWhatTheScenarioGives) {
-  const DataSet shipped = load_data_set(DEMECAL_SOURCE_DIR "/configs/data/puma761-demo/dataset.yaml");
-  const DataSet made = simulate(load_scenario(DEMECAL_SOURCE_DIR "/configs/scenarios/demo.yaml"));
+class ShippedData : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(ShippedData, IsWhatTheScenarioGives) {
+  const auto [folder, scenario] = GetParam();
+  const std::string configs = DEMECAL_SOURCE_DIR "/configs/";
+  const DataSet shipped = load_data_set(configs + "data/" + folder + "/dataset.yaml");
+  const DataSet made = simulate(load_scenario(configs + "scenarios/" + scenario));
   ASSERT_EQ(shipped.poses.size(), made.poses.size());
   for (std::size_t i = 0; i < made.poses.size(); ++i) {
     EXPECT_LT((shipped.poses[i].joints - made.poses[i].joints).cwiseAbs().maxCoeff(), 1e-12);
@@ -18,6 +25,10 @@ TEST(ShippedData, IsWhatTheScenarioGives) {
     EXPECT_EQ(shipped.poses[i].set, made.poses[i].set);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedData,
+                         testing::Values(std::pair{"puma761-demo", "demo.yaml"},
+                                         std::pair{"puma761-chapter6", "chapter6.yaml"}));
 
 }  // namespace
 }  // namespace demecal
