@@ -1,0 +1,168 @@
+#include "structure/structure_fit.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace demecal {
+namespace {
+
+constexpr double kMountedOtherwise_rad = 0.1;
+constexpr double kSingular = 1e-6;  // of columns of unit length
+constexpr double kFirstDamping = 1e-6, kMostDamping = 1e3;
+constexpr int kMostSteps = 20;
+constexpr double kSettled = 1e-8;  // of the cost
+
+double row_weight(const StructureProblem& problem, const MeasurementRows& rows, int row) {
+  const bool turn = row >= rows.position && row < rows.position + rows.orientation;
+  if (!turn) return 1.0 / problem.position_scale_m;
+  return problem.orientation_scale_rad > 0.0 ? 1.0 / problem.orientation_scale_rad : 0.0;
+}
+
+Eigen::VectorXd weights_of(const StructureProblem& problem, const MeasuredPose& pose) {
+  const MeasurementRows rows = rows_of(pose);
+  Eigen::VectorXd weights(rows.total());
+  for (int row = 0; row < rows.total(); ++row) weights[row] = row_weight(problem, rows, row);
+  return weights;
+}
+
+double cost_of(const StructureProblem& problem, const StructuredArm& arm, std::span<const std::size_t> poses) {
+  double sum = 0.0;
+  for (const std::size_t index : poses) {
+    const MeasuredPose& pose = problem.data.poses[index];
+    const Eigen::VectorXd rows = residual(arm.predict(pose.joints, pose.target), problem.data, pose);
+    sum += rows.cwiseProduct(weights_of(problem, pose)).squaredNorm();
+  }
+  return sum;
+}
+
+struct Rows {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual;
+};
+
+Rows rows_at(const StructureProblem& problem, const StructuredArm& arm, int numbers) {
+  Eigen::Index total = 0;
+  for (const std::size_t index : problem.fitted) total += rows_of(problem.data.poses[index]).total();
+  Rows rows{Eigen::MatrixXd(total, numbers), Eigen::VectorXd(total)};
+  Eigen::Index next = 0;
+  for (const std::size_t index : problem.fitted) {
+    const MeasuredPose& pose = problem.data.poses[index];
+    const StructureMotion motion = motion_of(arm, problem.freedom, pose.joints, pose.target);
+    const Eigen::VectorXd weights = weights_of(problem, pose);
+    const Eigen::Index count = weights.size();
+    rows.jacobian.middleRows(next, count) =
+        weights.asDiagonal() * (measurement_jacobian(motion.predicted, problem.data, pose) * motion.twists);
+    rows.residual.segment(next, count) = residual(motion.predicted, problem.data, pose).cwiseProduct(weights);
+    next += count;
+  }
+  return rows;
+}
+
+/// Columns of unit length, and what they were divided by; columns without effect stay, divided by 1.
+Eigen::VectorXd scale_columns(Eigen::MatrixXd& jacobian) {
+  Eigen::VectorXd lengths = jacobian.colwise().norm();
+  for (Eigen::Index i = 0; i < lengths.size(); ++i) {
+    if (lengths[i] == 0.0) lengths[i] = 1.0;
+    jacobian.col(i) /= lengths[i];
+  }
+  return lengths;
+}
+
+Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(const Eigen::MatrixXd& jacobian) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kSingular);
+  qr.compute(jacobian);
+  return qr;
+}
+
+/// (J^T J + damping I)^-1 J^T r, by the decomposition of J with damped rows below it.
+Eigen::VectorXd damped_step(const Rows& rows, double damping) {
+  const Eigen::Index n = rows.jacobian.cols(), m = rows.jacobian.rows();
+  Eigen::MatrixXd tall(m + n, n);
+  tall << rows.jacobian, std::sqrt(damping) * Eigen::MatrixXd::Identity(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(m + n);
+  right.head(m) = rows.residual;
+  return tall.householderQr().solve(right);
+}
+
+/// One step that lowers the cost; false where none was found.
+bool take_step(const StructureProblem& problem, StructureFit& fit) {
+  Rows rows = rows_at(problem, fit.arm, fit.numbers);
+  const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
+  const auto qr = decomposed(rows.jacobian);
+  fit.rank = static_cast<int>(qr.rank());
+  for (double damping = fit.rank < fit.numbers ? kFirstDamping : 0.0; damping <= kMostDamping;
+       damping = std::max(kFirstDamping, 100.0 * damping)) {
+    const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows, damping) : qr.solve(rows.residual).eval();
+    StructuredArm next = changed(fit.arm, problem.freedom, step.cwiseQuotient(lengths));
+    const double cost = cost_of(problem, next, problem.fitted);
+    if (!(cost < fit.cost)) continue;
+    const bool goes_on = fit.cost - cost > kSettled * fit.cost;
+    fit.arm = std::move(next);
+    fit.cost = cost;
+    return goes_on;
+  }
+  return false;
+}
+
+}  // namespace
+
+StructureProblem structure_problem(const DataSet& data, const StructureFreedom& freedom, const CorrectedRobot& start,
+                                   std::vector<std::size_t> fitted, std::vector<std::size_t> judged) {
+  double shifts = 0.0, turns = 0.0;
+  int shift_rows = 0, turn_rows = 0;
+  for (const std::size_t index : fitted) {
+    const MeasurementRows rows = rows_of(data.poses[index]);
+    const Eigen::VectorXd left = residual(start, data, data.poses[index]);
+    const double turned = left.segment(rows.position, rows.orientation).squaredNorm();
+    turns += turned;
+    shifts += left.squaredNorm() - turned;
+    turn_rows += rows.orientation;
+    shift_rows += rows.position + rows.distances;
+  }
+  StructureProblem problem{data, freedom, start, std::move(fitted), std::move(judged)};
+  if (shifts > 0.0) problem.position_scale_m = std::sqrt(shifts / shift_rows);
+  if (turns > 0.0) problem.orientation_scale_rad = std::sqrt(turns / turn_rows);
+  if (!freedom.tool_turns && problem.orientation_scale_rad > kMountedOtherwise_rad) problem.orientation_scale_rad = 0.0;
+  return problem;
+}
+
+int rows_in_use(const StructureProblem& problem, std::span<const std::size_t> poses) {
+  int count = 0;
+  for (const std::size_t index : poses) {
+    const MeasurementRows rows = rows_of(problem.data.poses[index]);
+    count += rows.total() - (problem.orientation_scale_rad > 0.0 ? 0 : rows.orientation);
+  }
+  return count;
+}
+
+StructureFit fit_structure(const StructureProblem& problem, const Genome& genome) {
+  StructureFit fit;
+  fit.arm = {problem.start, genome, std::vector<double>(gene_count(genome), 0.0)};
+  fit.numbers = problem.freedom.before_genes() + static_cast<int>(gene_count(genome));
+  fit.judgement = std::numeric_limits<double>::infinity();
+  fit.cost = cost_of(problem, fit.arm, problem.fitted);
+  if (fit.numbers >= rows_in_use(problem, problem.fitted)) return fit;
+  for (int step = 0; step < kMostSteps && fit.numbers > 0; ++step) {
+    if (!take_step(problem, fit)) break;
+  }
+  const double judgement = cost_of(problem, fit.arm, problem.judged);
+  fit.solved = std::isfinite(judgement) && std::isfinite(fit.cost);
+  if (fit.solved) fit.judgement = judgement;
+  return fit;
+}
+
+Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& fit) {
+  Rows rows = rows_at(problem, fit.arm, fit.numbers);
+  const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(kSingular);
+  decomposition.compute(rows.jacobian);
+  const Eigen::MatrixXd inverse = lengths.cwiseInverse().asDiagonal() * decomposition.pseudoInverse();
+  const int freedom = std::max(1, rows_in_use(problem, problem.fitted) - static_cast<int>(decomposition.rank()));
+  return fit.cost / freedom * inverse * inverse.transpose();
+}
+
+}  // namespace demecal

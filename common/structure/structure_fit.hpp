@@ -1,0 +1,48 @@
+// The amounts of a structure's transforms, by least squares, and how well they do on poses that had no part in it.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "effects/measurement.hpp"
+#include "structure/structured_arm.hpp"
+
+namespace demecal {
+
+/// What structures are fitted to and judged by.
+struct StructureProblem {
+  const DataSet& data;
+  StructureFreedom freedom;
+  CorrectedRobot start;                ///< base and tools near where they are
+  std::vector<std::size_t> fitted;     ///< poses that amounts come from
+  std::vector<std::size_t> judged;     ///< poses that decide between structures
+  double position_scale_m = 1.0;       ///< by which rows are divided; positions and distances
+  double orientation_scale_rad = 0.0;  ///< 0: orientations are not used
+};
+
+/// Scales are the residuals of `start`; orientations far from its tool's, where no tool is free to turn, are not used.
+StructureProblem structure_problem(const DataSet& data, const StructureFreedom& freedom, const CorrectedRobot& start,
+                                   std::vector<std::size_t> fitted, std::vector<std::size_t> judged);
+
+struct StructureFit {
+  StructuredArm arm;
+  bool solved = false;     ///< the numbers are finite and fewer than the rows
+  double cost = 0.0;       ///< sum of squared scaled residuals of the fitted poses
+  double judgement = 0.0;  ///< the same of the judged poses; infinite where not solved
+  int rank = 0;            ///< of the Jacobian
+  int numbers = 0;         ///< free
+};
+
+/// From amounts of zero: Gauss and Newton's steps by Householder's QR decomposition, and those of Levenberg and
+/// Marquardt where the Jacobian has no full rank or a step does not lower the cost (thesis, appendix B 2.3). The same
+/// bits on every run.
+StructureFit fit_structure(const StructureProblem& problem, const Genome& genome);
+
+/// Of small changes of all free numbers, in the order of StructureFreedom: sigma^2 (J^T J)^+ with
+/// sigma^2 = cost / (rows - rank).
+Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& fit);
+
+/// How many rows the poses have that are in use.
+int rows_in_use(const StructureProblem& problem, std::span<const std::size_t> poses);
+
+}  // namespace demecal
