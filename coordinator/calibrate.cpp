@@ -6,6 +6,7 @@
 #include "coordinator/distal_learning.hpp"
 #include "coordinator/evolutions.hpp"
 #include "coordinator/loop_display.hpp"
+#include "coordinator/structural_learning.hpp"
 
 namespace demecal {
 namespace {
@@ -80,6 +81,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
                           const std::function<std::unique_ptr<Fleet>()>& make_fleet, const std::atomic<bool>& interrupt,
                           const CalibrateOptions& options) {
   const Clock::time_point begin = Clock::now();
+  if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
   CalibrateResult result;
   result.preparation = prepare(data, job);
   Evolutions evolutions(job, make_fleet, interrupt, options);

@@ -16,6 +16,7 @@
 #include "coordinator/run_journal.hpp"
 #include "data/data_set.hpp"
 #include "report/calibration_report.hpp"
+#include "structure/found_transform.hpp"
 
 namespace demecal {
 
@@ -45,6 +46,7 @@ struct CalibrateResult {
   LoopOutcome loop;
   std::vector<Progress> history;
   std::vector<DistalStep> distal;          ///< of distal learning, before the loop
+  std::vector<FoundTransform> structure;   ///< of the structural method
   std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
   RunFacts facts;
 };
@@ -54,7 +56,8 @@ CalibratedModel model_of(const DataSet& data, const Job& job, const Calibration&
 
 /// Everything but files: prepares, evolves on the fleet, concludes, and closes the loop unless the job allows it no
 /// effects. A fleet is asked for wherever joint corrections are evolved: once, and anew each time the loop has added
-/// effects beside them. Throws InputError for data that the job cannot be fitted to.
+/// effects beside them. The structural method evolves no corrections: it needs no fleet, and no loop follows. Throws
+/// InputError for data that the job cannot be fitted to.
 CalibrateResult calibrate(const DataSet& data, const Job& job,
                           const std::function<std::unique_ptr<Fleet>()>& make_fleet, const std::atomic<bool>& interrupt,
                           const CalibrateOptions& options);

@@ -35,12 +35,19 @@ Job job_of(const Request& request) {
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
   if (!request.data_file.empty()) job.data_file = request.data_file;
-  if (!request.method.empty()) job.method = request.method == "direct" ? Method::direct : Method::distal;
+  for (const Method method : {Method::direct, Method::distal, Method::structural}) {
+    if (request.method == word_of(method)) job.method = method;
+  }
   return job;
 }
 
 void print_head(const Request& request, const Job& job, const DataSet& data) {
   if (request.quiet) return;
+  if (job.method == Method::structural) {
+    fmt::print(stderr, "{}: {} on {} ({} poses), a search for transforms between the links, seed {}\n", job.name,
+               data.robot.name, data.name, data.poses.size(), job.seed);
+    return;
+  }
   fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
              data.poses.size(), job.islands.per_joint, job.seed);
   fmt::print(stderr, "  DDS domain {}, {}\n", request.dds.domain,
@@ -70,6 +77,13 @@ CalibrationReport write(const Request& request, const DataSet& data, const Calib
   } catch (const InputError& error) {
     throw std::runtime_error(fmt::format("{}; {}", error.what(), resuming(request)));
   }
+}
+
+std::string effort(const Job& job, const RunFacts& facts) {
+  if (job.method == Method::structural)
+    return fmt::format("{} structures fitted in {:.1f} s", facts.evaluations, facts.wall_s);
+  return fmt::format("{} islands on {} workers, {} evaluations in {:.1f} s", facts.islands, facts.workers,
+                     facts.evaluations, facts.wall_s);
 }
 
 ExitCode run(Request request) {
@@ -111,11 +125,9 @@ ExitCode run(Request request) {
   } else {
     chronicle.ends(LoopNews::Stage::finished, "finished");
   }
-  fmt::print(
-      "{}\n  {} islands on {} workers, {} evaluations in {:.1f} s\n  {}: {}/model.yaml, report.json, report.html, "
-      "history.csv\n",
-      to_terminal(report), report.runtime.islands, report.runtime.workers, report.runtime.evaluations,
-      report.runtime.wall_s, end == RunEnd::interrupted ? "interrupted; what was reached" : "results", request.out);
+  fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
+             effort(job, report.runtime), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
+             request.out, job.method == Method::structural ? "" : ", history.csv");
   if (end == RunEnd::interrupted) {
     fmt::print("  {}\n", resuming(request));
     return ExitCode::interrupted;
@@ -138,7 +150,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
   command->add_option("--method", request->method, "learning method (default: the job's)")
-      ->check(CLI::IsMember({"direct", "distal"}));
+      ->check(CLI::IsMember({"direct", "distal", "structural"}));
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--data", request->data_file, "data set in place of the job's");

@@ -46,13 +46,15 @@ CalibrationReport write_results(const std::string& folder, const DataSet& data, 
   const CorrectedRobot& before = added_any(result.loop) ? result.before : written.robot;
   CalibrationReport report =
       make_report(data, written, before, result.loop, result.preparation, result.calibration, result.facts);
-  if (result.model.method == Method::diagnose && !has_corrections(written.robot)) report.joints.clear();
+  const bool evolves = result.model.method != Method::diagnose && result.model.method != Method::structural;
+  if (!evolves && !has_corrections(written.robot)) report.joints.clear();
+  report.structure = result.structure;
+  if (result.model.method == Method::structural) report.unidentified.clear();  // they are of the fit to compare with
   report.distal = result.distal;
   const std::string json = to_json(report);
   write_file(folder + "/report.json", json);
   const std::string history = history_csv(history_rows(result.history));
   if (result.model.method == Method::distal) write_file(folder + "/distal.csv", distal_csv(result.distal));
-  const bool evolves = result.model.method != Method::diagnose;
   if (evolves) write_file(folder + "/history.csv", history);
   write_file(folder + "/report.html", report_html(json, evolves ? history : ""));
   return report;

@@ -12,12 +12,13 @@
 
 namespace demecal {
 
-/// How joint corrections are learnt; `diagnose`: not at all, the model came from the closed loop alone.
-enum class Method { direct, distal, diagnose };
+/// How joint corrections are learnt; `diagnose`: not at all, the model came from the closed loop alone; `structural`:
+/// not at all, transforms between the links are searched for.
+enum class Method { direct, distal, diagnose, structural };
 
-/// "direct", "distal", "diagnose".
+/// "direct", "distal", "diagnose", "structural".
 inline const char* word_of(Method method) {
-  constexpr const char* kWords[] = {"direct", "distal", "diagnose"};
+  constexpr const char* kWords[] = {"direct", "distal", "diagnose", "structural"};
   return kWords[static_cast<std::size_t>(method)];
 }
 

@@ -87,8 +87,10 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   CalibratedModel model;
   model.job = file.at("job").text();
   model.version = file.at("version").text();
-  model.method = file.at("method").one_of<Method>(
-      {{"direct", Method::direct}, {"distal", Method::distal}, {"diagnose", Method::diagnose}});
+  model.method = file.at("method").one_of<Method>({{"direct", Method::direct},
+                                                   {"distal", Method::distal},
+                                                   {"diagnose", Method::diagnose},
+                                                   {"structural", Method::structural}});
   model.seed = file.at("seed").seed();
   model.data_name = file.at("data").at("name").text();
   model.data_sha256 = file.at("data").at("sha256").text();

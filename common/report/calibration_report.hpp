@@ -10,6 +10,7 @@
 #include "calibration/distal_steps.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effects/measurement.hpp"
+#include "structure/found_transform.hpp"
 
 namespace demecal {
 
@@ -62,7 +63,8 @@ struct CalibrationReport {
   Robot described;  ///< the arm as its maker describes it, by which the loop's effects stand
   double index_before_mm2 = 0.0, index_after_mm2 = 0.0;
   std::vector<JointLine> joints;
-  std::vector<DistalStep> distal;  ///< the course of distal learning before the loop (thesis Table 4-1)
+  std::vector<DistalStep> distal;         ///< the course of distal learning before the loop (thesis Table 4-1)
+  std::vector<FoundTransform> structure;  ///< of the structural method: what stands between the links
   std::vector<ParameterEstimate> estimates;
   std::vector<std::string> unidentified;  ///< sentences
   RunFacts runtime;

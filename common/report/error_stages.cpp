@@ -30,6 +30,7 @@ bool loop_added(const JsonValue& report) {
 
 /// What the stage of everything declared adds to the fit.
 const char* declared_stage(const JsonValue& report) {
+  if (report["method"].text() == "structural") return "with the structure found";
   const std::vector<JsonValue> joints = report["joints"].elements();
   const bool corrected =
       std::ranges::any_of(joints, [](const JsonValue& joint) { return joint["kept"].truth().value_or(false); });

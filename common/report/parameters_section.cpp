@@ -21,8 +21,9 @@ Unit unit_of(const std::string& name) {
   return {"", 5};
 }
 
-/// "base", "tool", "joint 2": what a parameter belongs to.
+/// "base", "tool", "joint 2", "after link 2": what a parameter belongs to.
 std::string owner_of(const std::string& name) {
+  if (name.starts_with("after link ")) return name.substr(0, name.find(' ', 11));
   if (name.starts_with("joint ")) return name.substr(0, name.find(' ', 6));
   return name.substr(0, name.find('_'));
 }

@@ -63,6 +63,14 @@ Json parameter(const ParameterEstimate& estimate) {
           {"standard_error", number(estimate.standard_error * border)}};
 }
 
+/// Beside the parameters of base and tool: nominally there is nothing between the links.
+Json parameter(const FoundTransform& transform) {
+  return {{"name", transform.name()},
+          {"nominal", 0.0},
+          {"value", number(transform.at_border(transform.value))},
+          {"standard_error", number(transform.at_border(transform.standard_error))}};
+}
+
 Json waited_share(const RunFacts& facts) {
   Json all = Json::array();
   for (const auto& [worker, share] : facts.waited_share) all.push_back({{"worker", worker}, {"share", number(share)}});
@@ -127,6 +135,7 @@ std::string to_json(const CalibrationReport& report) {
     if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects stand with the rounds that added them
     json["parameters"].push_back(parameter(estimate));
   }
+  for (const FoundTransform& transform : report.structure) json["parameters"].push_back(parameter(transform));
   json["unidentified"] = report.unidentified;
   json["runtime"] = runtime(report.runtime);
   return text_of(json, 2);

@@ -33,6 +33,7 @@ std::string heading(const char* what) {
 
 /// What the stage of everything declared adds to the fit.
 const char* declared_stage(const CalibrationReport& report) {
+  if (report.method == word_of(Method::structural)) return "with the structure found";
   const bool corrected = std::ranges::any_of(report.joints, [](const JointLine& line) { return line.summary.kept; });
   return corrected || report.loop.stopped == StopReason::not_run ? "with joint corrections"
                                                                  : "start of the closed loop";
@@ -76,6 +77,17 @@ std::string joints(const CalibrationReport& report) {
   return text;
 }
 
+std::string structure(const CalibrationReport& report) {
+  if (report.method != word_of(Method::structural)) return {};
+  if (report.structure.empty()) return "\n  nothing between the links that the validation poses bear out\n";
+  std::string text = fmt::format("\n  {:<28}{:>12}{:>18}\n", "transforms found", "value", "standard error");
+  for (const FoundTransform& transform : report.structure) {
+    text += fmt::format("  {:<28}{:>12.4f}{:>18.4f}\n", transform.name(), transform.at_border(transform.value),
+                        transform.at_border(transform.standard_error));
+  }
+  return text + "  model.yaml has them in its links and tools, which then predict the same everywhere\n";
+}
+
 std::string named(const std::string& title, const std::vector<std::string>& names) {
   if (names.empty()) return {};
   constexpr std::size_t kShown = 8;
@@ -98,6 +110,7 @@ std::string errors_to_terminal(const ErrorBySet& errors) {
 
 std::string to_terminal(const CalibrationReport& report) {
   std::string text = stages(report);
+  text += structure(report);
   if (!report.joints.empty()) text.append("\n").append(joints(report));
   if (const std::string loop = loop_to_terminal(report.loop, report.described); !loop.empty())
     text.append("\n").append(loop).append("\n");

@@ -72,7 +72,7 @@ TEST(ModelFile, KeepsEveryEffectOfTheCatalogueToTheBit) {
 TEST(ModelFile, KeepsHowTheModelWasFound) {
   RandomStream stream{992};
   CalibratedModel model = random_model(stream);
-  for (const Method method : {Method::direct, Method::distal, Method::diagnose}) {
+  for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural}) {
     model.method = method;
     EXPECT_EQ(written_and_read(model).method, method) << word_of(method);
   }

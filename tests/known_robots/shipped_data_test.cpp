@@ -28,7 +28,8 @@ TEST_P(ShippedData, IsWhatTheScenarioGives) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedData,
                          testing::Values(std::pair{"puma761-demo", "demo.yaml"},
-                                         std::pair{"puma761-chapter6", "chapter6.yaml"}));
+                                         std::pair{"puma761-chapter6", "chapter6.yaml"},
+                                         std::pair{"puma761-structural", "structural.yaml"}));
 
 }  // namespace
 }  // namespace demecal

@@ -95,7 +95,8 @@ TEST_P(KnownStructure, FindsAnEquivalentOfAKnownExtraTransformAndBeatsLinksOnAcc
   const DeclaredModel declared{.registration = true};
   const Fit registered = fit_registration(arm.data, calibration, declared, nominal_robot(arm.data));
   RandomStream random{GetParam()};
-  const StructuralCalibration found = calibrate_structure(arm.data, declared, registered.robot, {}, random);
+  const StructuralCalibration found =
+      calibrate_structure(arm.data, declared, registered.robot, {.population = 30, .generations = 25}, random);
   const Fit links = fit_declared(arm.data, calibration, {.registration = true, .joint_offset = true, .geometry = true},
                                  registered.robot);
   EXPECT_LT(accept_mm(found.robot, arm.data), accept_mm(links.robot, arm.data));
