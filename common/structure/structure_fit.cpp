@@ -12,6 +12,8 @@ constexpr double kMountedOtherwise_rad = 0.1;
 constexpr double kSingular = 1e-6;  // of columns of unit length
 constexpr double kFirstDamping = 1e-6, kMostDamping = 1e3;
 constexpr int kMostSteps = 20;
+// What arms are built to: amounts far beyond it belong to base or tool, which no pose may tell apart from them.
+constexpr double kPrior_m = 5e-3, kPrior_rad = 17.5e-3;
 constexpr double kSettled = 1e-8;  // of the cost
 
 double row_weight(const StructureProblem& problem, const MeasurementRows& rows, int row) {
@@ -42,10 +44,28 @@ struct Rows {
   Eigen::VectorXd residual;
 };
 
-Rows rows_at(const StructureProblem& problem, const StructuredArm& arm, int numbers) {
+/// Per gene: one over its prior standard deviation, in the units of scaled rows that scatter as they do now.
+Eigen::VectorXd prior_weights(const StructureProblem& problem, const StructureFit& fit) {
+  const int freedom = std::max(1, rows_in_use(problem, problem.fitted) - fit.numbers);
+  const double level = std::sqrt(fit.cost / freedom);
+  std::vector<double> weights;
+  for (const GeneSection& section : fit.arm.genome) {
+    for (const Gene& gene : section) weights.push_back(level / (gene.rotates ? kPrior_rad : kPrior_m));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
+}
+
+double prior_cost(const StructuredArm& arm, const Eigen::VectorXd& weights) {
+  const Eigen::Map<const Eigen::VectorXd> values(arm.values.data(), weights.size());
+  return weights.cwiseProduct(values).squaredNorm();
+}
+
+/// The poses' rows, and below them the genes' priors.
+Rows rows_at(const StructureProblem& problem, const StructuredArm& arm, int numbers, const Eigen::VectorXd& prior) {
   Eigen::Index total = 0;
   for (const std::size_t index : problem.fitted) total += rows_of(problem.data.poses[index]).total();
-  Rows rows{Eigen::MatrixXd(total, numbers), Eigen::VectorXd(total)};
+  const Eigen::Index genes = prior.size();
+  Rows rows{Eigen::MatrixXd::Zero(total + genes, numbers), Eigen::VectorXd(total + genes)};
   Eigen::Index next = 0;
   for (const std::size_t index : problem.fitted) {
     const MeasuredPose& pose = problem.data.poses[index];
@@ -57,6 +77,9 @@ Rows rows_at(const StructureProblem& problem, const StructuredArm& arm, int numb
     rows.residual.segment(next, count) = residual(motion.predicted, problem.data, pose).cwiseProduct(weights);
     next += count;
   }
+  rows.jacobian.bottomRightCorner(genes, genes) = prior.asDiagonal();
+  for (Eigen::Index i = 0; i < genes; ++i)
+    rows.residual[total + i] = -prior[i] * arm.values[static_cast<std::size_t>(i)];
   return rows;
 }
 
@@ -89,7 +112,9 @@ Eigen::VectorXd damped_step(const Rows& rows, double damping) {
 
 /// One step that lowers the cost; false where none was found.
 bool take_step(const StructureProblem& problem, StructureFit& fit) {
-  Rows rows = rows_at(problem, fit.arm, fit.numbers);
+  const Eigen::VectorXd prior = prior_weights(problem, fit);
+  const double before = fit.cost + prior_cost(fit.arm, prior);
+  Rows rows = rows_at(problem, fit.arm, fit.numbers, prior);
   const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
   const auto qr = decomposed(rows.jacobian);
   fit.rank = static_cast<int>(qr.rank());
@@ -98,8 +123,9 @@ bool take_step(const StructureProblem& problem, StructureFit& fit) {
     const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows, damping) : qr.solve(rows.residual).eval();
     StructuredArm next = changed(fit.arm, problem.freedom, step.cwiseQuotient(lengths));
     const double cost = cost_of(problem, next, problem.fitted);
-    if (!(cost < fit.cost)) continue;
-    const bool goes_on = fit.cost - cost > kSettled * fit.cost;
+    const double after = cost + prior_cost(next, prior);
+    if (!(after < before)) continue;
+    const bool goes_on = before - after > kSettled * before;
     fit.arm = std::move(next);
     fit.cost = cost;
     return goes_on;
@@ -155,7 +181,7 @@ StructureFit fit_structure(const StructureProblem& problem, const Genome& genome
 }
 
 Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& fit) {
-  Rows rows = rows_at(problem, fit.arm, fit.numbers);
+  Rows rows = rows_at(problem, fit.arm, fit.numbers, prior_weights(problem, fit));
   const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(kSingular);

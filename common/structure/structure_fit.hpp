@@ -33,13 +33,14 @@ struct StructureFit {
   int numbers = 0;         ///< free
 };
 
-/// From amounts of zero: Gauss and Newton's steps by Householder's QR decomposition, and those of Levenberg and
-/// Marquardt where the Jacobian has no full rank or a step does not lower the cost (thesis, appendix B 2.3). The same
-/// bits on every run.
+/// From amounts of zero, which are believed to be within 5 mm and 17.5 mrad (a standard deviation; what the poses show
+/// outweighs it by far) lest they trade metres with base and tool: Gauss and Newton's steps by Householder's QR
+/// decomposition, and those of Levenberg and Marquardt where the Jacobian has no full rank or a step does not lower the
+/// cost (thesis, appendix B 2.3). The same bits on every run.
 StructureFit fit_structure(const StructureProblem& problem, const Genome& genome);
 
-/// Of small changes of all free numbers, in the order of StructureFreedom: sigma^2 (J^T J)^+ with
-/// sigma^2 = cost / (rows - rank).
+/// Of small changes of all free numbers, in the order of StructureFreedom: sigma^2 (J^T J)^+, J with the rows of that
+/// belief, sigma^2 = cost / (rows - rank).
 Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& fit);
 
 /// How many rows the poses have that are in use.
