@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "config/load_model.hpp"
+#include "config/model_text.hpp"
 #include "coordinator/result_folder.hpp"
 #include "in_memory_fleet.hpp"
 #include "lacking_puma.hpp"
