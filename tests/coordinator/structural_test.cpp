@@ -24,7 +24,9 @@ Job structural_job() {
 }
 
 DataSet structured_puma() {
-  return simulate(load_scenario(DEMECAL_SOURCE_DIR "/configs/scenarios/structural.yaml"));
+  DataSet data = simulate(load_scenario(DEMECAL_SOURCE_DIR "/configs/scenarios/structural.yaml"));
+  data.sha256 = "of no file";
+  return data;
 }
 
 /// Asks for no fleet: none is there.
