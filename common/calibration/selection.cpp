@@ -62,6 +62,19 @@ const Trial* briefest(const std::vector<Trial>& trials, double rows) {
   return best == trials.end() ? nullptr : &*best;
 }
 
+/// The shortest trial not significantly worse than the best; null where there is none.
+const Trial* frugal(const std::vector<Trial>& trials) {
+  const auto best = std::ranges::min_element(trials, {}, &Trial::sum);
+  const Trial* chosen = nullptr;
+  const auto length = [](const Trial& trial) { return trial.correction.formula().size(); };
+  for (const Trial& trial : trials) {
+    const PairedDifference behind = paired(trial.errors, best->errors);
+    const bool close = &trial == &*best || behind.mean <= 0.5 * behind.standard_error;
+    if (close && (chosen == nullptr || length(trial) < length(*chosen))) chosen = &trial;
+  }
+  return chosen;
+}
+
 /// Poses by what they are asked.
 struct Juries {
   Jury deciding;
@@ -86,7 +99,9 @@ JointCorrection choose(const Juries& juries, CorrectedRobot robot, const JointCa
   robot.corrections[joint] = JointCorrection{};
   const std::vector<JointVector> neutral = juries.deciding.corrected(robot);
   const std::vector<Trial> trials = try_all(juries.deciding, robot, neutral, candidates);
-  const Trial* chosen = briefest(trials, juries.deciding.rows());
+  // Formulas of distal learning lean on the other joints': each alone leaves too much error to pay for itself.
+  const bool is_distal = candidates.training.table.loss == Loss::squared;
+  const Trial* chosen = is_distal ? frugal(trials) : briefest(trials, juries.deciding.rows());
   choice.kept = false;
   if (chosen == nullptr) return {};
   const PairedDifference gain = paired(juries.deciding.squared_errors(robot, neutral), chosen->errors);
