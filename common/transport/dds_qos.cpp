@@ -6,7 +6,7 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kHeartbeat{200};
+constexpr milliseconds kHeartbeat{50};
 
 /// 0 is "no limit" to Fast DDS.
 dds::ResourceLimitsQosPolicy no_limits() {
