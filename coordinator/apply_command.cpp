@@ -14,7 +14,7 @@
 namespace demecal {
 namespace {
 
-struct Request {
+struct ApplyRequest {
   std::string model_file, program_file, out, language;
   bool json = false, strict = false;
   double payload_kg = 0.0;
@@ -31,7 +31,7 @@ std::vector<double> bounds_of(const CalibratedModel& model) {
   return bounds;
 }
 
-CommandModel model_of(const Request& request) {
+CommandModel model_of(const ApplyRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   std::optional<Eigen::Vector3d> tool_m;
   if (!request.tool_mm.empty()) tool_m = 1e-3 * Eigen::Map<const Eigen::Vector3d>(request.tool_mm.data());
@@ -40,7 +40,7 @@ CommandModel model_of(const Request& request) {
   return command_model(model.nominal, robot, bounds_of(model), tool_m);
 }
 
-Language language_asked(const Request& request, const std::string& text) {
+Language language_asked(const ApplyRequest& request, const std::string& text) {
   if (!request.language.empty()) return *language_named(request.language);
   const std::optional<Language> language = language_of(text, request.program_file);
   if (!language) {
@@ -50,7 +50,7 @@ Language language_asked(const Request& request, const std::string& text) {
   return *language;
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const ApplyRequest& request) {
   const CommandModel model = model_of(request);
   const std::string text = read_file(request.program_file);
   Program program = read_program(language_asked(request, text), text, request.program_file, model.nominal.chain);
@@ -73,7 +73,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_apply(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ApplyRequest>();
   CLI::App* command = app.add_subcommand("apply", "correct a robot program, so that the real robot goes where it says");
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
   command

@@ -20,7 +20,7 @@
 namespace demecal {
 namespace {
 
-struct Request {
+struct CalibrateRequest {
   std::string job_file, out, resume, data_file, method;
   int workers = static_cast<int>(std::thread::hardware_concurrency());
   std::optional<std::uint64_t> seed;
@@ -30,7 +30,7 @@ struct Request {
   DdsOptions dds;
 };
 
-Job job_of(const Request& request) {
+Job job_of(const CalibrateRequest& request) {
   Job job = load_job(request.job_file);
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
@@ -41,7 +41,7 @@ Job job_of(const Request& request) {
   return job;
 }
 
-void print_head(const Request& request, const Job& job, const DataSet& data) {
+void print_head(const CalibrateRequest& request, const Job& job, const DataSet& data) {
   if (request.quiet) return;
   if (job.method == Method::structural) {
     fmt::print(stderr, "{}: {} on {} ({} poses), a search for transforms between the links, seed {}\n", job.name,
@@ -56,7 +56,7 @@ void print_head(const Request& request, const Job& job, const DataSet& data) {
 }
 
 /// The journal of the run in its folder of results.
-std::unique_ptr<RunJournal> open_journal(const Request& request, const Job& job, const DataSet& data) {
+std::unique_ptr<RunJournal> open_journal(const CalibrateRequest& request, const Job& job, const DataSet& data) {
   const auto start = request.resume.empty() ? RunJournal::Start::anew : RunJournal::Start::resume;
   const JobIdentity identity = identity_of(request.job_file, job, data, request.asynchronous);
   auto journal = std::make_unique<RunJournal>(request.out, identity, start);
@@ -65,13 +65,13 @@ std::unique_ptr<RunJournal> open_journal(const Request& request, const Job& job,
 }
 
 /// How to go on after a run that did not come to its end.
-std::string resuming(const Request& request) {
+std::string resuming(const CalibrateRequest& request) {
   return fmt::format("`demecal calibrate {} --resume {}`, with the same options, goes on from there", request.job_file,
                      request.out);
 }
 
 /// A full disk is no fault of the user's input, and the journal still has what was reached.
-CalibrationReport write(const Request& request, const DataSet& data, const CalibrateResult& result) {
+CalibrationReport write(const CalibrateRequest& request, const DataSet& data, const CalibrateResult& result) {
   try {
     return write_results(request.out, data, result);
   } catch (const InputError& error) {
@@ -86,7 +86,7 @@ std::string effort(const Job& job, const RunFacts& facts) {
                      facts.evaluations, facts.wall_s);
 }
 
-ExitCode run(Request request) {
+ExitCode run(CalibrateRequest request) {
   if (request.out.empty()) request.out = request.resume;
   if (request.out.empty() || (!request.resume.empty() && !same_folder(request.out, request.resume))) {
     fmt::print(stderr,
@@ -139,7 +139,7 @@ ExitCode run(Request request) {
 }  // namespace
 
 void add_calibrate(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CalibrateRequest>();
   CLI::App* command = app.add_subcommand("calibrate", "run a calibration job and write model, report and history");
   command->add_option("job", request->job_file, "JOB.yaml")->required();
   command->add_option("--out", request->out, "folder for the results (needed, unless --resume names it)");

@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Request {
+struct CompareRequest {
   std::string job_file, data_file, out;
   int workers = static_cast<int>(std::thread::hardware_concurrency());
   int domain = 0;
@@ -34,7 +34,7 @@ struct Request {
   bool json = false, baselines_only = false;
 };
 
-Job job_of(const Request& request) {
+Job job_of(const CompareRequest& request) {
   Job job = load_job(request.job_file);
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
@@ -88,7 +88,7 @@ int constants_in(const CalibratedModel& model) {
   return numbers;
 }
 
-ExitCode compare_ours(const Request& request, const DataSet& data, const Job& job, Comparison& comparison) {
+ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const Job& job, Comparison& comparison) {
   DdsOptions dds;
   dds.domain = request.domain;
   const auto make_fleet = [&] { return std::make_unique<DdsFleet>(dds, request.workers); };
@@ -109,7 +109,7 @@ ExitCode compare_ours(const Request& request, const DataSet& data, const Job& jo
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const CompareRequest& request) {
   const Job job = job_of(request);
   const DataSet data = load_data_set(job.data_file);
   if (!request.out.empty()) make_writable(request.out);
@@ -128,7 +128,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_compare(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CompareRequest>();
   CLI::App* command =
       app.add_subcommand("compare", "fit methods of the literature to a job's poses, and the job itself: one table");
   command->add_option("job", request->job_file, "JOB.yaml")->required();

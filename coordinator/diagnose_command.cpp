@@ -11,6 +11,7 @@
 #include "config/files.hpp"
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
+#include "config/read_declared.hpp"
 #include "config/model_text.hpp"
 #include "config/proposed_poses.hpp"
 #include "coordinator/commands.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 constexpr std::uint64_t kProposals = 31;  ///< the stream of randomness that draws them
 
-struct Request {
+struct DiagnoseRequest {
   std::string data_file, model_file, out;
   std::vector<std::string> declared;
   std::uint64_t seed = 1;
@@ -47,7 +48,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return {fault, ""};
 }
 
-DeclaredModel declared_by(const Request& request, const std::optional<CalibratedModel>& known, const DataSet& data) {
+DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<CalibratedModel>& known, const DataSet& data) {
   DeclaredModel declared = known ? known->declared : declared_by_default(data);
   if (!request.declared.empty()) declared = declared_of(request.declared);
   declared.registration = true;
@@ -63,7 +64,7 @@ std::string words_of(const DeclaredModel& declared) {
   return words;
 }
 
-Job job_of(const Request& request, const DeclaredModel& declared) {
+Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   Job job;
   job.name = std::filesystem::path(request.data_file).stem().string();
   job.data_file = request.data_file;
@@ -75,7 +76,7 @@ Job job_of(const Request& request, const DeclaredModel& declared) {
 }
 
 /// The poses that would tell most, in a file beside the results.
-void write_proposed(const Request& request, const DataSet& data, const Diagnosis& diagnosis) {
+void write_proposed(const DiagnoseRequest& request, const DataSet& data, const Diagnosis& diagnosis) {
   const DiagnosisData of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
                          poses_of(data, PoseSet::validation)};
   const std::vector<Stop> stops = propose_poses(of, diagnosis.model, diagnosis.result.loop.rounds, request.proposed,
@@ -83,7 +84,7 @@ void write_proposed(const Request& request, const DataSet& data, const Diagnosis
   write_file(request.out + "/proposed.csv", proposed_poses_csv(request.data_file, data, stops));
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const DiagnoseRequest& request) {
   const DataSet data = load_data_set(request.data_file);
   std::optional<CalibratedModel> known;
   if (!request.model_file.empty()) known = load_model(request.model_file);
@@ -114,7 +115,7 @@ ExitCode run(const Request& request) {
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
-void add_loop_options(CLI::App& command, Request& request) {
+void add_loop_options(CLI::App& command, DiagnoseRequest& request) {
   const auto kinds = effect_kinds();
   command.add_option("--candidates", request.loop.candidates, "kinds of effects to consider, LIST (default: all)")
       ->delimiter(',')
@@ -138,7 +139,7 @@ void add_loop_options(CLI::App& command, Request& request) {
 }  // namespace
 
 void add_diagnose(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<DiagnoseRequest>();
   CLI::App* command = app.add_subcommand("diagnose", "what a declared model lacks: the closed loop's statistics alone");
   command->add_option("data", request->data_file, "DATASET.yaml")->required();
   command->add_option("--out", request->out, "folder for the results")->required();

@@ -15,7 +15,7 @@
 namespace demecal {
 namespace {
 
-struct Request {
+struct EvaluateRequest {
   std::string model_file, data_file;
   bool json = false, refit_base = false;
 };
@@ -28,7 +28,7 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
   return fit.robot;
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const EvaluateRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   const DataSet data = load_data_set(request.data_file);
   require_same_arm(model, data);
@@ -40,7 +40,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_evaluate(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<EvaluateRequest>();
   CLI::App* command = app.add_subcommand("evaluate", "position error of a model on a data set");
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
   command->add_option("data", request->data_file, "DATASET.yaml")->required();

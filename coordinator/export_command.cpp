@@ -16,7 +16,7 @@
 namespace demecal {
 namespace {
 
-struct Request {
+struct ExportRequest {
   std::string file, out, target, format = "text";
   int derivative = 0;  ///< by this joint, from 1; 0: none
 };
@@ -29,7 +29,7 @@ const std::map<std::string, CodeLanguage>& languages() {
   return all;
 }
 
-void require_target(const Request& request, const CorrectedRobot& robot) {
+void require_target(const ExportRequest& request, const CorrectedRobot& robot) {
   if (robot.tools.contains(request.target)) return;
   std::string known;
   for (const auto& [target, tool] : robot.tools) {
@@ -47,7 +47,7 @@ CorrectedRobot as_drawn(const Robot& robot) {
   return nominal_robot(none);
 }
 
-Listing listing_of_robot(Algebra& algebra, const Request& request, const CorrectedRobot& robot,
+Listing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
                          const std::string& title) {
   require_target(request, robot);
   const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
@@ -56,7 +56,7 @@ Listing listing_of_robot(Algebra& algebra, const Request& request, const Correct
 }
 
 /// By what the file says that it is: a model, a robot, or matrices.
-Listing listing_asked(Algebra& algebra, const Request& request) {
+Listing listing_asked(Algebra& algebra, const ExportRequest& request) {
   const YamlNode file = read_yaml(request.file);
   if (file.find("demecal_matrices") != nullptr) return load_matrices(algebra, request.file);
   if (file.find("demecal_robot") != nullptr) {
@@ -69,7 +69,7 @@ Listing listing_asked(Algebra& algebra, const Request& request) {
   return listing_of_robot(algebra, request, model.robot, title);
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const ExportRequest& request) {
   Algebra algebra;
   Listing listing = listing_asked(algebra, request);
   if (request.derivative > static_cast<int>(listing.actual.size())) {
@@ -89,7 +89,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_export(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExportRequest>();
   CLI::App* command = app.add_subcommand("export", "the corrected forward model as formulas or code");
   command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
   command->add_option("--format", request->format, "text, c, python or matlab")

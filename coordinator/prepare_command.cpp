@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kFar_mm = 1.0;  // between a programmed point and the nominal arm's: more than rounding explains
 
-struct Request {
+struct PrepareRequest {
   std::string file, out, frame;
   bool json = false;
 };
 
 /// The frame of the data set; empty: the instrument's own.
-std::optional<FrameKind> frame_asked(const Request& request, const RawMeasurements& raw, const Prepared& prepared) {
+std::optional<FrameKind> frame_asked(const PrepareRequest& request, const RawMeasurements& raw, const Prepared& prepared) {
   if (request.frame == "instrument" || (request.frame.empty() && !raw.local_frame)) return std::nullopt;
   if (request.frame == "best_fit") {
     if (prepared.best_fit) return FrameKind::best_fit;
@@ -51,7 +51,7 @@ std::vector<WrittenFile> files_beside(const RawMeasurements& raw, const Prepared
   return files;
 }
 
-void warn(const Request& request, const RawMeasurements& raw, const Prepared& prepared) {
+void warn(const PrepareRequest& request, const RawMeasurements& raw, const Prepared& prepared) {
   if (!raw.local_frame && !prepared.best_fit) {
     fmt::print(stderr, "{}: no frame joins robot and instrument, so that no errors are stated\n", request.file);
   }
@@ -63,7 +63,7 @@ void warn(const Request& request, const RawMeasurements& raw, const Prepared& pr
   }
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const PrepareRequest& request) {
   const RawMeasurements raw = load_preparation(request.file);
   const Prepared prepared = prepare_measurements(raw);
   const std::optional<FrameKind> asked = frame_asked(request, raw, prepared);
@@ -94,7 +94,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_prepare(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<PrepareRequest>();
   CLI::App* command =
       app.add_subcommand("prepare", "raw measurements, taught points and programs to a data set and its errors");
   command->add_option("preparation", request->file, "PREPARATION.yaml")->required();

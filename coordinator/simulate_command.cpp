@@ -13,11 +13,11 @@
 namespace demecal {
 namespace {
 
-struct Request {
+struct SimulateRequest {
   std::string scenario_file, out;
 };
 
-ExitCode run(const Request& request) {
+ExitCode run(const SimulateRequest& request) {
   const Scenario scenario = load_scenario(request.scenario_file);
   make_writable(request.out);
   const DataSet data = simulate(scenario);
@@ -32,7 +32,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_simulate(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SimulateRequest>();
   CLI::App* command =
       app.add_subcommand("simulate", "measure a simulated robot: a data set, and its truth in a file apart");
   command->add_option("scenario", request->scenario_file, "SCENARIO.yaml")->required();

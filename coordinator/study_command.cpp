@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kMostSeeds = 10000;
 
-struct Request {
+struct StudyRequest {
   std::string job_file, grid_file, data_file, out;
   std::vector<std::string> set;
   int seeds = 6;
@@ -35,14 +35,14 @@ struct Request {
 };
 
 /// The axes of the options and of the grid file.
-std::vector<GridAxis> axes_of(const Request& request) {
+std::vector<GridAxis> axes_of(const StudyRequest& request) {
   std::vector<GridAxis> axes;
   if (!request.grid_file.empty()) axes = load_grid(request.grid_file);
   for (const std::string& option : request.set) axes.push_back(read_axis(option));
   return axes;
 }
 
-Study study_of(const Request& request, const std::vector<GridAxis>& axes, const std::vector<GridCell>& cells,
+Study study_of(const StudyRequest& request, const std::vector<GridAxis>& axes, const std::vector<GridCell>& cells,
                const DataSet& data) {
   Study study{.job = cells.front().job.name,
               .robot = data.robot.name,
@@ -62,7 +62,7 @@ Study study_of(const Request& request, const std::vector<GridAxis>& axes, const 
   return study;
 }
 
-std::vector<Job> jobs_of(const Request& request, const std::vector<GridCell>& cells) {
+std::vector<Job> jobs_of(const StudyRequest& request, const std::vector<GridCell>& cells) {
   std::vector<Job> jobs;
   for (const GridCell& cell : cells) {
     jobs.push_back(cell.job);
@@ -87,7 +87,7 @@ void write(const std::string& folder, const Study& study) {
   write_file(folder + "/study.json", study_json(study, 1));
 }
 
-ExitCode print_end(const Request& request, const Study& study, RunEnd end) {
+ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) {
   if (request.json) {
     fmt::print("{}", study_json(study));
   } else {
@@ -103,7 +103,7 @@ ExitCode print_end(const Request& request, const Study& study, RunEnd end) {
   return study.interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const StudyRequest& request) {
   const std::vector<GridAxis> axes = axes_of(request);
   const std::vector<GridCell> cells = grid_cells(request.job_file, axes);
   const std::string& data_file = request.data_file.empty() ? cells.front().job.data_file : request.data_file;
@@ -131,7 +131,7 @@ ExitCode run(const Request& request) {
 }
 
 /// What is wrong with an option's value is a wrong argument.
-ExitCode run_or_refuse(const Request& request) {
+ExitCode run_or_refuse(const StudyRequest& request) {
   try {
     return run(request);
   } catch (const InputError& error) {
@@ -144,7 +144,7 @@ ExitCode run_or_refuse(const Request& request) {
 }  // namespace
 
 void add_study(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<StudyRequest>();
   CLI::App* command = app.add_subcommand(
       "study", "calibrate with a grid of parameters and seeds: what each does to error, length and time");
   command->add_option("job", request->job_file, "JOB.yaml")->required();

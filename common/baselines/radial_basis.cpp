@@ -12,7 +12,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kFolds = 5;
+constexpr int kFoldsOfNetwork = 5;
 constexpr std::array<std::size_t, 5> kCentres{10, 30, 100, 200, 400};
 constexpr std::array<double, 4> kWidths{0.5, 1.0, 2.0, 4.0};  // in units of the root of the number of joints
 
@@ -62,7 +62,7 @@ struct Samples {
 };
 
 std::vector<NormalSums> sums_of(const Samples& samples, const Network& network) {
-  std::vector<RowSums> sums(kFolds, RowSums(weight_of(network).size(), 3));
+  std::vector<RowSums> sums(kFoldsOfNetwork, RowSums(weight_of(network).size(), 3));
   for (std::size_t i = 0; i < samples.joints.size(); ++i) {
     sums[static_cast<std::size_t>(samples.folds[i])].add(network.row(samples.joints[i]), samples.error_m[i]);
   }
@@ -82,7 +82,7 @@ Samples samples_of(const RegisteredArm& arm, const ScaledJoints& scaled) {
     samples.error_m.emplace_back(
         (*pose.position_m - arm.robot.predict(Stop(pose), pose.target).translation()).transpose());
   }
-  samples.folds = folds_of(arm.data, seen, kFolds);
+  samples.folds = folds_of(arm.data, seen, kFoldsOfNetwork);
   return samples;
 }
 

@@ -11,7 +11,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kFolds = 5;
+constexpr int kFoldsOfLinks = 5;
 constexpr int kMostSteps = 6;
 constexpr double kSmallStep = 1e-9;            // of the rows' norm: nothing is left to gain
 constexpr double kMountedOtherwise_rad = 0.1;  // orientations this far off are not of the tool that is modelled
@@ -83,7 +83,7 @@ RowScales scales_of(const RegisteredArm& arm, const std::vector<Observation>& ob
 std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& model, const RowScales& scales,
                                 const std::vector<Observation>& observations, const std::vector<int>& folds,
                                 const Eigen::VectorXd& coefficients) {
-  std::vector<RowSums> sums(kFolds, RowSums(model.size(), 1));
+  std::vector<RowSums> sums(kFoldsOfLinks, RowSums(model.size(), 1));
   ScaledRows rows;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const JointVector& q = observations[i].corrected;
@@ -101,7 +101,7 @@ std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& mo
 VaryingFit fit_varying_links(const RegisteredArm& arm, const std::vector<LinkFunction>& functions) {
   const auto model = std::make_shared<const VaryingModel>(arm, functions);
   const std::vector<Observation> observations = observe(arm.data, arm.poses, arm.robot);
-  const std::vector<int> folds = folds_of(arm.data, arm.poses, kFolds);
+  const std::vector<int> folds = folds_of(arm.data, arm.poses, kFoldsOfLinks);
   const RowScales scales = scales_of(arm, observations);
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(model->size());
   std::vector<NormalSums> sums = sums_at(arm, *model, scales, observations, folds, coefficients);

@@ -7,9 +7,6 @@
 namespace demecal {
 namespace {
 
-constexpr int kTurnAboutZ = 5;
-constexpr double kNewShare = 1e-5;  ///< of a column's square: less of it beyond the model is rounding
-
 /// A constant and the functions up to ABS or, in formulas that have others, all functions.
 double words_for(const Tree& tree) {
   const auto is_later = [](const Node& node) { return node.primitive > Primitive::absolute; };

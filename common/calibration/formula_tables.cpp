@@ -9,8 +9,6 @@
 namespace demecal {
 namespace {
 
-constexpr int kTurnAboutZ = 5;
-
 constexpr double kLeastMotion = 0.05;  ///< rad or m: joints that move less say nothing
 
 /// The places in symbolic_variables of what these poses know and what varies.

@@ -6,6 +6,7 @@
 
 #include "config/files.hpp"
 #include "config/read_correction_options.hpp"
+#include "config/read_declared.hpp"
 #include "config/read_gp.hpp"
 #include "config/read_yaml.hpp"
 
@@ -16,28 +17,6 @@ constexpr std::int64_t kMostDemes = 1000;
 constexpr std::int64_t kMostEffects = 1000;
 constexpr std::int64_t kMostRounds = 1000;
 constexpr std::int64_t kHighestRatio = 10000;
-
-struct DeclaredWord {
-  std::string_view word;
-  bool DeclaredModel::*flag;
-};
-constexpr std::array<DeclaredWord, 5> kDeclared{{{"registration", &DeclaredModel::registration},
-                                                 {"tool", &DeclaredModel::tool},
-                                                 {"joint_offset", &DeclaredModel::joint_offset},
-                                                 {"geometry", &DeclaredModel::geometry},
-                                                 {"joint_corrections", &DeclaredModel::joint_corrections}}};
-
-DeclaredModel read_declared(const YamlNode& list) {
-  DeclaredModel declared;
-  for (const YamlNode& item : list.list()) {
-    const auto found = std::find_if(kDeclared.begin(), kDeclared.end(),
-                                    [&](const DeclaredWord& known) { return known.word == item.text(); });
-    if (found == kDeclared.end()) item.fail_choice(declared_words());
-    if (declared.*found->flag) item.fail("is declared twice");
-    declared.*found->flag = true;
-  }
-  return declared;
-}
 
 IslandOptions read_islands(const YamlNode& node, int population_size) {
   node.with_keys(
@@ -107,20 +86,6 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
 }
 
 }  // namespace
-
-std::vector<std::string> declared_words() {
-  std::vector<std::string> words;
-  for (const DeclaredWord& known : kDeclared) words.emplace_back(known.word);
-  return words;
-}
-
-DeclaredModel declared_of(std::span<const std::string> words) {
-  DeclaredModel declared;
-  for (const DeclaredWord& known : kDeclared) {
-    declared.*known.flag = std::find(words.begin(), words.end(), known.word) != words.end();
-  }
-  return declared;
-}
 
 Job load_job(const std::filesystem::path& path) {
   return read_job(read_yaml(path));

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "calibration/job.hpp"
 
@@ -20,10 +19,5 @@ Job read_job(const YamlNode& root);
 
 /// The kinds of effects, by the words of reports.
 std::span<const std::string> effect_kinds();
-
-/// What may be declared, by the words of jobs.
-std::vector<std::string> declared_words();
-/// The model that declares what `words` say, each of them one of declared_words().
-DeclaredModel declared_of(std::span<const std::string> words);
 
 }  // namespace demecal

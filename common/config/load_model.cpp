@@ -2,6 +2,7 @@
 
 #include "config/load_robot.hpp"
 #include "config/model_text.hpp"
+#include "config/read_declared.hpp"
 #include "config/read_effects.hpp"
 #include "config/read_yaml.hpp"
 #include "errors/input_error.hpp"
@@ -53,18 +54,6 @@ JointCorrection read_correction(const YamlNode& node, JointSummary& summary) {
   if (const YamlNode* centre = node.find("branch_centre_rad")) branch = {true, centre->number()};
   const auto [lower, upper] = node.at("range_rad").range();
   return {formula, branch, {lower, upper}};
-}
-
-DeclaredModel read_declared(const YamlNode& node) {
-  DeclaredModel declared;
-  for (const YamlNode& word : node.list()) {
-    *word.one_of<bool*>({{"registration", &declared.registration},
-                         {"tool", &declared.tool},
-                         {"joint_offset", &declared.joint_offset},
-                         {"geometry", &declared.geometry},
-                         {"joint_corrections", &declared.joint_corrections}}) = true;
-  }
-  return declared;
 }
 
 void read_corrections(const YamlNode& node, CalibratedModel& model) {

@@ -12,7 +12,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kMostPoses = 9999;
+constexpr int kMostProposedPoses = 9999;
 constexpr double kAboutEqual = 1.25;     ///< times the fewest stops
 constexpr double kContained = 1e-6;      ///< of the signal's square may be left of a signal that a rival contains
 constexpr double kPart = 1e-3;           ///< of the signal's square: coefficients that do less have no part in it
@@ -83,7 +83,7 @@ class Question {
   std::optional<int> poses_needed(const Separation& separation, Columns columns) const {
     if (columns.empty()) return std::nullopt;
     for (Eigen::Index i = signal_ + 1; i < separation.columns(); ++i) columns.push_back(i);
-    return separation.poses_needed(columns, signal_, kMostPoses);
+    return separation.poses_needed(columns, signal_, kMostProposedPoses);
   }
 
  private:
@@ -178,7 +178,7 @@ std::string inseparable(const std::string& named, const std::vector<Rival>& riva
   if (near.empty()) return text;
   if (!text.empty()) text += "; ";
   return text + named + " of this size differs too little from " + listed(near) + " for " +
-         std::to_string(kMostPoses + 1) + " poses of any kind to tell";
+         std::to_string(kMostProposedPoses + 1) + " poses of any kind to tell";
 }
 
 std::string sentence(const Experiment& experiment, int poses, const std::string& named, const std::string& rivals) {

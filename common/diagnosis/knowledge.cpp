@@ -9,16 +9,16 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kMostPoses = 2000;  ///< more tell the same, weighed
+constexpr std::size_t kMostPosesKnown = 2000;  ///< more tell the same, weighed
 constexpr double kNothing = 1e-12;        ///< of a correlation matrix's eigenvalues: rounding
 
-/// At most kMostPoses of the fitted poses, in their order, and no judging ones.
+/// At most kMostPosesKnown of the fitted poses, in their order, and no judging ones.
 DiagnosisData sample(const DiagnosisData& of, RandomStream random) {
   DiagnosisData some{of.data, of.declared, of.fitted, {}};
-  for (std::size_t i = 0; i < kMostPoses && some.fitted.size() > kMostPoses; ++i) {
+  for (std::size_t i = 0; i < kMostPosesKnown && some.fitted.size() > kMostPosesKnown; ++i) {
     std::swap(some.fitted[i], some.fitted[i + random.index(some.fitted.size() - i)]);
   }
-  if (some.fitted.size() > kMostPoses) some.fitted.resize(kMostPoses);
+  if (some.fitted.size() > kMostPosesKnown) some.fitted.resize(kMostPosesKnown);
   std::ranges::sort(some.fitted);
   return some;
 }
@@ -78,7 +78,7 @@ Knowledge::Knowledge(const DiagnosisData& of, DiagnosedModel model, const std::v
     : of_(of),
       model_(everywhere(std::move(model))),
       at_(linearise(sample(of, std::move(random)), model_)),
-      weight_(static_cast<double>(of.fitted.size()) / static_cast<double>(std::min(of.fitted.size(), kMostPoses))) {
+      weight_(static_cast<double>(of.fitted.size()) / static_cast<double>(std::min(of.fitted.size(), kMostPosesKnown))) {
   std::vector<Eigen::Index> out;
   for (Eigen::Index i = 0; i < at_.covariance.rows(); ++i) {
     const auto at = static_cast<std::size_t>(i);

@@ -9,9 +9,6 @@
 namespace demecal {
 namespace {
 
-/// Of a column's square that must remain for it to count as new: less is rounding and the errors of derivatives.
-constexpr double kNewShare = 1e-5;
-
 /// The matrix (n x r) that makes columns with the triangular factor `factor` orthonormal, r their rank.
 Eigen::MatrixXd orthonormaliser(const Eigen::MatrixXd& factor) {
   constexpr double kDependent = 1e-9;

@@ -7,6 +7,9 @@
 
 namespace demecal {
 
+/// Of a column's square that must remain for it to count as new: less is rounding and the errors of derivatives.
+inline constexpr double kNewShare = 1e-5;
+
 /// Columns of the model over the fitted poses and over the judging ones, and what is believed of their coefficients
 /// beforehand: `precision` (one over the standard deviation; 0: nothing) and `offset` (present value minus the believed
 /// one).

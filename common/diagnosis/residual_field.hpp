@@ -32,6 +32,8 @@ struct ResidualField {
   Eigen::Index rows_of_pose(std::size_t i) const { return first_row[i + 1] - first_row[i]; }
 };
 
+inline constexpr int kTurnAboutZ = 5;  ///< the axis of motion_column that a revolute joint turns about
+
 /// The column of ResidualField::motions of a unit motion along or about `axis` of `place`.
 inline Eigen::Index motion_column(int place, int axis) {
   return 6 * (place - kSensorPlace) + axis;

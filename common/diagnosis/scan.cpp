@@ -9,7 +9,6 @@
 namespace demecal {
 namespace {
 
-constexpr double kNewShare = 1e-5;
 constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
 
 }  // namespace

@@ -140,7 +140,7 @@ RowMatrix SmoothCorrections::columns(const ResidualField& field) const {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const double value = value_at(*this, terms[i], joints[terms[i].joint]);
       columns.block(first, static_cast<Eigen::Index>(i), count, 1) =
-          value * field.motions.block(first, motion_column(terms[i].joint, 5), count, 1);
+          value * field.motions.block(first, motion_column(terms[i].joint, kTurnAboutZ), count, 1);
     }
   }
   return columns;

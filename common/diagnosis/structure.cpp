@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kMostPoses = 1000;
+constexpr std::size_t kMostPosesTested = 1000;
 constexpr std::size_t kFewLevels = 6;
 
 /// Pairs of poses that are neighbours in some circumstance.
@@ -20,7 +20,7 @@ using Pairs = std::vector<std::array<std::size_t, 2>>;
 using Circumstance = std::vector<double>;
 
 std::vector<std::size_t> evenly_spaced(std::size_t count) {
-  const std::size_t taken = std::min(count, kMostPoses);
+  const std::size_t taken = std::min(count, kMostPosesTested);
   std::vector<std::size_t> poses(taken);
   for (std::size_t i = 0; i < taken; ++i) poses[i] = i * count / taken;
   return poses;

@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kStripRows = 128;  // the columns of a formula's parts and their slopes stay in the near caches
+constexpr std::size_t kRowsOfModel = 128;  // the columns of a formula's parts and their slopes stay in the near caches
 constexpr NodeId kExpanded = NodeId{1} << 31;
 
 bool is_number(const SharedNode& node) {
@@ -42,7 +42,7 @@ Step step_for(Primitive primitive, const Operand& left, const Operand& right, do
 
 ConstantModel::ConstantModel(Columns columns)
     : columns_(columns),
-      strip_rows_(std::min(kStripRows, columns_.padded_rows())),
+      strip_rows_(std::min(kRowsOfModel, columns_.padded_rows())),
       pool_(strip_rows_, std::numeric_limits<std::size_t>::max()),
       ones_(strip_rows_, 1.0),
       zeros_(strip_rows_, 0.0) {}

@@ -119,7 +119,7 @@ Piece called(Primitive function, const Piece& x) {
   }
 }
 
-Piece joined(Primitive function, const Piece& f, const Piece& g) {
+Piece joined_pieces(Primitive function, const Piece& f, const Piece& g) {
   switch (function) {
     case Primitive::add:
       return {sum(f.value, g.value), sum(f.slope, g.slope)};
@@ -147,7 +147,7 @@ Tree derivative(const Tree& tree, std::uint8_t variable) {
                const bool varies = node.primitive == Primitive::variable && node.variable == variable;
                return Piece{{node}, constant_tree(varies ? 1.0 : 0.0)};
              },
-             called, joined)
+             called, joined_pieces)
       .slope;
 }
 

@@ -8,8 +8,8 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kStripRows = 256;  // so that the columns of a strip stay in the first-level cache
-constexpr std::size_t kStripStride = kStripRows + kLanes;  // not a power of two, so that they share no cache sets
+constexpr std::size_t kRowsOfEvaluation = 256;  // so that the columns of a strip stay in the first-level cache
+constexpr std::size_t kStripStride = kRowsOfEvaluation + kLanes;  // not a power of two, so that they share no cache sets
 
 }  // namespace
 
@@ -66,8 +66,8 @@ std::span<const double> ColumnEvaluator::padded_values(std::span<const Node> tre
     scratch_.resize(most_leaves * kStripStride);
   }
   const Operand value = make_steps(tree);
-  for (std::size_t begin = 0; begin < columns_.padded_rows(); begin += kStripRows) {
-    const std::size_t rows = std::min(kStripRows, columns_.padded_rows() - begin);
+  for (std::size_t begin = 0; begin < columns_.padded_rows(); begin += kRowsOfEvaluation) {
+    const std::size_t rows = std::min(kRowsOfEvaluation, columns_.padded_rows() - begin);
     double* const out = result_.data() + begin;
     run(steps_, begin, rows);
     if (value.column == nullptr) {

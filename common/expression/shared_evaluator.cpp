@@ -8,14 +8,14 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kMostRowsAtOnce = 512;
-constexpr std::size_t kStripRows = 256;  // where there are more: a few strips stay in the first-level cache
+constexpr std::size_t kRowsOfShared = 256;  // where there are more: a few strips stay in the first-level cache
 constexpr NodeId kExpanded = NodeId{1} << 31;
 
 }  // namespace
 
 SharedEvaluator::SharedEvaluator(Columns columns, std::size_t budget_bytes)
     : columns_(columns),
-      strip_rows_(columns_.padded_rows() > kMostRowsAtOnce ? kStripRows : columns_.padded_rows()),
+      strip_rows_(columns_.padded_rows() > kMostRowsAtOnce ? kRowsOfShared : columns_.padded_rows()),
       kept_(columns_.padded_rows(), budget_bytes),
       strips_(strip_rows_, std::numeric_limits<std::size_t>::max()),
       constant_strip_(strip_rows_) {}

@@ -36,7 +36,7 @@ bool is_operator(const PrimitiveTraits& function) {
   return function.arity == 2 && std::isalpha(static_cast<unsigned char>(function.symbol.front())) == 0;
 }
 
-Written joined(Primitive function, Written left, Written right) {
+Written joined_texts(Primitive function, Written left, Written right) {
   if (!is_operator(traits(function)))
     return {std::string(traits(function).symbol) + "(" + left.text + ", " + right.text + ")"};
   const Precedence own = precedence_of(function);
@@ -199,7 +199,7 @@ std::string to_text(std::span<const Node> tree, const VariableNames& names) {
              [](Primitive function, const Written& argument) {
                return Written{std::string(traits(function).symbol) + "(" + argument.text + ")"};
              },
-             joined)
+             joined_texts)
       .text;
 }
 

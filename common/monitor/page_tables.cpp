@@ -50,9 +50,9 @@ struct WorkerCells {
 };
 
 std::string worker_line(const WorkerCells& cells, std::size_t columns) {
-  constexpr std::size_t kTag = 5, kProcess = 10, kFigures = 31, kFewestForProcess = 64;
+  constexpr std::size_t kTag = 5, kProcess = 10, kFigureRoom = 31, kFewestForProcess = 64;
   const std::size_t process_room = columns < kFewestForProcess ? 0 : kProcess;
-  const std::size_t host_room = std::min<std::size_t>(columns - kTag - process_room - kFigures, 40);
+  const std::size_t host_room = std::min<std::size_t>(columns - kTag - process_room - kFigureRoom, 40);
   return left(cells.tag, kTag) + left(cells.host, host_room) +
          (process_room == 0 ? "" : right(cells.process, process_room)) + right(cells.slots, 7) +
          right(cells.islands, 9) + right(cells.speed, 8) + right(cells.waited, 7);

@@ -3,7 +3,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kDeepest = 20;
+constexpr int kDeepestBracket = 20;
 
 class ListReader {
  public:
@@ -11,7 +11,7 @@ class ListReader {
       : text_(text), code_(text.code()), opening_(opening), closing_(opening == '[' ? ']' : '}') {}
 
   BracketItem list(std::size_t begin, int depth) const {
-    if (depth > kDeepest) text_.fail(begin, 1, "is nested too deeply");
+    if (depth > kDeepestBracket) text_.fail(begin, 1, "is nested too deeply");
     BracketItem whole{begin, 0, true, {}};
     std::size_t at = begin + 1;
     while (true) {

@@ -92,7 +92,7 @@ void check_configuration(const Target& target, const CorrectedTarget& corrected,
 }  // namespace
 
 std::vector<std::string> concerns(const Target& target, const CorrectedTarget& corrected, const CommandModel& model) {
-  if (corrected.outcome == Outcome::no_joints) {
+  if (corrected.outcome == Correctedness::no_joints) {
     return {"the nominal robot does not reach the pose; it is left as it is"};
   }
   std::vector<std::string> sentences;
@@ -103,7 +103,7 @@ std::vector<std::string> concerns(const Target& target, const CorrectedTarget& c
   }
   check_bounds(corrected, model, sentences);
   check_configuration(target, corrected, sentences);
-  if (corrected.outcome == Outcome::nearest) {
+  if (corrected.outcome == Correctedness::nearest) {
     sentences.push_back("the model has no exact inverse here; " + fixed(millimetres(corrected.left_m), 4) +
                         " mm of position error remain");
   }

@@ -84,7 +84,7 @@ class Corrector {
     corrected.stop = stop_at(target, corrected.nominal);
     const InverseSolution solution = command_reaching(model_.robot, corrected.nominal_tool, corrected.stop);
     corrected.inverse = corrected.command = solution.q;
-    corrected.outcome = solution.status == InverseStatus::converged ? Outcome::corrected : Outcome::nearest;
+    corrected.outcome = solution.status == InverseStatus::converged ? Correctedness::corrected : Correctedness::nearest;
     corrected.left_m = solution.position_residual_m;
   }
 
@@ -108,7 +108,7 @@ class Corrector {
         corrected.left_m = error.norm();
       }
       if (error.norm() < kExact) {
-        corrected.outcome = Outcome::corrected;
+        corrected.outcome = Correctedness::corrected;
         return;
       }
       tool.translation() += error;

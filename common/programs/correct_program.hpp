@@ -14,14 +14,14 @@ struct Circumstances {
   std::optional<double> temperature_celsius{};
 };
 
-enum class Outcome {
+enum class Correctedness {
   corrected,  ///< or in no need of it
   nearest,    ///< the model has no exact inverse here; what could be corrected is
   no_joints   ///< the nominal robot cannot reach the pose; it is left as it is
 };
 
 struct CorrectedTarget {
-  Outcome outcome = Outcome::no_joints;
+  Correctedness outcome = Correctedness::no_joints;
   Stop stop{JointVector()};      ///< the nominal joints and the circumstances they were corrected for
   JointVector nominal, command;  ///< joints, rad or m: as the program means, and as it is to be sent
   JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept

@@ -9,7 +9,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kDeepest = 20;
+constexpr int kDeepestAggregate = 20;
 constexpr std::array<std::string_view, 6> kPoseParts{"x", "y", "z", "a", "b", "c"};
 constexpr std::array<std::string_view, 6> kAxes{"a1", "a2", "a3", "a4", "a5", "a6"};
 
@@ -86,7 +86,7 @@ class KrlReader {
   }
 
   void aggregate(const BracketItem& list, Context context, const std::string& name, int depth) {
-    if (depth > kDeepest) text_.fail(list.begin, 1, "is nested too deeply");
+    if (depth > kDeepestAggregate) text_.fail(list.begin, 1, "is nested too deeply");
     std::vector<Component> components;
     for (std::size_t i = 0; i < list.items.size(); ++i) {
       const BracketItem& item = list.items[i];

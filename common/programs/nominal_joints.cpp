@@ -11,7 +11,6 @@
 namespace demecal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kStarts = 48;
 constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
 constexpr double kNear = 1.0;       ///< rad or m: a solution this near to the last one is taken without looking further
@@ -32,8 +31,8 @@ JointVector start_of(const Chain& arm, int index) {
   JointVector start(arm.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
-    double lower = -kPi, upper = kPi;
-    if (joint.type == JointType::prismatic || (limited(joint) && joint.upper - joint.lower < 2.0 * kPi)) {
+    double lower = -std::numbers::pi, upper = std::numbers::pi;
+    if (joint.type == JointType::prismatic || (limited(joint) && joint.upper - joint.lower < 2.0 * std::numbers::pi)) {
       lower = joint.lower;
       upper = joint.upper;
     }
@@ -53,7 +52,7 @@ double nearest_turn(const Joint& joint, double value, double reference) {
   if (joint.type == JointType::prismatic) return value;
   const double near = wrap_near(value, reference);
   double best = near;
-  for (const double turned : {near - 2.0 * kPi, near + 2.0 * kPi}) {
+  for (const double turned : {near - 2.0 * std::numbers::pi, near + 2.0 * std::numbers::pi}) {
     const double better = beyond_limits(joint, best) - beyond_limits(joint, turned);
     if (better > 0.0) best = turned;
   }
@@ -62,8 +61,8 @@ double nearest_turn(const Joint& joint, double value, double reference) {
 
 /// About where the hint has the joint; elsewhere, where the reference has it.
 double hinted(const ArmHint& hint, std::size_t joint, double reference) {
-  if (joint < hint.quadrants.size() && hint.quadrants[joint]) return (*hint.quadrants[joint] + 0.5) * kPi / 2.0;
-  if (joint < hint.negative.size() && hint.negative[joint]) return *hint.negative[joint] ? -kPi / 2.0 : kPi / 2.0;
+  if (joint < hint.quadrants.size() && hint.quadrants[joint]) return (*hint.quadrants[joint] + 0.5) * std::numbers::pi / 2.0;
+  if (joint < hint.negative.size() && hint.negative[joint]) return *hint.negative[joint] ? -std::numbers::pi / 2.0 : std::numbers::pi / 2.0;
   return reference;
 }
 
@@ -108,8 +107,8 @@ int contradictions(const ArmHint& hint, const JointVector& joints) {
       count += (*hint.negative[i] ? angle > kRounding : angle < -kRounding) ? 1 : 0;
     }
     if (i < hint.quadrants.size() && hint.quadrants[i]) {
-      const double lower = *hint.quadrants[i] * kPi / 2.0;
-      count += angle < lower - kRounding || angle > lower + kPi / 2.0 + kRounding ? 1 : 0;
+      const double lower = *hint.quadrants[i] * std::numbers::pi / 2.0;
+      count += angle < lower - kRounding || angle > lower + std::numbers::pi / 2.0 + kRounding ? 1 : 0;
     }
   }
   return count;

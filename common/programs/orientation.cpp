@@ -11,7 +11,6 @@
 namespace demecal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 double distance(const std::vector<double>& one, const std::vector<double>& other) {
   double square = 0.0;
@@ -49,7 +48,7 @@ std::vector<double> angles_of(const Eigen::Matrix3d& rotation, const std::vector
   const auto near = [&](double a, double b, double c) {
     return std::vector<double>{wrap_near(a, written[0]), wrap_near(b, written[1]), wrap_near(c, written[2])};
   };
-  const std::vector<double> one = near(first, second, third), other = near(first + kPi, kPi - second, third + kPi);
+  const std::vector<double> one = near(first, second, third), other = near(first + std::numbers::pi, std::numbers::pi - second, third + std::numbers::pi);
   return distance(other, written) < distance(one, written) ? other : one;
 }
 
@@ -61,7 +60,7 @@ std::vector<double> vector_numbers(const Eigen::Matrix3d& rotation, const std::v
   const Eigen::Vector3d axis = angle > 1e-12 ? Eigen::Vector3d(shortest / angle) : Eigen::Vector3d(before.normalized());
   Eigen::Vector3d nearest = shortest;
   for (const double turns : {-1.0, 1.0}) {
-    const Eigen::Vector3d turned = shortest + turns * 2.0 * kPi * axis;
+    const Eigen::Vector3d turned = shortest + turns * 2.0 * std::numbers::pi * axis;
     if ((turned - before).norm() < (nearest - before).norm()) nearest = turned;
   }
   return {nearest.x(), nearest.y(), nearest.z()};

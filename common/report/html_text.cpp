@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kDash = "–";
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-std::string escaped(char letter) {
+std::string escaped_letter(char letter) {
   switch (letter) {
     case '&':
       return "&amp;";
@@ -38,7 +38,7 @@ std::string without_negative_zero(const std::string& number) {
 
 std::string escaped(std::string_view text) {
   std::string markup;
-  for (const char letter : text) markup += escaped(letter);
+  for (const char letter : text) markup += escaped_letter(letter);
   return markup;
 }
 

@@ -49,7 +49,7 @@ std::string plot(const JointEntry& joint) {
   }
 }
 
-std::string evolution(const JointEntry& joint, const FitnessHistory& history) {
+std::string evolution_figure(const JointEntry& joint, const FitnessHistory& history) {
   const std::string chart = fitness_chart(history, joint.joint);
   if (chart.empty()) return {};
   const std::size_t islands = history.joints.at(joint.joint).size();
@@ -57,7 +57,7 @@ std::string evolution(const JointEntry& joint, const FitnessHistory& history) {
                      islands == 1 ? "" : "s", fitness_caption(history, joint.joint));
 }
 
-std::string formula(const JointEntry& joint) {
+std::string formula_line(const JointEntry& joint) {
   if (!joint.kept || joint.expression.empty()) return {};
   return "<pre class=\"formula\"><span>g(theta) = </span><code>" + escaped(joint.expression) + "</code></pre>\n";
 }
@@ -67,9 +67,9 @@ std::string formula(const JointEntry& joint) {
 std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
   const std::string note =
       joint.note.empty() ? "" : "<p class=\"note\">Left neutral: " + escaped(joint.note) + ".</p>\n";
-  const std::string figures = plot(joint) + evolution(joint, history);
+  const std::string figures = plot(joint) + evolution_figure(joint, history);
   return "<article class=\"joint\">\n" + head(joint) + note +
-         (figures.empty() ? "" : "<div class=\"pair\">\n" + figures + "</div>\n") + formula(joint) + "</article>\n";
+         (figures.empty() ? "" : "<div class=\"pair\">\n" + figures + "</div>\n") + formula_line(joint) + "</article>\n";
 }
 
 std::string range_deg(const JointEntry& joint) {

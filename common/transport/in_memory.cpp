@@ -13,18 +13,17 @@
 #include "transport/topic.hpp"
 
 namespace demecal {
-namespace {
 
 /// What the exchange knows of a participant.
-struct Member {
-  Member(Role r, std::string n) : role(r), name(std::move(n)), owners(mailbox, dropped, role == Role::worker) {}
+struct InMemoryMember {
+  InMemoryMember(Role r, std::string n) : role(r), name(std::move(n)), owners(mailbox, dropped, role == Role::worker) {}
 
   bool follows(const TopicKey& key) const {
     return reads(role, key.topic) && (key.topic != Topic::migrants || joints.contains(key.island.joint));
   }
 
   /// What another said.
-  void hear(const Member& sender, const Message& message) {
+  void hear(const InMemoryMember& sender, const Message& message) {
     std::visit(
         [&](const auto& plain) {
           const auto now = std::chrono::steady_clock::now();
@@ -47,24 +46,22 @@ struct Member {
 };
 
 /// A value that waits for those who come late, with its place in the order of all that was published.
-struct Kept {
+struct KeptMessage {
   std::uint64_t number;
   Message message;
 };
 
-}  // namespace
-
 /// One mutex guards all: it takes the place of the network.
 class Exchange {
  public:
-  void enter(Member* member) {
+  void enter(InMemoryMember* member) {
     const std::lock_guard lock(mutex_);
     members_.push_back(member);
     member->id = id_of(++entered_);
     catch_up(*member, [member](const TopicKey& key) { return member->follows(key); });
   }
 
-  void leave(Member* member) {
+  void leave(InMemoryMember* member) {
     const std::lock_guard lock(mutex_);
     std::erase(members_, member);
     const bool is_lost = has_announced_itself(*member);
@@ -72,10 +69,10 @@ class Exchange {
     kept_.erase(member);
     for (const std::uint64_t calibration : calibrations) tell(*member, Topic::loop, CalibrationLost{calibration});
     if (is_lost) tell(*member, Topic::worker, WorkerLost{member->name});
-    for (Member* other : members_) other->owners.departed(member->id);
+    for (InMemoryMember* other : members_) other->owners.departed(member->id);
   }
 
-  void follow(Member* member, std::uint32_t joint) {
+  void follow(InMemoryMember* member, std::uint32_t joint) {
     const std::lock_guard lock(mutex_);
     if (!member->joints.insert(joint).second) return;
     catch_up(*member, [member, joint](const TopicKey& key) {
@@ -83,7 +80,7 @@ class Exchange {
     });
   }
 
-  void publish(Member* sender, const Message& message) {
+  void publish(InMemoryMember* sender, const Message& message) {
     const std::lock_guard lock(mutex_);
     const TopicKey key = key_of(message);
     check_may_publish(sender->role, sender->name, key);
@@ -93,12 +90,12 @@ class Exchange {
     auto& values = kept_[sender][key];
     values.push_back({++published_, message});
     if (values.size() > static_cast<std::size_t>(values_kept(key.topic))) values.pop_front();
-    for (Member* member : members_)
+    for (InMemoryMember* member : members_)
       if (member != sender && member->follows(key)) member->hear(*sender, message);
   }
 
  private:
-  using Values = std::map<TopicKey, std::deque<Kept>>;
+  using Values = std::map<TopicKey, std::deque<KeptMessage>>;
 
   /// No two members have the same, whatever their names.
   static ParticipantId id_of(std::uint64_t number) {
@@ -108,13 +105,13 @@ class Exchange {
   }
 
   /// Says of a member what it does not say itself.
-  void tell(const Member& of, Topic topic, const Message& message) {
-    for (Member* member : members_)
+  void tell(const InMemoryMember& of, Topic topic, const Message& message) {
+    for (InMemoryMember* member : members_)
       if (reads(member->role, topic)) member->mailbox.put(of.id, message);
   }
 
   /// Those whose news it has told.
-  std::set<std::uint64_t> calibrations_of(const Member& member) {
+  std::set<std::uint64_t> calibrations_of(const InMemoryMember& member) {
     std::set<std::uint64_t> calibrations;
     for (const auto& [key, values] : kept_[&member])
       if (key.topic == Topic::loop) calibrations.insert(key.calibration);
@@ -122,17 +119,17 @@ class Exchange {
   }
 
   template <class Predicate>
-  void catch_up(Member& newcomer, Predicate wanted) {
-    std::map<std::uint64_t, std::pair<const Member*, const Message*>> in_order;
+  void catch_up(InMemoryMember& newcomer, Predicate wanted) {
+    std::map<std::uint64_t, std::pair<const InMemoryMember*, const Message*>> in_order;
     for (const auto& [sender, values] : kept_)
       for (const auto& [key, waiting] : values)
         if (sender != &newcomer && wanted(key))
-          for (const Kept& kept : waiting) in_order.emplace(kept.number, std::pair(sender, &kept.message));
+          for (const KeptMessage& kept : waiting) in_order.emplace(kept.number, std::pair(sender, &kept.message));
     for (const auto& [number, kept] : in_order) newcomer.hear(*kept.first, *kept.second);
   }
 
   /// Whether it has said that it is there, and not that it leaves.
-  bool has_announced_itself(const Member& member) {
+  bool has_announced_itself(const InMemoryMember& member) {
     const auto& values = kept_[&member];
     const auto status = values.find({Topic::worker, 0, {}, member.name});
     return status != values.end() && !std::get<WorkerStatus>(status->second.back().message).leaving;
@@ -144,8 +141,8 @@ class Exchange {
   }
 
   std::mutex mutex_;
-  std::vector<Member*> members_;
-  std::map<const Member*, Values> kept_;
+  std::vector<InMemoryMember*> members_;
+  std::map<const InMemoryMember*, Values> kept_;
   std::uint64_t published_ = 0, entered_ = 0;
 };
 
@@ -175,7 +172,7 @@ class InMemoryTransport final : public Transport {
 
  private:
   std::shared_ptr<Exchange> exchange_;
-  Member member_;
+  InMemoryMember member_;
 };
 
 }  // namespace

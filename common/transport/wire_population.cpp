@@ -14,7 +14,7 @@ std::optional<std::vector<Plain>> decode_each(const std::vector<Wire>& elements)
   std::vector<Plain> decoded;
   decoded.reserve(elements.size());
   for (const Wire& element : elements) {
-    auto plain = decode(element);
+    auto plain = demecal::decode(element);
     if (!plain) return std::nullopt;
     decoded.push_back(std::move(*plain));
   }

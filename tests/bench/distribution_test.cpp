@@ -47,7 +47,7 @@ TEST(Load, HasTheThesissSizeAndSoManySleepers) {
 }
 
 TEST(SpeedUp, IsTheMedianOfPairs) {
-  RunFigures slow, fast, faster;
+  DistributionFigures slow, fast, faster;
   slow.wall_s = 2.0;
   fast.wall_s = 1.0;
   faster.wall_s = 0.5;

@@ -18,7 +18,7 @@ TEST(EngineWorkload, IsTheOneOfTheStatedFigures) {
 }
 
 TEST(EngineFigures, AreSharesOfWhatWasMeant) {
-  const RunFigures figures = measure_parts(parameters(), 20, 1, 1e9);
+  const EngineFigures figures = measure_parts(parameters(), 20, 1, 1e9);
   EXPECT_GT(found_in_store(figures), 0.5);
   EXPECT_LT(found_in_store(figures), 1.0);
   EXPECT_LT(figures.functions_computed, figures.functions);
@@ -32,7 +32,7 @@ TEST(EngineWorkload, FitsEveryNewIndividualWithTenSteps) {
   GpParameters few = fitting_parameters();
   few.population_size = 40;
   few.number_generations = 5;
-  const RunFigures figures = measure_parts(few, 30, 1, 1e9);
+  const EngineFigures figures = measure_parts(few, 30, 1, 1e9);
   EXPECT_GT(figures.fits, 0.6 * 240.0);
   EXPECT_LE(figures.fits, 240.0);
   EXPECT_GT(figures.seconds.fitting, 0.0);

@@ -10,13 +10,13 @@
 namespace demecal {
 namespace {
 
-const std::vector<std::string> kErrors{
+const std::vector<std::string> kDistalErrors{
     "0.002 * SIN(theta)", "0.003 * COS(theta)", "-0.002 * SIN(theta)", "", "0.002 * theta", ""};
 
 enum class Measured { position, pose, distances };
 
 DataSet measured(Measured what, std::uint64_t seed) {
-  DataSet data = measure(true_puma(kErrors), 45, 2e-5, seed, what == Measured::pose);
+  DataSet data = measure(true_puma(kDistalErrors), 45, 2e-5, seed, what == Measured::pose);
   if (what != Measured::distances) return data;
   data.anchors_m = {{2.0, 0.3, 0.1}, {-0.5, 1.8, 0.4}};
   for (MeasuredPose& pose : data.poses) {
@@ -239,7 +239,7 @@ TEST(DistalStep, IsNotTakenWhereTheExactIndexWouldRise) {
   EXPECT_FALSE(take_correction(index, training, wrong, 1, outcome));
   EXPECT_TRUE(outcome.robot.corrections[0].is_neutral());
   EXPECT_EQ(outcome.index_mm2, before);
-  const JointCorrection right(parse(kErrors[0]), training.branch, training.range_rad);
+  const JointCorrection right(parse(kDistalErrors[0]), training.branch, training.range_rad);
   EXPECT_TRUE(take_correction(index, training, right, 2, outcome));
   EXPECT_LT(outcome.index_mm2, before);
   ASSERT_EQ(outcome.steps.size(), 1U);

@@ -76,7 +76,7 @@ Eigen::VectorXd formulas_at(const CorrectedRobot& robot, const DataSet& data, co
   return sum;
 }
 
-ClosedCalibration closed_for(const DataSet& data, const Job& job, const Evolve& evolve) {
+ClosedCalibration closed_with_search(const DataSet& data, const Job& job, const Evolve& evolve) {
   const Preparation preparation = prepare(data, job);
   std::vector<JointCandidates> none;
   for (const JointTraining& training : preparation.training) none.push_back({training, {}});
@@ -86,7 +86,7 @@ ClosedCalibration closed_for(const DataSet& data, const Job& job, const Evolve& 
 TEST(EvolvedFormula, ComesBackAsAPersonWritesItInPlaceOfTheSumsThatImitateIt) {
   const DataSet data = formula_arm(kTruth, kPoses, 3);
   const Job job = job_with_corrections();
-  const ClosedCalibration closed = closed_for(data, job, island_evolution(job.gp, 5));
+  const ClosedCalibration closed = closed_with_search(data, job, island_evolution(job.gp, 5));
   const CorrectedRobot& robot = closed.calibration.robot;
   ASSERT_EQ(robot.effects.size(), 1U);
   const Effect& found = robot.effects[0];

@@ -4,6 +4,7 @@
 
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
+#include "config/read_declared.hpp"
 #include "config/load_robot.hpp"
 #include "config/load_scenario.hpp"
 #include "config/sha256.hpp"

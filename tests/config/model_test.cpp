@@ -139,7 +139,7 @@ TEST_P(BadEffects, AreRefusedWithFileLineValueAndRule) {
   EXPECT_THAT(said, HasSubstr(GetParam().rule));
 }
 
-std::string name_of(const ::testing::TestParamInfo<BadEffect>& info) {
+std::string name_of_effect(const ::testing::TestParamInfo<BadEffect>& info) {
   return info.param.name;
 }
 
@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "is no key of effects[1].ranges"},
         BadEffect{"RangeUpsideDown", "{kind: gain, joint: 1, share: 0, ranges: {q1_rad: [1, 0]}}", "[1, 0]",
                   "must rise from lower to upper"}),
-    name_of);
+    name_of_effect);
 
 }  // namespace
 }  // namespace demecal

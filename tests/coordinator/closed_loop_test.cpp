@@ -10,10 +10,6 @@
 namespace demecal {
 namespace {
 
-double accept_rms(const CorrectedRobot& robot, const DataSet& data) {
-  return error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
-}
-
 TEST(ClosedLoop, NamesUndeclaredBacklashAndLowersTheErrorOnPosesNeverLookedAt) {
   const DataSet data = simulate(lacking_puma(true));
   const CalibrateResult result = calibrate_in_memory(data, short_looping_job());

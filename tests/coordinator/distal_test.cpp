@@ -16,10 +16,6 @@ Job short_distal_job(DistalForm form) {
   return job;
 }
 
-double accept_rms(const CorrectedRobot& robot, const DataSet& data) {
-  return error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
-}
-
 void expect_falling(const std::vector<DistalStep>& steps) {
   ASSERT_FALSE(steps.empty());
   for (std::size_t i = 1; i < steps.size(); ++i) EXPECT_LT(steps[i].index_mm2, steps[i - 1].index_mm2);

@@ -3,6 +3,7 @@
 
 #include "config/load_scenario.hpp"
 #include "coordinator/calibrate.hpp"
+#include "effects/measurement.hpp"
 #include "simulation/simulated_robot.hpp"
 
 namespace demecal {
@@ -23,6 +24,10 @@ inline Job short_looping_job() {
   job.gp.number_generations = 30;
   job.closed_loop.highest_ratio = 30;
   return job;
+}
+
+inline double accept_rms(const CorrectedRobot& robot, const DataSet& data) {
+  return error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
 }
 
 inline bool is_backlash_of_joint_2(const Effect& effect) {

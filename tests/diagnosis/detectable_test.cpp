@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-struct Bench {
+struct DetectingArm {
   KnownArm arm;
   ResidualField field;
   std::vector<Candidate> candidates;
@@ -18,8 +18,8 @@ struct Bench {
   std::vector<double> name_nats, null_maxima;
 };
 
-Bench bench(RandomStream& stream) {
-  Bench at{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}, {}, {}};
+DetectingArm detecting_arm(RandomStream& stream) {
+  DetectingArm at{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}, {}, {}};
   measure_anyhow(at.arm, stream, {.noise_m = 5e-5}, 60);
   at.field = field_of(at.arm, kPlacedAndZeroed);
   Evidence evidence = full_evidence(at.arm.data.robot);
@@ -39,7 +39,7 @@ Bench bench(RandomStream& stream) {
   return at;
 }
 
-std::vector<NotFound> not_found(const Bench& at) {
+std::vector<NotFound> not_found(const DetectingArm& at) {
   const Projection model = projection_of(at.field);
   const Scan scan(at.columns, at.name_nats, at.field, model);
   return smallest_detectable(at.candidates, scan.scores(), at.arm.truth, at.arm.data.robot,
@@ -47,7 +47,7 @@ std::vector<NotFound> not_found(const Bench& at) {
 }
 
 /// The share of trials in which the effect with this first coefficient is found at the family-wise level.
-double power(Bench& at, std::size_t candidate, double size, RandomStream& stream) {
+double power(DetectingArm& at, std::size_t candidate, double size, RandomStream& stream) {
   constexpr int kTrials = 60;
   const double threshold = at.null_maxima[static_cast<std::size_t>(0.95 * 198)];
   const Eigen::VectorXd signal = size * at.columns.dense(at.field, candidate).col(0);
@@ -64,7 +64,7 @@ double power(Bench& at, std::size_t candidate, double size, RandomStream& stream
 
 TEST(SmallestDetectable, IsFoundNineTimesInTenAndHalfOfItSeldom) {
   RandomStream stream{89, 1};
-  Bench at = bench(stream);
+  DetectingArm at = detecting_arm(stream);
   int checked = 0;
   for (const NotFound& each : not_found(at)) {
     const bool one = each.effect.kind == "backlash" || each.effect.kind == "thermal_offset";
@@ -81,7 +81,7 @@ TEST(SmallestDetectable, IsFoundNineTimesInTenAndHalfOfItSeldom) {
 
 TEST(SmallestDetectable, IsThatOfTheLeastVisibleOfItsKindAndJoint) {
   RandomStream stream{89, 2};
-  const Bench at = bench(stream);
+  const DetectingArm at = detecting_arm(stream);
   const Projection model = projection_of(at.field);
   const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
   for (const NotFound& each : not_found(at)) {
@@ -100,7 +100,7 @@ TEST(SmallestDetectable, IsThatOfTheLeastVisibleOfItsKindAndJoint) {
 
 TEST(SmallestDetectable, IsNotStatedForWhatTheModelHoldsOrCannotShow) {
   RandomStream stream{89, 3};
-  Bench at = bench(stream);
+  DetectingArm at = detecting_arm(stream);
   at.arm.truth.effects = {{.kind = "backlash", .joint = 3, .settings = {}, .form = "approach"}};
   bool compliance = false;
   for (const NotFound& each : not_found(at)) {

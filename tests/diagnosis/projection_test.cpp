@@ -7,7 +7,7 @@
 namespace demecal {
 namespace {
 
-constexpr Eigen::Index kRows = 40, kJudging = 15;
+constexpr Eigen::Index kFittedRows = 40, kJudging = 15;
 
 struct Problem {
   ModelColumns model;
@@ -17,9 +17,9 @@ struct Problem {
 /// `free` numbers of which nothing is believed and `believed` ones.
 Problem random_problem(RandomStream& stream, Eigen::Index free, Eigen::Index believed) {
   const Eigen::Index n = free + believed;
-  Problem problem{{random_matrix(stream, kRows, n), random_matrix(stream, kJudging, n), Eigen::VectorXd::Zero(n),
+  Problem problem{{random_matrix(stream, kFittedRows, n), random_matrix(stream, kJudging, n), Eigen::VectorXd::Zero(n),
                    Eigen::VectorXd::Zero(n)},
-                  random_matrix(stream, kRows, 1),
+                  random_matrix(stream, kFittedRows, 1),
                   random_matrix(stream, kJudging, 1)};
   problem.model.fitted.col(0) *= 1e4;  // as columns of metres and radians differ
   problem.model.judging.col(0) *= 1e4;
@@ -57,9 +57,9 @@ Solution solve_explicitly(const Problem& problem) {
   const ModelColumns& model = problem.model;
   const Eigen::Index n = model.fitted.cols();
   Solution solution;
-  solution.whole.resize(kRows + n, n);
+  solution.whole.resize(kFittedRows + n, n);
   solution.whole << model.fitted, Eigen::MatrixXd(model.precision.asDiagonal());
-  Eigen::VectorXd wanted(kRows + n);
+  Eigen::VectorXd wanted(kFittedRows + n);
   wanted << problem.fitted, -model.precision.cwiseProduct(model.offset);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(1e-10);
@@ -68,7 +68,7 @@ Solution solve_explicitly(const Problem& problem) {
   solution.left = problem.fitted - model.fitted * solution.coefficients;
   solution.judging_left = problem.judging - model.judging * solution.coefficients;
   solution.squares = (wanted - solution.whole * solution.coefficients).squaredNorm();
-  solution.freedom = static_cast<double>(kRows) - (model.fitted * solver.pseudoInverse().leftCols(kRows)).trace();
+  solution.freedom = static_cast<double>(kFittedRows) - (model.fitted * solver.pseudoInverse().leftCols(kFittedRows)).trace();
   return solution;
 }
 
@@ -105,12 +105,12 @@ TEST(Projection, IsTheSameWhereColumnsDependOnEachOther) {
 
 TEST(Projection, OfNoColumnsLeavesEverything) {
   RandomStream stream{82, 3};
-  const Eigen::VectorXd fitted = random_matrix(stream, kRows, 1), judging = random_matrix(stream, kJudging, 1);
-  const Projection projection({RowMatrix(kRows, 0), RowMatrix(kJudging, 0), {}, {}}, fitted, judging);
+  const Eigen::VectorXd fitted = random_matrix(stream, kFittedRows, 1), judging = random_matrix(stream, kJudging, 1);
+  const Projection projection({RowMatrix(kFittedRows, 0), RowMatrix(kJudging, 0), {}, {}}, fitted, judging);
   EXPECT_EQ(projection.left(), fitted);
   EXPECT_EQ(projection.judging_left(), judging);
   EXPECT_EQ(projection.rank(), 0);
-  EXPECT_DOUBLE_EQ(projection.freedom(), static_cast<double>(kRows));
+  EXPECT_DOUBLE_EQ(projection.freedom(), static_cast<double>(kFittedRows));
 }
 
 TEST(Projection, BasisIsOrthonormalTogetherWithBeliefs) {
@@ -128,7 +128,7 @@ TEST(Projection, TrialIsWhatFittingWithTheColumnsGives) {
   for (int trial = 0; trial < 20; ++trial) {
     Problem problem = random_problem(stream, 4, 4);
     const Projection projection(problem.model, problem.fitted, problem.judging);
-    const RowMatrix fitted = 1e3 * random_matrix(stream, kRows, 3), judging = 1e3 * random_matrix(stream, kJudging, 3);
+    const RowMatrix fitted = 1e3 * random_matrix(stream, kFittedRows, 3), judging = 1e3 * random_matrix(stream, kJudging, 3);
     const Projection::Trial tried = projection.trial(fitted, judging);
     const double before = solve_explicitly(problem).squares;
     append_columns(problem, fitted, judging);
@@ -144,9 +144,9 @@ TEST(Projection, TrialGivesNothingForWhatTheModelExplains) {
   RandomStream stream{82, 6};
   Problem problem = random_problem(stream, 4, 4);
   const Projection projection(problem.model, problem.fitted, problem.judging);
-  RowMatrix fitted(kRows, 2), judging(kJudging, 2);
+  RowMatrix fitted(kFittedRows, 2), judging(kJudging, 2);
   const auto known = [](const RowMatrix& columns) { return (1e-3 * columns.col(0) + columns.col(2)).eval(); };
-  fitted << random_matrix(stream, kRows, 1), known(problem.model.fitted);
+  fitted << random_matrix(stream, kFittedRows, 1), known(problem.model.fitted);
   judging << random_matrix(stream, kJudging, 1), known(problem.model.judging);
   const Projection::Trial tried = projection.trial(fitted, judging);
   EXPECT_EQ(tried.rank, 1);
@@ -154,7 +154,7 @@ TEST(Projection, TrialGivesNothingForWhatTheModelExplains) {
   const double before = projection.squares();
   append_columns(problem, fitted, judging);
   EXPECT_NEAR(tried.drop, before - solve_explicitly(problem).squares, 1e-7 * before);
-  const Projection::Trial zero = projection.trial(RowMatrix::Zero(kRows, 1), RowMatrix::Zero(kJudging, 1));
+  const Projection::Trial zero = projection.trial(RowMatrix::Zero(kFittedRows, 1), RowMatrix::Zero(kJudging, 1));
   EXPECT_EQ(zero.rank, 0);
   EXPECT_EQ(zero.drop, 0.0);
   EXPECT_EQ(zero.judging_left, projection.judging_left());
@@ -166,13 +166,13 @@ TEST(Projection, AddingIsTheSameAsFittingWithTheColumns) {
     Problem problem = random_problem(stream, 4, 4);
     Projection projection(problem.model, problem.fitted, problem.judging);
     for (const Eigen::Index count : {2, 1}) {
-      const RowMatrix fitted = random_matrix(stream, kRows, count), judging = random_matrix(stream, kJudging, count);
+      const RowMatrix fitted = random_matrix(stream, kFittedRows, count), judging = random_matrix(stream, kJudging, count);
       projection.add(projection.trial(fitted, judging));
       append_columns(problem, fitted, judging);
     }
     expect_equal(projection, solve_explicitly(problem));
     EXPECT_EQ(projection.rank(), 11);
-    const RowMatrix next = random_matrix(stream, kRows, 1), judging = random_matrix(stream, kJudging, 1);
+    const RowMatrix next = random_matrix(stream, kFittedRows, 1), judging = random_matrix(stream, kJudging, 1);
     const Projection whole(problem.model, problem.fitted, problem.judging);
     EXPECT_NEAR(projection.trial(next, judging).drop, whole.trial(next, judging).drop, 1e-9);
   }

@@ -15,15 +15,15 @@ using ::testing::Each;
 using ::testing::FloatNear;
 
 /// An arm, its field, and what is tried on it.
-struct Bench {
+struct ScannedArm {
   KnownArm arm;
   ResidualField field;
   EffectColumns columns;
   std::vector<double> name_nats;
 };
 
-Bench bench(RandomStream& stream, int poses) {
-  Bench made{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}};
+ScannedArm scanned_arm(RandomStream& stream, int poses) {
+  ScannedArm made{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}};
   measure_anyhow(made.arm, stream, {.noise_m = 5e-5}, poses);
   made.field = field_of(made.arm, kPlacedAndZeroed);
   Evidence evidence = full_evidence(made.arm.data.robot);
@@ -51,7 +51,7 @@ double p_value(const std::vector<double>& maxima, double fall) {
 
 TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
   RandomStream stream{84, 1};
-  const Bench at = bench(stream, 40);
+  const ScannedArm at = scanned_arm(stream, 40);
   const Projection model = projection_of(at.field);
   const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
   ASSERT_EQ(scores.size(), at.name_nats.size());
@@ -74,7 +74,7 @@ TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
 
 TEST(Scan, SmallestIsTheInverseOfTheLargestVarianceOfACoefficient) {
   RandomStream stream{84, 2};
-  const Bench at = bench(stream, 40);
+  const ScannedArm at = scanned_arm(stream, 40);
   const Projection model = projection_of(at.field);
   const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -88,7 +88,7 @@ TEST(Scan, SmallestIsTheInverseOfTheLargestVarianceOfACoefficient) {
 
 TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
   RandomStream stream{84, 3};
-  const Bench at = bench(stream, 40);
+  const ScannedArm at = scanned_arm(stream, 40);
   Projection model = projection_of(at.field);
   Scan scan(at.columns, at.name_nats, at.field, model);
   for (const std::size_t added : {8, 20, 31}) {
@@ -108,7 +108,7 @@ TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
 
 TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
   RandomStream stream{84, 4};
-  const Bench at = bench(stream, 40);
+  const ScannedArm at = scanned_arm(stream, 40);
   const Projection model = projection_of(at.field);
   const Scan scan(at.columns, at.name_nats, at.field, model);
   const RowMatrix named = at.columns.dense(at.field, 12);
@@ -127,7 +127,7 @@ TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
 
 TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
   RandomStream stream{84, 5};
-  Bench at = bench(stream, 40);
+  ScannedArm at = scanned_arm(stream, 40);
   constexpr int kDraws = 200;
   int rare = 0;
   double sum = 0.0;
@@ -148,7 +148,7 @@ TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
 
 TEST(Scan, NullIsAFunctionOfItsSeedAndAscends) {
   RandomStream stream{84, 7};
-  const Bench at = bench(stream, 20);
+  const ScannedArm at = scanned_arm(stream, 20);
   const Projection model = projection_of(at.field);
   const Scan scan(at.columns, at.name_nats, at.field, model);
   const std::vector<double> maxima = scan.null_maxima(at.columns, at.field, model, 70, RandomStream{1});

@@ -9,27 +9,27 @@
 namespace demecal {
 namespace {
 
-struct Bench {
+struct TestedArm {
   KnownArm arm;
   ResidualField field;
 };
 
-Bench bench(RandomStream& stream, int poses) {
-  Bench made{arm_of(stream, laden_arm(stream, Arm::standard)), {}};
+TestedArm tested_arm(RandomStream& stream, int poses) {
+  TestedArm made{arm_of(stream, laden_arm(stream, Arm::standard)), {}};
   measure_anyhow(made.arm, stream, {.noise_m = 5e-5}, poses);
   made.field = field_of(made.arm, {.registration = true, .joint_offset = true});
   return made;
 }
 
-double p_value(const Bench& at, std::uint64_t seed) {
+double p_value(const TestedArm& at, std::uint64_t seed) {
   return structure_p_value(at.field, projection_of(at.field), at.arm.data.robot.chain, 99, RandomStream{86, seed});
 }
 
 /// Fresh noise and an error of a joint that is `error` of the state, its root mean square `size` times the noise.
 template <typename Error>
-void plant(Bench& at, int joint, double size, RandomStream& stream, const Error& error) {
+void plant(TestedArm& at, int joint, double size, RandomStream& stream, const Error& error) {
   renew_noise(at.field, stream);
-  Eigen::VectorXd signal = at.field.motions.col(motion_column(joint, 5));
+  Eigen::VectorXd signal = at.field.motions.col(motion_column(joint, kTurnAboutZ));
   for (std::size_t i = 0; i < at.field.states.size(); ++i) {
     signal.segment(at.field.first_row[i], at.field.rows_of_pose(i)) *= error(at.field.states[i]);
   }
@@ -38,7 +38,7 @@ void plant(Bench& at, int joint, double size, RandomStream& stream, const Error&
 
 TEST(Structure, IsFoundWhateverTheResidualDependsOn) {
   RandomStream stream{86, 1};
-  Bench at = bench(stream, 120);
+  TestedArm at = tested_arm(stream, 120);
   for (ArmState& state : at.field.states) state.stop.payload_kg = stream.chance(0.5) ? 3.0 : 0.0;
   const Chain& chain = at.arm.data.robot.chain;
   const auto expect_found = [&](const char* circumstance, int joint, const auto& error) {
@@ -58,7 +58,7 @@ TEST(Structure, IsFoundWhateverTheResidualDependsOn) {
 
 TEST(Structure, IsFoundOfPosesThatMeasuredDifferentThings) {
   RandomStream stream{86, 3};
-  Bench at{arm_of(stream, laden_arm(stream, Arm::standard)), {}};
+  TestedArm at{arm_of(stream, laden_arm(stream, Arm::standard)), {}};
   measure_anyhow(at.arm, stream, {.noise_m = 5e-5}, 60);
   measure_anyhow(at.arm, stream, {.noise_m = 5e-5, .noise_rad = 1e-4, .orientation = true}, 60);
   at.field = field_of(at.arm, {.registration = true});
@@ -68,7 +68,7 @@ TEST(Structure, IsFoundOfPosesThatMeasuredDifferentThings) {
 
 TEST(Structure, IsFoundInNoiseAsOftenAsItsPValuesSay) {
   RandomStream stream{86, 5};
-  Bench at = bench(stream, 50);
+  TestedArm at = tested_arm(stream, 50);
   constexpr int kDraws = 100;
   int rare = 0;
   double sum = 0.0;
@@ -84,13 +84,13 @@ TEST(Structure, IsFoundInNoiseAsOftenAsItsPValuesSay) {
 
 TEST(Structure, IsAFunctionOfItsSeed) {
   RandomStream stream{86, 6};
-  const Bench at = bench(stream, 40);
+  const TestedArm at = tested_arm(stream, 40);
   EXPECT_EQ(p_value(at, 7), p_value(at, 7));
 }
 
 TEST(Structure, IsNotFoundInAHandfulOfPoses) {
   RandomStream stream{86, 8};
-  EXPECT_EQ(p_value(bench(stream, 3), 9), 1.0);
+  EXPECT_EQ(p_value(tested_arm(stream, 3), 9), 1.0);
 }
 
 DataSet repeats(const std::vector<std::pair<std::string, Eigen::Vector3d>>& positions) {

@@ -12,7 +12,7 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kRows = 24;
+constexpr std::size_t kStepRows = 24;
 constexpr std::size_t kBegin = 8;
 
 std::uint64_t bits(double value) {
@@ -21,23 +21,23 @@ std::uint64_t bits(double value) {
 
 class ColumnSteps : public testing::Test {
  protected:
-  ColumnSteps() : a(kRows), b(kRows) {
-    for (std::size_t i = 0; i < kRows; ++i) a[i] = random.real(-3.0, 3.0), b[i] = random.real(-3.0, 3.0);
+  ColumnSteps() : a(kStepRows), b(kStepRows) {
+    for (std::size_t i = 0; i < kStepRows; ++i) a[i] = random.real(-3.0, 3.0), b[i] = random.real(-3.0, 3.0);
     a[9] = b[10] = 0.0;
     a[11] = 1e9;
   }
   /// What a step made of the rows from kBegin on; `expected` gives each row's value.
   template <class Expected>
   void expect(const Step& made, Expected expected, const std::string& what) {
-    run({&made, 1}, kBegin, kRows - kBegin);
-    for (std::size_t row = kBegin; row < kRows; ++row) {
+    run({&made, 1}, kBegin, kStepRows - kBegin);
+    for (std::size_t row = kBegin; row < kStepRows; ++row) {
       const double value = made.out[made.out_whole ? row : row - kBegin];
       ASSERT_EQ(bits(value), bits(expected(row))) << what << " in row " << row;
     }
   }
 
   RandomStream random{9, 1};
-  AlignedColumn a, b, out = AlignedColumn(kRows);
+  AlignedColumn a, b, out = AlignedColumn(kStepRows);
 };
 
 TEST_F(ColumnSteps, GiveTheBitsOfEveryPrimitiveForColumnsAndConstants) {

@@ -14,10 +14,6 @@ namespace {
 
 using Scaling = ConstantModel::Scaling;
 
-bool same_bits(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
 std::vector<std::vector<double>> random_columns(RandomStream& random, std::size_t rows) {
   std::vector<std::vector<double>> columns(2, std::vector<double>(rows));
   for (std::vector<double>& column : columns)

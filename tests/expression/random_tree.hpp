@@ -1,12 +1,19 @@
 // Random formulas for property tests.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
+
+/// Bit by bit, but any two that are not a number.
+inline bool same_bits(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 /// A variable, or a constant in [-1, 1), with equal chances.
 inline Tree random_terminal(RandomStream& random, int variables = 1) {

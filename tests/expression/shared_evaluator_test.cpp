@@ -11,10 +11,6 @@
 namespace demecal {
 namespace {
 
-bool same_bits(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
 std::vector<std::vector<double>> random_columns(RandomStream& random, std::size_t count, std::size_t rows,
                                                 double largest) {
   std::vector<std::vector<double>> columns(count, std::vector<double>(rows));

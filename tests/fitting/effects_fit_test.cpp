@@ -11,8 +11,6 @@
 namespace demecal {
 namespace {
 
-constexpr DeclaredModel kAll{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
-constexpr DeclaredModel kPlaced{.registration = true, .tool = true};
 
 /// An arm with weight that stands anywhere.
 KnownArm heavy_arm(RandomStream& stream, const Chain& chain) {

@@ -14,8 +14,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr DeclaredModel kLinks{.joint_offset = true, .geometry = true};
-constexpr DeclaredModel kPlaced{.registration = true, .tool = true};
-constexpr DeclaredModel kAll{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
 /// What double precision and the solver's tolerances leave of exact data.
 constexpr double kExact_m = 1e-8;
 

@@ -15,8 +15,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr DeclaredModel kAll{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
-
 Eigen::MatrixXd random_matrix(RandomStream& stream, int rows, int columns) {
   Eigen::MatrixXd matrix(rows, columns);
   for (double& value : matrix.reshaped()) value = stream.normal();

@@ -35,6 +35,9 @@ inline Joint link(JointType type, double alpha_rad, double a_m, double d_m) {
   return joint;
 }
 
+inline constexpr DeclaredModel kPlaced{.registration = true, .tool = true};
+inline constexpr DeclaredModel kAll{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
+
 inline constexpr double kRight = std::numbers::pi / 2;
 
 /// Six joints, three of them parallel; tool off the last axis.

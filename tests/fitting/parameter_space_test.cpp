@@ -10,8 +10,6 @@ namespace demecal {
 namespace {
 
 constexpr double kStep = 1e-6;
-constexpr DeclaredModel kAll{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
-
 /// An arm with two targets that measures everything, standing anywhere.
 KnownArm measured_arm(RandomStream& stream, const Chain& chain) {
   KnownArm arm = perfect_arm(chain, Frame::sensor);

@@ -8,8 +8,6 @@
 namespace demecal {
 namespace {
 
-constexpr DeclaredModel kAll{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
-
 /// Mean and spread of every estimate over many fits, and the mean standard error that the fits gave.
 struct Repeated {
   std::vector<double> mean, spread, standard_error;

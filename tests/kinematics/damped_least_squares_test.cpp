@@ -8,13 +8,6 @@
 namespace demecal {
 namespace {
 
-PoseFunction model_of(const Chain& chain) {
-  return [chain](const JointVector& q) {
-    const Kinematics at = differential_kinematics(chain, q, Eigen::Vector3d::Zero());
-    return PoseAndJacobian{at.flange, at.joints};
-  };
-}
-
 Eigen::Isometry3d displaced(RandomStream& stream, Eigen::Isometry3d pose, double size) {
   pose.pretranslate(Eigen::Vector3d(stream.real(-size, size), stream.real(-size, size), stream.real(-size, size)));
   pose.linear() = pose.linear() * Eigen::AngleAxisd(stream.real(-size, size), Eigen::Vector3d::UnitX());

@@ -11,7 +11,6 @@
 namespace demecal {
 namespace {
 
-constexpr Convention kConventions[] = {Convention::standard_dh, Convention::modified_dh};
 
 /// The matrix of thesis A.2, element by element.
 Eigen::Matrix4d thesis_matrix(double theta, double d, double a, double alpha) {

@@ -13,13 +13,6 @@
 namespace demecal {
 namespace {
 
-PoseFunction model_of(const Chain& chain) {
-  return [chain](const JointVector& q) {
-    const Kinematics at = differential_kinematics(chain, q, Eigen::Vector3d::Zero());
-    return PoseAndJacobian{at.flange, at.joints};
-  };
-}
-
 double smallest_singular(const Jacobian& jacobian) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues().minCoeff();
 }

@@ -7,7 +7,6 @@
 namespace demecal {
 namespace {
 
-constexpr Convention kConventions[] = {Convention::standard_dh, Convention::modified_dh};
 /// Central differences of smooth functions of order one err by h^2 and by epsilon / h.
 constexpr double kStep = 1e-5;
 constexpr double kTolerance = 1e-9;

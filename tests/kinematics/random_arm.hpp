@@ -5,9 +5,21 @@
 #include <numbers>
 
 #include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/inverse.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
+
+inline constexpr Convention kConventions[] = {Convention::standard_dh, Convention::modified_dh};
+
+/// Pose and Jacobian of the flange.
+inline PoseFunction model_of(const Chain& chain) {
+  return [chain](const JointVector& q) {
+    const Kinematics at = differential_kinematics(chain, q, Eigen::Vector3d::Zero());
+    return PoseAndJacobian{at.flange, at.joints};
+  };
+}
 
 /// An arm with links of 0.1 to 0.5 m, any twist, and Hayati's beta on every link; each joint is prismatic with the
 /// given probability. Limits are +-pi and +-0.5 m.

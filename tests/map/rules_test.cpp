@@ -10,7 +10,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const Map& made_up() {
+const Map& made_up_map() {
   static const Map map = [] {
     Map made{parse_rooms("demecal_room(data LIBRARIES Eigen3::Eigen)\n"
                          "demecal_room(fitting ROOMS data)\n"
@@ -32,47 +32,47 @@ Source including(const std::string& path, const std::string& what) {
 
 TEST(RoomRule, LetsARoomIncludeItselfAndWhatItReaches) {
   for (const char* const what : {"\"report/html.hpp\"", "\"fitting/fit.hpp\"", "\"data/pose.hpp\"", "<vector>"}) {
-    EXPECT_THAT(check_rooms(including("common/report/html.cpp", what), made_up()), IsEmpty()) << what;
+    EXPECT_THAT(check_rooms(including("common/report/html.cpp", what), made_up_map()), IsEmpty()) << what;
   }
 }
 
 TEST(RoomRule, ForbidsARoomWhatItDoesNotReach) {
   for (const char* const what :
        {"\"evolution/island.hpp\"", "\"config/job.hpp\"", "\"html.hpp\"", "\"../data/pose.hpp\""}) {
-    const Violations found = check_rooms(including("common/report/html.cpp", what), made_up());
+    const Violations found = check_rooms(including("common/report/html.cpp", what), made_up_map());
     ASSERT_THAT(found, SizeIs(1)) << what;
     EXPECT_EQ(found[0].line, 2);
   }
 }
 
 TEST(RoomRule, ForbidsAFolderThatIsOnNoMap) {
-  EXPECT_THAT(check_rooms({"common/attic/old.hpp", "// A file.\n"}, made_up()), SizeIs(1));
+  EXPECT_THAT(check_rooms({"common/attic/old.hpp", "// A file.\n"}, made_up_map()), SizeIs(1));
 }
 
 TEST(RoomRule, KeepsProgramsApartAndOutOfTheRooms) {
-  EXPECT_THAT(check_rooms(including("coordinator/main.cpp", "\"worker/loop.hpp\""), made_up()), SizeIs(1));
-  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"coordinator/run.hpp\""), made_up()), SizeIs(1));
-  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"config/job.hpp\""), made_up()), SizeIs(1));
-  EXPECT_THAT(check_rooms(including("common/data/pose.cpp", "\"worker/loop.hpp\""), made_up()), SizeIs(1));
-  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"worker/loop.hpp\""), made_up()), IsEmpty());
-  EXPECT_THAT(check_rooms(including("coordinator/main.cpp", "\"data/pose.hpp\""), made_up()), IsEmpty());
+  EXPECT_THAT(check_rooms(including("coordinator/main.cpp", "\"worker/loop.hpp\""), made_up_map()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"coordinator/run.hpp\""), made_up_map()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"config/job.hpp\""), made_up_map()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("common/data/pose.cpp", "\"worker/loop.hpp\""), made_up_map()), SizeIs(1));
+  EXPECT_THAT(check_rooms(including("worker/main.cpp", "\"worker/loop.hpp\""), made_up_map()), IsEmpty());
+  EXPECT_THAT(check_rooms(including("coordinator/main.cpp", "\"data/pose.hpp\""), made_up_map()), IsEmpty());
 }
 
 TEST(RoomRule, LetsTestsIncludeBothPrograms) {
   const Source test{"tests/coordinator/run_test.cpp",
                     "#include \"coordinator/run.hpp\"\n#include \"worker/loop.hpp\"\n"};
-  EXPECT_THAT(check_rooms(test, made_up()), IsEmpty());
+  EXPECT_THAT(check_rooms(test, made_up_map()), IsEmpty());
 }
 
 TEST(LibraryRule, LetsARoomIncludeItsOwnAndThePublicOnesBelow) {
-  EXPECT_THAT(check_libraries(including("common/report/html.cpp", "<fmt/format.h>"), made_up()), IsEmpty());
-  EXPECT_THAT(check_libraries(including("common/report/html.cpp", "<Eigen/Core>"), made_up()), IsEmpty());
+  EXPECT_THAT(check_libraries(including("common/report/html.cpp", "<fmt/format.h>"), made_up_map()), IsEmpty());
+  EXPECT_THAT(check_libraries(including("common/report/html.cpp", "<Eigen/Core>"), made_up_map()), IsEmpty());
 }
 
 TEST(LibraryRule, ForbidsWhatTheRoomDoesNotLinkTo) {
-  EXPECT_THAT(check_libraries(including("common/config/job.cpp", "<fmt/format.h>"), made_up()), SizeIs(1));
-  EXPECT_THAT(check_libraries(including("common/evolution/island.cpp", "<Eigen/Core>"), made_up()), SizeIs(1));
-  EXPECT_THAT(check_libraries(including("coordinator/main.cpp", "<CLI/CLI.hpp>"), made_up()), SizeIs(1));
+  EXPECT_THAT(check_libraries(including("common/config/job.cpp", "<fmt/format.h>"), made_up_map()), SizeIs(1));
+  EXPECT_THAT(check_libraries(including("common/evolution/island.cpp", "<Eigen/Core>"), made_up_map()), SizeIs(1));
+  EXPECT_THAT(check_libraries(including("coordinator/main.cpp", "<CLI/CLI.hpp>"), made_up_map()), SizeIs(1));
 }
 
 TEST(OwnerRule, KeepsEachLibraryInItsRoom) {

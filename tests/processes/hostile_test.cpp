@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, int workers) {
+std::vector<std::string> calibrate_briefly(const SmallJob& job, const std::string& out, int workers) {
   return {"calibrate",      job.job(),       "--out", job.path(out), "--workers", std::to_string(workers), "--domain",
           private_domain(), "--max-effects", "0"};
 }
@@ -24,11 +24,11 @@ std::size_t count(const std::string& text, const std::string& words) {
 
 TEST(Hostile, AFloodOfEveryTopicNeitherChangesNorEndsARun) {
   const SmallJob job(1000);
-  ASSERT_EQ(run("demecal", calibrate(job, "calm", 2)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_briefly(job, "calm", 2)).code, 0);
   Program intruder("demecal-hostile", {private_domain()});
   ASSERT_TRUE(intruder.wait_for_out("flooding"));
   Program worker("demecal-worker", {"--domain", private_domain()});
-  const Ended ended = run("demecal", calibrate(job, "flooded", 1));
+  const Ended ended = run("demecal", calibrate_briefly(job, "flooded", 1));
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_FALSE(intruder.ends_within(std::chrono::milliseconds{0})) << intruder.wait().err;
   EXPECT_FALSE(worker.ends_within(std::chrono::milliseconds{0})) << worker.wait().err;

@@ -19,7 +19,7 @@ std::string domain(int which) {
   return private_domain(100 + which);
 }
 
-std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, int which) {
+std::vector<std::string> calibrate_on(const SmallJob& job, const std::string& out, int which) {
   return {"calibrate", job.job(),     "--out",         job.path(out), "--workers", "2",
           "--domain",  domain(which), "--max-effects", "0",           "--quiet"};
 }
@@ -60,7 +60,7 @@ TEST(Monitor, ComesLateSeesAllThatIsThereAndOutlivesTheCoordinator) {
   const SmallJob job(100000, 2);
   Program watching("demecal", monitor(1)), listening("demecal", monitor(1, {"--json"}));
   ASSERT_TRUE(watching.wait_for_out("nobody is calibrating"));
-  Program coordinator("demecal", calibrate(job, "out", 1));
+  Program coordinator("demecal", calibrate_on(job, "out", 1));
   ASSERT_TRUE(listening.wait_for_out("\"progress\""));
   const Ended once = run("demecal", monitor(1, {"--once"}));
   EXPECT_EQ(once.code, 0) << once.err;
@@ -79,7 +79,7 @@ TEST(Monitor, ComesLateSeesAllThatIsThereAndOutlivesTheCoordinator) {
   EXPECT_TRUE(watching.wait_for_out("coordinator is gone: waiting for the next calibration"));
   EXPECT_TRUE(listening.wait_for_out("calibration_lost"));
   const SmallJob next;
-  ASSERT_EQ(run("demecal", calibrate(next, "out", 1)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_on(next, "out", 1)).code, 0);
   EXPECT_TRUE(listening.wait_for_out("\"finished\""));
   EXPECT_TRUE(watching.wait_for_out("finished"));
   for (Program* program : {&watching, &listening}) {
@@ -98,16 +98,16 @@ TEST(Monitor, SaysThatNobodyIsThere) {
 
 TEST(Monitor, ChangesNothingOfTheModelWhetherItWatchesOrIsStopped) {
   const SmallJob job(1000, 2);  // longer than it takes to find each other
-  ASSERT_EQ(run("demecal", calibrate(job, "alone", 3)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_on(job, "alone", 3)).code, 0);
   Program watching("demecal", monitor(3, {"--json"}));
   ASSERT_TRUE(watching.wait_for_out("begin"));
-  ASSERT_EQ(run("demecal", calibrate(job, "watched", 3)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_on(job, "watched", 3)).code, 0);
   ASSERT_TRUE(watching.wait_for_out("\"finished\""));
   EXPECT_EQ(islands_in(events_of(watching.out_so_far())), 12u);
 
   Program stopped("demecal", monitor(3, {"--json"}));
   ASSERT_TRUE(stopped.wait_for_out("begin"));
-  Program coordinator("demecal", calibrate(job, "stopped", 3));
+  Program coordinator("demecal", calibrate_on(job, "stopped", 3));
   ASSERT_TRUE(stopped.wait_for_out("\"progress\""));
   stopped.signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait().code, 0);
@@ -119,7 +119,7 @@ TEST(Monitor, ChangesNothingOfTheModelWhetherItWatchesOrIsStopped) {
 
 TEST(Monitor, ShowsARecordedRun) {
   const SmallJob job;
-  ASSERT_EQ(run("demecal", calibrate(job, "out", 4)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_on(job, "out", 4)).code, 0);
   const std::vector<Json> recorded = events_of(job.text("out/events.jsonl"));
   EXPECT_EQ(islands_in(recorded), 12u);
   EXPECT_TRUE(has(recorded, "stage", "stage", "finished"));

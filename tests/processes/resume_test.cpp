@@ -19,7 +19,7 @@ using Words = std::vector<std::string>;
 
 constexpr int kGenerations = 6000;
 
-Words calibrate(const SmallJob& job, const std::string& out, Words more = {}) {
+Words calibrate_with(const SmallJob& job, const std::string& out, Words more = {}) {
   Words arguments{"calibrate", job.job(),  "--out",          job.path(out),   "--workers",
                   "2",         "--domain", private_domain(), "--max-effects", "0"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -28,12 +28,12 @@ Words calibrate(const SmallJob& job, const std::string& out, Words more = {}) {
 
 Words resume(const SmallJob& job, const std::string& out, Words more = {}) {
   more.insert(more.end(), {"--resume", job.path(out)});
-  return calibrate(job, out, std::move(more));
+  return calibrate_with(job, out, std::move(more));
 }
 
 /// A calibration whose coordinator was killed when its islands had got on a little.
 void leave_unfinished(const SmallJob& job, const std::string& out) {
-  Program coordinator("demecal", calibrate(job, out));
+  Program coordinator("demecal", calibrate_with(job, out));
   ASSERT_TRUE(coordinator.wait_for_err("generation"));
   coordinator.signal(SIGKILL);
   coordinator.wait();
@@ -42,7 +42,7 @@ void leave_unfinished(const SmallJob& job, const std::string& out) {
 }
 
 std::string calm_model(const SmallJob& job) {
-  EXPECT_EQ(run("demecal", calibrate(job, "calm")).code, 0);
+  EXPECT_EQ(run("demecal", calibrate_with(job, "calm")).code, 0);
   return job.text("calm/model.yaml");
 }
 
@@ -74,7 +74,7 @@ TEST(Resume, NeedsNoOtherFolderAndTakesADamagedEnd) {
 TEST(Resume, GoesOnAfterCtrlC) {
   const SmallJob job(kGenerations);
   const std::string model = calm_model(job);
-  Program coordinator("demecal", calibrate(job, "out"));
+  Program coordinator("demecal", calibrate_with(job, "out"));
   ASSERT_TRUE(coordinator.wait_for_err("generation"));
   coordinator.signal(SIGINT);
   const Ended interrupted = coordinator.wait();
@@ -107,7 +107,7 @@ TEST(Resume, GoesOnAfterTheDiskWasFull) {
   ::getrlimit(RLIMIT_FSIZE, &before);
   const rlimit full{100'000, before.rlim_max};
   ::setrlimit(RLIMIT_FSIZE, &full);
-  const Ended ended = run("demecal", calibrate(job, "out", {"--quiet"}));
+  const Ended ended = run("demecal", calibrate_with(job, "out", {"--quiet"}));
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(ended.code, 21) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("the run failed: " + job.path("out/run.journal") +
@@ -118,26 +118,26 @@ TEST(Resume, GoesOnAfterTheDiskWasFull) {
 
 TEST(Calibrate, OneFolderIsServedByOneCoordinator) {
   const SmallJob job(1000000);
-  Program first("demecal", calibrate(job, "out"));
+  Program first("demecal", calibrate_with(job, "out"));
   ASSERT_TRUE(first.wait_for_err("generation"));
-  const Ended second = run("demecal", calibrate(job, "out"));
+  const Ended second = run("demecal", calibrate_with(job, "out"));
   EXPECT_EQ(second.code, 11);
   EXPECT_THAT(second.err, HasSubstr("another demecal"));
 }
 
 TEST(Calibrate, AsynchronousSaysThatItsResultDependsOnTiming) {
   const SmallJob job;
-  const Ended ended = run("demecal", calibrate(job, "out", {"--asynchronous"}));
+  const Ended ended = run("demecal", calibrate_with(job, "out", {"--asynchronous"}));
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("another run of this job gives another result"));
   EXPECT_TRUE(Json::parse(job.text("out/report.json"))["runtime"]["asynchronous"]);
-  ASSERT_EQ(run("demecal", calibrate(job, "waits")).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_with(job, "waits")).code, 0);
   EXPECT_FALSE(Json::parse(job.text("waits/report.json"))["runtime"]["asynchronous"]);
 }
 
 TEST(Calibrate, ReportsHowLongEachWorkerWaited) {
   const SmallJob job(200);
-  ASSERT_EQ(run("demecal", calibrate(job, "out")).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_with(job, "out")).code, 0);
   const Json waited = Json::parse(job.text("out/report.json"))["runtime"]["waited_share"];
   ASSERT_GE(waited.size(), 1U);
   for (const Json& worker : waited) {

@@ -11,13 +11,13 @@
 namespace demecal {
 namespace {
 
-struct Spoiling {
+struct DataSpoiling {
   const char* what;
   std::function<void(CalibrationData&)> spoil;
 };
 
-const std::vector<Spoiling>& spoilings() {
-  static const std::vector<Spoiling> all{
+const std::vector<DataSpoiling>& spoilings() {
+  static const std::vector<DataSpoiling> all{
       {"no run", [](auto& d) { d.run = 0; }},
       {"parameter out of its range", [](auto& d) { d.parameters.crossover_rate = 1.5; }},
       {"population of none", [](auto& d) { d.parameters.population_size = 0; }},

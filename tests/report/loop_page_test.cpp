@@ -22,11 +22,11 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using Json = nlohmann::ordered_json;
 
-std::string page_of(const CalibrationReport& report) {
+std::string loop_page_of(const CalibrationReport& report) {
   return report_html(to_json(report), "");
 }
 
-std::string page_of(const Json& json) {
+std::string loop_page_of(const Json& json) {
   return report_html(json.dump(), "");
 }
 
@@ -40,7 +40,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& page, const std
 TEST(LoopPage, HasEveryRoundWithItsFiguresAndSentences) {
   for (const int harmonics : {0, 5, 40}) {
     const CalibrationReport report = made_up_looped_report(harmonics);
-    const auto rows = rows_of(page_of(report), "rounds");
+    const auto rows = rows_of(loop_page_of(report), "rounds");
     ASSERT_EQ(rows.size(), report.loop.rounds.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Round& round = report.loop.rounds[i];
@@ -51,19 +51,19 @@ TEST(LoopPage, HasEveryRoundWithItsFiguresAndSentences) {
       EXPECT_EQ(rows[i].at(5), rounded(round.validation_before_mm, 3));
       EXPECT_EQ(rows[i].at(6), rounded(round.validation_after_mm, 3));
     }
-    EXPECT_THAT(rows_of(page_of(report), "evidence"), SizeIs(rows.size()));
+    EXPECT_THAT(rows_of(loop_page_of(report), "evidence"), SizeIs(rows.size()));
   }
 }
 
 TEST(LoopPage, HasTheNumbersBehindARound) {
-  const auto rows = rows_of(page_of(made_up_looped_report()), "evidence");
+  const auto rows = rows_of(loop_page_of(made_up_looped_report()), "evidence");
   EXPECT_THAT(rows[0], ElementsAre("1", "dq2 = formula 1", "width_rad 0.000412 ± 1.3e-05, 0.0003708 to 0.0004532",
                                    "0.001", "31.7", "0.0123", "100\u00A0%"));
 }
 
 TEST(LoopPage, ReadsARoundThatHasOnlyThePromisedKeys) {
   Json json = Json::parse(to_json(made_up_report()));
-  EXPECT_THAT(page_of(json), Not(HasSubstr("id=\"loop\""))) << "nothing is shown where the loop did not run";
+  EXPECT_THAT(loop_page_of(json), Not(HasSubstr("id=\"loop\""))) << "nothing is shown where the loop did not run";
   json["stopped"] = "no_structure";
   json["rounds"] = Json::parse(R"([
       {"round": 1, "verdict": "added", "effect": {"kind": "backlash", "joint": 2, "parameters": {"width_rad": 0.000412}},
@@ -72,7 +72,7 @@ TEST(LoopPage, ReadsARoundThatHasOnlyThePromisedKeys) {
       {"round": 2, "verdict": "none", "effect": null, "rivals": [], "p_family": 0.4}])");
   json["not_found"] =
       Json::parse(R"([{"kind": "coupling", "joint": 5, "smallest_detectable": 0.000038, "unit": "rad"}])");
-  const std::string page = page_of(json);
+  const std::string page = loop_page_of(json);
   EXPECT_THAT(table_of(page, "rounds"),
               ElementsAre(ElementsAre("1", "added", "backlash, joint 2", "", "0.001", "0.771", "0.402", "-48\u00A0%",
                                       "hysteresis, joint 2 (cosine 0.93)"),
@@ -85,20 +85,20 @@ TEST(LoopPage, ReadsARoundThatHasOnlyThePromisedKeys) {
 
 TEST(LoopPage, NamesGroupsOnlyWhereRoundsWereJudgedTogether) {
   CalibrationReport report = made_up_looped_report(7);
-  const auto heads = [&report] { return all_between(page_of(report), "judged against the same", "p ="); };
+  const auto heads = [&report] { return all_between(loop_page_of(report), "judged against the same", "p ="); };
   EXPECT_THAT(heads(), SizeIs(3)) << "nine rounds, four to a group";
   for (Round& round : report.loop.rounds) round.group = round.number;
   EXPECT_THAT(heads(), IsEmpty());
 }
 
 TEST(LoopPage, LetsLongTablesScrollBelowTheirHeads) {
-  EXPECT_THAT(page_of(made_up_looped_report(40)), HasSubstr("<div class=\"panel long\"><table id=\"rounds\""));
-  EXPECT_THAT(page_of(made_up_looped_report(5)), HasSubstr("<div class=\"panel\"><table id=\"rounds\""));
+  EXPECT_THAT(loop_page_of(made_up_looped_report(40)), HasSubstr("<div class=\"panel long\"><table id=\"rounds\""));
+  EXPECT_THAT(loop_page_of(made_up_looped_report(5)), HasSubstr("<div class=\"panel\"><table id=\"rounds\""));
 }
 
 TEST(LoopPage, ShowsWhatWasNotFoundNotSeenAndNotTrue) {
   const CalibrationReport report = made_up_looped_report();
-  const std::string page = page_of(report);
+  const std::string page = loop_page_of(report);
   EXPECT_THAT(table_of(page, "not-found"), SizeIs(report.loop.not_found.size()));
   EXPECT_THAT(table_of(page, "unseen"), ElementsAre(ElementsAre("thermal_offset", "no temperature column"),
                                                     ElementsAre("thermal_length", "no temperature column"),
@@ -123,7 +123,7 @@ TEST(LoopPage, EscapesEveryTextBesidesTheWordsItKnows) {
   };
   Json json = Json::parse(to_json(made_up_looped_report()));
   poison(json);
-  const std::string page = page_of(json);
+  const std::string page = loop_page_of(json);
   EXPECT_THAT(page, HasSubstr("class=\"fall\""));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("\" onload")));
@@ -136,7 +136,7 @@ TEST(LoopPage, IsWellFormedWithoutNumbers) {
     round.validation_before_mm = round.validation_after_mm = round.p_family = std::nan("");
     for (double& value : round.effect.values) value = std::nan("");
   }
-  const std::string page = page_of(report);
+  const std::string page = loop_page_of(report);
   EXPECT_EQ(unbalanced(page), "");
   EXPECT_THAT(page, Not(HasSubstr("nan")));
   EXPECT_THAT(page, Not(HasSubstr("class=\"fall\"")));
@@ -173,7 +173,7 @@ TEST(LoopChart, IsThereOnlyWhereARoundAddedSomething) {
 
 TEST(HarmonicsChart, HasAStemForEveryHarmonicOnOneScale) {
   const CalibrationReport report = made_up_looped_report(14);
-  const std::string page = page_of(report);
+  const std::string page = loop_page_of(report);
   EXPECT_THAT(all_between(page, "<circle class=\"stem\"", "</circle>"), SizeIs(14));
   EXPECT_THAT(all_between(page, "Amplitudes of the gear harmonics of joint", "\""), ElementsAre(" 1", " 2", " 3"));
   std::vector<double> ratios;  // of height to amplitude
@@ -184,7 +184,7 @@ TEST(HarmonicsChart, HasAStemForEveryHarmonicOnOneScale) {
     ratios.push_back((foot - top) / (std::stod(words) * (words.find(" µ") != std::string::npos ? 1e-3 : 1.0)));
   }
   for (const double ratio : ratios) EXPECT_NEAR(ratio, ratios[0], 0.02 * ratios[0]);
-  EXPECT_THAT(all_between(page_of(made_up_looped_report(0)), "class=\"stem\"", ">"), IsEmpty());
+  EXPECT_THAT(all_between(loop_page_of(made_up_looped_report(0)), "class=\"stem\"", ">"), IsEmpty());
 }
 
 TEST(LoopWords, HaveASentenceForEveryReason) {

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Two cells with the first `seeds` seeds.
 Study made_up_study(std::size_t seeds) {
@@ -69,24 +69,24 @@ TEST(StudyCsv, HasARowForEveryRunThatReadsBack) {
 
 TEST(StudyJson, HasTheMediansOfItsRuns) {
   const Study study = made_up_study(7);
-  const Json json = Json::parse(study_json(study));
-  EXPECT_EQ(json["demecal_study"], 1);
-  ASSERT_EQ(json["cells"].size(), 2U);
-  ASSERT_EQ(json["runs"].size(), 14U);
-  EXPECT_EQ(json["cells"][1]["parameters"]["gp.population_size"], 300);
-  EXPECT_EQ(json["cells"][1]["parameters"]["gp.constants_range"], "[-1, 1]");
+  const Json told = Json::parse(study_json(study));
+  EXPECT_EQ(told["demecal_study"], 1);
+  ASSERT_EQ(told["cells"].size(), 2U);
+  ASSERT_EQ(told["runs"].size(), 14U);
+  EXPECT_EQ(told["cells"][1]["parameters"]["gp.population_size"], 300);
+  EXPECT_EQ(told["cells"][1]["parameters"]["gp.constants_range"], "[-1, 1]");
   for (std::size_t cell = 0; cell < 2; ++cell) {
     std::vector<double> values;
     for (const StudyRun& run : study.runs) {
       if (run.cell == cell) values.push_back(run.validation_mm);
     }
     std::sort(values.begin(), values.end());
-    const Json& validation = json["cells"][cell]["validation_rms_mm"];
+    const Json& validation = told["cells"][cell]["validation_rms_mm"];
     EXPECT_EQ(validation["median"], values[3]);
     EXPECT_EQ(validation["lower"], values[0]);
     EXPECT_EQ(validation["interval"], "order_statistics");
     EXPECT_GE(validation["confidence"], 0.95);
-    EXPECT_TRUE(json["cells"][cell]["accept_rms_mm"].is_null());
+    EXPECT_TRUE(told["cells"][cell]["accept_rms_mm"].is_null());
   }
 }
 
@@ -131,9 +131,9 @@ TEST(BlocksTable, HasTheFirstBlocksAndSaysHowManyMoreThereAre) {
   EXPECT_THAT(text, HasSubstr("SIN(c * theta)"));
   EXPECT_THAT(text, Not(HasSubstr("theta * theta")));
   EXPECT_THAT(text, HasSubstr("1 more"));
-  const Json json = Json::parse(study_json(study));
-  EXPECT_EQ(json["blocks"][0]["block"], "SIN(c * theta)");
-  EXPECT_EQ(json["blocks"][2]["mean_rank_share"], 0.625);
+  const Json told = Json::parse(study_json(study));
+  EXPECT_EQ(told["blocks"][0]["block"], "SIN(c * theta)");
+  EXPECT_EQ(told["blocks"][2]["mean_rank_share"], 0.625);
 }
 
 }  // namespace

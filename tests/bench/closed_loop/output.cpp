@@ -46,7 +46,7 @@ Json round_json(const Round& round, const Robot& robot) {
           {"rivals", rivals}};
 }
 
-Json run_json(const RunFigures& run, const Robot& robot) {
+Json run_json(const LoopFigures& run, const Robot& robot) {
   Json rounds = Json::array(), effects = Json::array();
   for (const Round& round : run.rounds) rounds.push_back(round_json(round, robot));
   for (const Effect& effect : run.final_effects) effects.push_back(effect_json(effect, robot));

@@ -24,12 +24,12 @@ LoopResult closed(const DataSet& data, const CasePlan& plan) {
 }
 
 /// The loop run on a scenario and judged; what it ended with goes to `result`.
-RunFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::vector<Effect>& truths,
+LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::vector<Effect>& truths,
                   LoopResult& result) {
   const DataSet data = measured(scenario);
   const auto start = std::chrono::steady_clock::now();
   result = closed(data, plan);
-  RunFigures figures;
+  LoopFigures figures;
   figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
   const double floor_mm = noise_floor_mm(scenario, data);

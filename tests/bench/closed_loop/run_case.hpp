@@ -9,7 +9,7 @@
 namespace demecal::bench {
 
 /// What one run of the loop left.
-struct RunFigures {
+struct LoopFigures {
   Score score;
   double before_over_floor = 0.0;  ///< rms of the accept poses over that of their noise, before the loop
   double after_over_floor = 0.0;
@@ -21,8 +21,8 @@ struct RunFigures {
 struct CaseFigures {
   CasePlan plan;
   std::vector<Effect> truths;  ///< empty: nothing of the kind can be seen, and the case does not count
-  RunFigures clean;            ///< of the twin without the effect
-  RunFigures run;
+  LoopFigures clean;            ///< of the twin without the effect
+  LoopFigures run;
 };
 
 /// Robots by file name.

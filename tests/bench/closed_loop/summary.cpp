@@ -6,7 +6,7 @@
 
 namespace demecal::bench {
 
-void Summary::take(const RunFigures& figures, const RunFigures& clean) {
+void Summary::take(const LoopFigures& figures, const LoopFigures& clean) {
   const Score& score = figures.score;
   ++cases;
   eligible += score.eligible ? 1 : 0;

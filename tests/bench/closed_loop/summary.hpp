@@ -21,7 +21,7 @@ struct Summary {
   std::vector<double> after_over_clean{};  ///< the error after over that of the twin which lacks nothing
 
   /// One run; `clean` is that of its twin.
-  void take(const RunFigures& figures, const RunFigures& clean);
+  void take(const LoopFigures& figures, const LoopFigures& clean);
   void take(const Summary& other);
 };
 

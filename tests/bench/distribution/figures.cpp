@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMany = 1000.0;
 
-double per_island_and_epoch(std::size_t count, const RunFigures& run) {
+double per_island_and_epoch(std::size_t count, const DistributionFigures& run) {
   return static_cast<double>(count) / static_cast<double>(run.islands * run.epochs);
 }
 
@@ -20,16 +20,16 @@ void write_bound(std::ostream& out, const char* name, double value, bool kept, c
 
 }  // namespace
 
-SpeedUp speed_up(std::vector<RunFigures> one, std::vector<RunFigures> two) {
+SpeedUp speed_up(std::vector<DistributionFigures> one, std::vector<DistributionFigures> two) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < one.size(); ++i) ratios.push_back(one[i].wall_s / two[i].wall_s);
   std::ranges::sort(ratios);
   return {ratios[ratios.size() / 2], ratios.front(), ratios.back(), std::move(one), std::move(two)};
 }
 
-double middleware_share(const std::vector<RunFigures>& runs) {
+double middleware_share(const std::vector<DistributionFigures>& runs) {
   double total_s = 0.0, breeding_s = 0.0;
-  for (const RunFigures& run : runs) {
+  for (const DistributionFigures& run : runs) {
     total_s += run.worker_s + run.coordinator_s;
     breeding_s += run.breeding_s;
   }
@@ -50,7 +50,7 @@ CostModel Distribution::model() const {
 
 void write_table(std::ostream& out, const Distribution& all) {
   const SpeedUp& pairs = all.speed_up;
-  const RunFigures& last = pairs.two.back();
+  const DistributionFigures& last = pairs.two.back();
   fmt::print(out, "Table 6-1's run, {} islands, {} pairs of one and two workers\n", last.islands, pairs.one.size());
   write_bound(out, "speed-up of two workers, median of pairs", pairs.median, pairs.median >= 1.9, ">= 1.9");
   fmt::print(out, "{:<52}{:>9.3f} to {:.3f}\n", "  of the pairs", pairs.least, pairs.greatest);
@@ -75,7 +75,7 @@ void write_table(std::ostream& out, const Distribution& all) {
 void write_json(std::ostream& out, const Distribution& all) {
   using Json = nlohmann::ordered_json;
   const SpeedUp& pairs = all.speed_up;
-  const RunFigures& last = pairs.two.back();
+  const DistributionFigures& last = pairs.two.back();
   out << Json{{"workers", 2},
               {"speed_up", pairs.median},
               {"middleware_cpu_share", middleware_share(pairs.two)},

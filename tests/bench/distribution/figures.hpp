@@ -12,16 +12,16 @@ namespace demecal::bench {
 struct SpeedUp {
   double median = 0.0;                 ///< over pairs of runs, one worker's time over two workers'
   double least = 0.0, greatest = 0.0;  ///< of the pairs
-  std::vector<RunFigures> one, two;    ///< parallel
+  std::vector<DistributionFigures> one, two;    ///< parallel
 };
-SpeedUp speed_up(std::vector<RunFigures> one, std::vector<RunFigures> two);
+SpeedUp speed_up(std::vector<DistributionFigures> one, std::vector<DistributionFigures> two);
 
 /// Of all workers' processor time, what did not breed.
-double middleware_share(const std::vector<RunFigures>& runs);
+double middleware_share(const std::vector<DistributionFigures>& runs);
 
 struct Sleeping {
   double work_s = 0.0;  ///< that an epoch of every island sleeps
-  RunFigures run;
+  DistributionFigures run;
 
   double epoch_s() const { return run.wall_s / static_cast<double>(run.epochs - 1); }  ///< the first breeds nothing
   /// Of the coordinator's processor time, for what one island says in one epoch, s.

@@ -51,7 +51,7 @@ SpeedUp pairs_of(const Options& options) {
   const bench::Fleet one{beside_this_program("demecal-worker"), {}, 1, 1};
   bench::Fleet two = one;
   two.processes = 2;
-  std::vector<RunFigures> ones, twos;
+  std::vector<DistributionFigures> ones, twos;
   for (int pair = 0; pair < options.pairs; ++pair) {
     say("pair " + std::to_string(pair + 1) + " of " + std::to_string(options.pairs));
     ones.push_back(measure(options.dds, one, thesis_run(2, kSeed, options.generations)));

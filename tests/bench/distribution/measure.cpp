@@ -50,13 +50,13 @@ double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chron
 
 }  // namespace
 
-RunFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data, std::chrono::seconds idle) {
+DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data, std::chrono::seconds idle) {
   const std::unique_ptr<Transport> carrier = join_dds(dds, Role::coordinator, "");
   const LocalWorkers workers = started(dds, fleet);
   CountedTransport transport(*carrier);
   if (!transport.await_workers(static_cast<std::size_t>(fleet.processes), kPatience))
     throw std::runtime_error("not all workers came within a minute");
-  RunFigures figures;
+  DistributionFigures figures;
   figures.idle_worker_share = idle_share(transport.workers(), idle);
   figures.islands = islands(data.archipelago).size();
   figures.epochs = epochs_of(data);

@@ -17,7 +17,7 @@ struct Fleet {
   int slots = 1;  ///< of each process
 };
 
-struct RunFigures {
+struct DistributionFigures {
   double wall_s = 0.0;             ///< from the run's beginning to its last outcome; the workers are there before
   double worker_s = 0.0;           ///< processor time of the workers
   double breeding_s = 0.0;         ///< of it, that of the threads that breed: the busiest of each process
@@ -28,7 +28,7 @@ struct RunFigures {
 };
 
 /// Throws std::runtime_error where the workers do not come or the run does not finish.
-RunFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
+DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
                    std::chrono::seconds idle = std::chrono::seconds(0));
 
 }  // namespace demecal::bench

@@ -28,7 +28,7 @@ struct Options {
 
 void add_rows(const std::string& workload, const GpParameters& gp, std::size_t rows, int runs, const Options& options,
               std::vector<EngineRow>& measured) {
-  const RunFigures parts = measure_parts(gp, rows, rows > 10'000 ? 1 : runs, measured_error_rows_per_s());
+  const EngineFigures parts = measure_parts(gp, rows, rows > 10'000 ? 1 : runs, measured_error_rows_per_s());
   const double tree_walk_per_s = measure_tree_walk(rows);
   for (const int threads : options.threads) {
     std::cerr << '\r' << workload << ", " << rows << " rows, " << threads << " threads   " << std::flush;

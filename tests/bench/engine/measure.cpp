@@ -37,7 +37,7 @@ class Stopwatch {
   double last_ = thread_seconds();
 };
 
-void count_offspring(const Breeder& breeder, const SharedPopulation& population, RunFigures& figures) {
+void count_offspring(const Breeder& breeder, const SharedPopulation& population, EngineFigures& figures) {
   for (const NodeId root : population.roots) {
     const TreeExtent& extent = breeder.store()[root].whole;
     figures.functions += extent.functions();
@@ -45,8 +45,8 @@ void count_offspring(const Breeder& breeder, const SharedPopulation& population,
   }
 }
 
-RunFigures run_in_parts(const GpParameters& gp, const TrainingTable& table, double error_rows_per_s) {
-  RunFigures figures;
+EngineFigures run_in_parts(const GpParameters& gp, const TrainingTable& table, double error_rows_per_s) {
+  EngineFigures figures;
   Stopwatch watch;
   RandomStream random{kSeed};
   Breeder breeder(gp, table);
@@ -94,11 +94,11 @@ double walk(const Node*& node, double theta) {
 
 }  // namespace
 
-RunFigures measure_parts(const GpParameters& gp, std::size_t rows, int runs, double error_rows_per_s) {
+EngineFigures measure_parts(const GpParameters& gp, std::size_t rows, int runs, double error_rows_per_s) {
   const TrainingTable table = smooth_table(rows);
-  RunFigures best = run_in_parts(gp, table, error_rows_per_s);
+  EngineFigures best = run_in_parts(gp, table, error_rows_per_s);
   for (int run = 1; run < runs; ++run) {
-    const RunFigures figures = run_in_parts(gp, table, error_rows_per_s);
+    const EngineFigures figures = run_in_parts(gp, table, error_rows_per_s);
     if (figures.seconds.total() < best.seconds.total()) best = figures;
   }
   return best;

@@ -15,7 +15,7 @@ struct TimeSplit {
 };
 
 /// One island's run, part by part.
-struct RunFigures {
+struct EngineFigures {
   TimeSplit seconds;
   double functions = 0.0;           ///< of all offspring as trees
   double functions_made = 0.0;      ///< of those, not found in the store
@@ -26,7 +26,7 @@ struct RunFigures {
 };
 
 /// The best of `runs` runs; `error_rows_per_s` divides the time of evaluation into values and fitness.
-RunFigures measure_parts(const GpParameters& gp, std::size_t rows, int runs, double error_rows_per_s);
+EngineFigures measure_parts(const GpParameters& gp, std::size_t rows, int runs, double error_rows_per_s);
 
 /// Whole runs of Island, one a thread, side by side: evaluations per second of processor time (one thread's) and of
 /// the wall clock (all threads'), the best of `runs`.

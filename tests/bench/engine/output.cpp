@@ -8,13 +8,13 @@
 namespace demecal::bench::engine {
 namespace {
 
-double share(double part, const RunFigures& figures) {
+double share(double part, const EngineFigures& figures) {
   return part / figures.seconds.total();
 }
 
 }  // namespace
 
-double found_in_store(const RunFigures& figures) {
+double found_in_store(const EngineFigures& figures) {
   return 1.0 - figures.functions_made / figures.functions;
 }
 
@@ -32,7 +32,7 @@ void write_table(std::ostream& out, const std::vector<EngineRow>& rows, const Ma
          "binding "
          "values fitness fitting  memory\n";
   for (const EngineRow& row : rows) {
-    const RunFigures& parts = row.parts;
+    const EngineFigures& parts = row.parts;
     const TimeSplit& seconds = parts.seconds;
     out << fmt::format(
         "{:<10} {:>6} {:>7} {:>8.0f} {:>11.0f} {:>9.0f} {:>9.2g} {:>7.2g} {:>6.2f} {:>7.0f}% {:>6.0f}% {:>8.0f}% "
@@ -49,7 +49,7 @@ void write_table(std::ostream& out, const std::vector<EngineRow>& rows, const Ma
 
 void write_json(std::ostream& out, const std::vector<EngineRow>& rows, const MachineRates& machine) {
   for (const EngineRow& row : rows) {
-    const RunFigures& parts = row.parts;
+    const EngineFigures& parts = row.parts;
     const TimeSplit& seconds = parts.seconds;
     out << nlohmann::ordered_json{{"workload", row.workload},
                                   {"rows", row.rows},

@@ -22,11 +22,11 @@ struct EngineRow {
   int threads = 1;
   Speed speed;
   double tree_walk_per_s = 0.0;
-  RunFigures parts;  ///< of one thread's run
+  EngineFigures parts;  ///< of one thread's run
 };
 
 /// Share of the offspring's functions that their store held already.
-double found_in_store(const RunFigures& figures);
+double found_in_store(const EngineFigures& figures);
 /// Functions computed, times rows, per second of evaluation proper.
 double node_rows_per_s(const EngineRow& row);
 
