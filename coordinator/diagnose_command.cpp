@@ -11,9 +11,9 @@
 #include "config/files.hpp"
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
-#include "config/read_declared.hpp"
 #include "config/model_text.hpp"
 #include "config/proposed_poses.hpp"
+#include "config/read_declared.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/diagnose.hpp"
 #include "coordinator/interrupt.hpp"
@@ -48,7 +48,8 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return {fault, ""};
 }
 
-DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<CalibratedModel>& known, const DataSet& data) {
+DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<CalibratedModel>& known,
+                          const DataSet& data) {
   DeclaredModel declared = known ? known->declared : declared_by_default(data);
   if (!request.declared.empty()) declared = declared_of(request.declared);
   declared.registration = true;

@@ -23,7 +23,8 @@ struct PrepareRequest {
 };
 
 /// The frame of the data set; empty: the instrument's own.
-std::optional<FrameKind> frame_asked(const PrepareRequest& request, const RawMeasurements& raw, const Prepared& prepared) {
+std::optional<FrameKind> frame_asked(const PrepareRequest& request, const RawMeasurements& raw,
+                                     const Prepared& prepared) {
   if (request.frame == "instrument" || (request.frame.empty() && !raw.local_frame)) return std::nullopt;
   if (request.frame == "best_fit") {
     if (prepared.best_fit) return FrameKind::best_fit;

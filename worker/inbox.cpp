@@ -10,6 +10,16 @@ void Inbox::put(const Migrants& migrants) {
   if (epochs.size() > kEpochs) epochs.erase(epochs.begin());
 }
 
+void Inbox::copy(const Inbox& other, const std::vector<IslandKey>& sources, std::uint32_t epoch) {
+  for (const IslandKey& source : sources) {
+    const auto found = other.by_source_.find(source);
+    if (found == other.by_source_.end()) continue;
+    auto& epochs = by_source_[source];
+    epochs.insert(found->second.lower_bound(epoch), found->second.end());
+    epochs.insert(*found->second.rbegin());
+  }
+}
+
 bool Inbox::holds(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
   return std::ranges::all_of(sources, [&](const IslandKey& source) {
     const auto epochs = by_source_.find(source);

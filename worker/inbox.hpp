@@ -19,6 +19,9 @@ class Inbox {
 
   void put(const Migrants& migrants);
 
+  /// Takes over what `other` has of `sources` from `epoch` on, and the last of each.
+  void copy(const Inbox& other, const std::vector<IslandKey>& sources, std::uint32_t epoch);
+
   /// Whether all that `sources` sent after completing `epoch` epochs is here.
   bool holds(const std::vector<IslandKey>& sources, std::uint32_t epoch) const;
   /// What `sources` sent after completing `epoch` epochs, in the order of `sources`; nothing while any of them is

@@ -15,6 +15,8 @@
 
 namespace demecal {
 
+inline constexpr std::chrono::milliseconds kAtOnce{0};  ///< an interval of what is always due
+
 /// The data of a run, shared by all its islands here.
 struct RunData {
   CalibrationData data;
@@ -49,7 +51,9 @@ class Tenancy {
   /// them has got a worker that has heard of none.
   std::vector<Migrants> unsent();
   void send_all_recent() { all_recent_unsent_ = true; }
+  bool owes_all_recent() const { return all_recent_unsent_; }
   const Migrants& last_migrants() const { return recent_.back(); }
+  const std::deque<Migrants>& recent() const { return recent_; }
   /// How it stands, where that is due: after its first epoch here and its last, and an interval after the last time.
   /// Not where nothing is new.
   std::optional<Progress> due_progress(const std::string& worker, std::chrono::milliseconds interval);

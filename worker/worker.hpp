@@ -8,12 +8,14 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 
 #include "transport/transport.hpp"
+#include "worker/holders.hpp"
 #include "worker/inbox.hpp"
 #include "worker/slots.hpp"
+#include "worker/spell.hpp"
 #include "worker/tenancy.hpp"
 #include "worker/unproven.hpp"
 
@@ -27,6 +29,7 @@ struct WorkerOptions {
   RunId only_run = 0;                                   ///< 0: serves every run
   std::chrono::milliseconds progress_interval{250};     ///< at least, between two words of an island's progress
   std::chrono::milliseconds checkpoint_interval{1000};  ///< at least, but for islands of many epochs a second
+  std::chrono::milliseconds spell{20};       ///< about so long, islands that need nobody else breed without a word
   std::function<void()> after_generation{};  ///< called by the slot that bred it: for work that is only simulated
 };
 
@@ -38,31 +41,30 @@ class Worker {
   void serve(const std::atomic<bool>& stop);
 
  private:
-  using Place = std::pair<RunId, IslandKey>;
-  /// Who has an island, by the highest attempt that was seen.
-  struct Holder {
-    std::uint32_t attempt = 0;
-    std::string worker;
-  };
-
   void receive(const Message& message);
   void take(const CalibrationData& data);
   void take(const IslandTask& task);
   void take(const Migrants& migrants);
   void take(const Control& control);
-  void name(const IslandTask& task);
   void keep_for_later(const IslandTask& task);
   void begin(const IslandTask& task);
   void hand_over(const Place& place);
   void hand_all_over();
+  void collect_spells();
   void tell_all(Tenancy& tenancy);
   void reach(const Place& place);
   void send_migrants(Tenancy& tenancy);
   bool is_elsewhere(RunId run, IslandKey island) const;
+  bool is_awaited_elsewhere(const Tenancy& tenancy) const;
+  bool is_finished(RunId run) const;
+  std::optional<Place> place_of(RunId run) const;
   void start_ready();
   WaitedShare::Time note_waiting();
+  std::shared_ptr<Tenancy> slowest_ready() const;
+  std::map<IslandKey, std::shared_ptr<Tenancy>> free_tenancies(RunId run) const;
   bool start_one();
-  void finish(const std::shared_ptr<Tenancy>& done);
+  void finish(const Spell& spell);
+  void finish(const Spell::Member& member);
   std::chrono::milliseconds checkpoint_interval() const;
   void announce(bool leaving);
   void forget_run(RunId run);
@@ -74,14 +76,13 @@ class Worker {
   std::map<RunId, Inbox> inboxes_;
   std::map<RunId, std::map<IslandKey, IslandTask>> waiting_;  ///< tasks that came before their run's data
   std::size_t waiting_tasks_ = 0;
-  Unproven unproven_;                             ///< migrants of runs without data, or whose sender no task has named
-  std::map<Place, std::set<std::string>> named_;  ///< whom tasks have given an island
+  Unproven unproven_;  ///< migrants of runs without data, or whose sender no task has named
+  Holders holders_;
   std::map<Place, std::shared_ptr<Tenancy>> tenancies_;
-  std::map<Place, Holder> holders_;
-  std::set<std::shared_ptr<Tenancy>> busy_;
-  std::set<RunId> ended_;
+  std::map<std::shared_ptr<Tenancy>, std::shared_ptr<Spell>> busy_;  ///< those in a spell
+  std::map<RunId, Control::State> ended_;
   std::deque<RunId> ended_in_order_;  ///< the last ones are remembered
-  Slots<std::shared_ptr<Tenancy>> slots_;
+  Slots<std::shared_ptr<Spell>> slots_;
   std::uint64_t beats_seen_ = 0;
   WaitedShare slots_waited_;
   WaitedShare::Time announced_{}, asserted_{};

@@ -10,7 +10,7 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kMostPosesKnown = 2000;  ///< more tell the same, weighed
-constexpr double kNothing = 1e-12;        ///< of a correlation matrix's eigenvalues: rounding
+constexpr double kNothing = 1e-12;             ///< of a correlation matrix's eigenvalues: rounding
 
 /// At most kMostPosesKnown of the fitted poses, in their order, and no judging ones.
 DiagnosisData sample(const DiagnosisData& of, RandomStream random) {
@@ -78,7 +78,8 @@ Knowledge::Knowledge(const DiagnosisData& of, DiagnosedModel model, const std::v
     : of_(of),
       model_(everywhere(std::move(model))),
       at_(linearise(sample(of, std::move(random)), model_)),
-      weight_(static_cast<double>(of.fitted.size()) / static_cast<double>(std::min(of.fitted.size(), kMostPosesKnown))) {
+      weight_(static_cast<double>(of.fitted.size()) /
+              static_cast<double>(std::min(of.fitted.size(), kMostPosesKnown))) {
   std::vector<Eigen::Index> out;
   for (Eigen::Index i = 0; i < at_.covariance.rows(); ++i) {
     const auto at = static_cast<std::size_t>(i);

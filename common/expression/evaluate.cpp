@@ -9,7 +9,8 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kRowsOfEvaluation = 256;  // so that the columns of a strip stay in the first-level cache
-constexpr std::size_t kStripStride = kRowsOfEvaluation + kLanes;  // not a power of two, so that they share no cache sets
+constexpr std::size_t kStripStride =
+    kRowsOfEvaluation + kLanes;  // not a power of two, so that they share no cache sets
 
 }  // namespace
 

@@ -61,8 +61,10 @@ double nearest_turn(const Joint& joint, double value, double reference) {
 
 /// About where the hint has the joint; elsewhere, where the reference has it.
 double hinted(const ArmHint& hint, std::size_t joint, double reference) {
-  if (joint < hint.quadrants.size() && hint.quadrants[joint]) return (*hint.quadrants[joint] + 0.5) * std::numbers::pi / 2.0;
-  if (joint < hint.negative.size() && hint.negative[joint]) return *hint.negative[joint] ? -std::numbers::pi / 2.0 : std::numbers::pi / 2.0;
+  if (joint < hint.quadrants.size() && hint.quadrants[joint])
+    return (*hint.quadrants[joint] + 0.5) * std::numbers::pi / 2.0;
+  if (joint < hint.negative.size() && hint.negative[joint])
+    return *hint.negative[joint] ? -std::numbers::pi / 2.0 : std::numbers::pi / 2.0;
   return reference;
 }
 

@@ -11,7 +11,6 @@
 namespace demecal {
 namespace {
 
-
 double distance(const std::vector<double>& one, const std::vector<double>& other) {
   double square = 0.0;
   for (std::size_t i = 0; i < one.size(); ++i) square += (one[i] - other[i]) * (one[i] - other[i]);
@@ -48,7 +47,8 @@ std::vector<double> angles_of(const Eigen::Matrix3d& rotation, const std::vector
   const auto near = [&](double a, double b, double c) {
     return std::vector<double>{wrap_near(a, written[0]), wrap_near(b, written[1]), wrap_near(c, written[2])};
   };
-  const std::vector<double> one = near(first, second, third), other = near(first + std::numbers::pi, std::numbers::pi - second, third + std::numbers::pi);
+  const std::vector<double> one = near(first, second, third),
+                            other = near(first + std::numbers::pi, std::numbers::pi - second, third + std::numbers::pi);
   return distance(other, written) < distance(one, written) ? other : one;
 }
 

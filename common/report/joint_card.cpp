@@ -69,7 +69,8 @@ std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
       joint.note.empty() ? "" : "<p class=\"note\">Left neutral: " + escaped(joint.note) + ".</p>\n";
   const std::string figures = plot(joint) + evolution_figure(joint, history);
   return "<article class=\"joint\">\n" + head(joint) + note +
-         (figures.empty() ? "" : "<div class=\"pair\">\n" + figures + "</div>\n") + formula_line(joint) + "</article>\n";
+         (figures.empty() ? "" : "<div class=\"pair\">\n" + figures + "</div>\n") + formula_line(joint) +
+         "</article>\n";
 }
 
 std::string range_deg(const JointEntry& joint) {

@@ -4,9 +4,9 @@
 
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
-#include "config/read_declared.hpp"
 #include "config/load_robot.hpp"
 #include "config/load_scenario.hpp"
+#include "config/read_declared.hpp"
 #include "config/sha256.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"

@@ -75,7 +75,7 @@ class Forgetful : public Transport {
     const auto* checkpoint = std::get_if<Checkpoint>(&*message);
     if (checkpoint != nullptr && checkpoint->island == IslandKey{0, 0}) return std::nullopt;
     const auto* progress = std::get_if<Progress>(&*message);
-    if (progress != nullptr && progress->epoch == 3 * kMigrantEpochs && lose_worker_)
+    if (progress != nullptr && progress->epoch >= 3 * kMigrantEpochs && lose_worker_)
       std::exchange(lose_worker_, nullptr)();
     return message;
   }

@@ -12,7 +12,7 @@ namespace {
 CalibrationData longer_run(std::uint64_t seed) {
   constexpr Topology kTopologies[] = {Topology::ring, Topology::full, Topology::none};
   CalibrationData data = small_run(seed, kTopologies[seed % 3], seed % 2 == 0);
-  data.parameters.number_generations = 24;
+  data.parameters.number_generations = 32;
   data.archipelago.migration_interval = 2;
   return data;
 }

@@ -43,7 +43,7 @@ inline CalibrationData small_run(std::uint64_t seed, Topology topology = Topolog
   return data;
 }
 
-/// Between checkpoints: after every epoch, or after many of them.
+/// Between checkpoints, ten times as long as a spell: every epoch, or many of them.
 inline constexpr std::chrono::milliseconds kAllCheckpoints{0}, kSomeCheckpoints{20};
 
 /// A worker in a thread of its own, from now until it is stopped or its run ends.
@@ -62,7 +62,8 @@ class WorkerThread {
                                .slots = slots,
                                .only_run = 0,
                                .progress_interval = std::chrono::milliseconds(0),
-                               .checkpoint_interval = checkpoint_interval})
+                               .checkpoint_interval = checkpoint_interval,
+                               .spell = checkpoint_interval / 10})
               .serve(stop_);
         }) {}
   ~WorkerThread() { stop(); }

@@ -68,7 +68,8 @@ Solution solve_explicitly(const Problem& problem) {
   solution.left = problem.fitted - model.fitted * solution.coefficients;
   solution.judging_left = problem.judging - model.judging * solution.coefficients;
   solution.squares = (wanted - solution.whole * solution.coefficients).squaredNorm();
-  solution.freedom = static_cast<double>(kFittedRows) - (model.fitted * solver.pseudoInverse().leftCols(kFittedRows)).trace();
+  solution.freedom =
+      static_cast<double>(kFittedRows) - (model.fitted * solver.pseudoInverse().leftCols(kFittedRows)).trace();
   return solution;
 }
 
@@ -128,7 +129,8 @@ TEST(Projection, TrialIsWhatFittingWithTheColumnsGives) {
   for (int trial = 0; trial < 20; ++trial) {
     Problem problem = random_problem(stream, 4, 4);
     const Projection projection(problem.model, problem.fitted, problem.judging);
-    const RowMatrix fitted = 1e3 * random_matrix(stream, kFittedRows, 3), judging = 1e3 * random_matrix(stream, kJudging, 3);
+    const RowMatrix fitted = 1e3 * random_matrix(stream, kFittedRows, 3),
+                    judging = 1e3 * random_matrix(stream, kJudging, 3);
     const Projection::Trial tried = projection.trial(fitted, judging);
     const double before = solve_explicitly(problem).squares;
     append_columns(problem, fitted, judging);
@@ -166,7 +168,8 @@ TEST(Projection, AddingIsTheSameAsFittingWithTheColumns) {
     Problem problem = random_problem(stream, 4, 4);
     Projection projection(problem.model, problem.fitted, problem.judging);
     for (const Eigen::Index count : {2, 1}) {
-      const RowMatrix fitted = random_matrix(stream, kFittedRows, count), judging = random_matrix(stream, kJudging, count);
+      const RowMatrix fitted = random_matrix(stream, kFittedRows, count),
+                      judging = random_matrix(stream, kJudging, count);
       projection.add(projection.trial(fitted, judging));
       append_columns(problem, fitted, judging);
     }

@@ -11,7 +11,6 @@
 namespace demecal {
 namespace {
 
-
 /// An arm with weight that stands anywhere.
 KnownArm heavy_arm(RandomStream& stream, const Chain& chain) {
   KnownArm arm = perfect_arm(chain, Frame::sensor);

@@ -11,7 +11,6 @@
 namespace demecal {
 namespace {
 
-
 /// The matrix of thesis A.2, element by element.
 Eigen::Matrix4d thesis_matrix(double theta, double d, double a, double alpha) {
   const double ct = std::cos(theta), st = std::sin(theta), ca = std::cos(alpha), sa = std::sin(alpha);

@@ -25,7 +25,7 @@ LoopResult closed(const DataSet& data, const CasePlan& plan) {
 
 /// The loop run on a scenario and judged; what it ended with goes to `result`.
 LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::vector<Effect>& truths,
-                  LoopResult& result) {
+                   LoopResult& result) {
   const DataSet data = measured(scenario);
   const auto start = std::chrono::steady_clock::now();
   result = closed(data, plan);

@@ -21,7 +21,7 @@ struct LoopFigures {
 struct CaseFigures {
   CasePlan plan;
   std::vector<Effect> truths;  ///< empty: nothing of the kind can be seen, and the case does not count
-  LoopFigures clean;            ///< of the twin without the effect
+  LoopFigures clean;           ///< of the twin without the effect
   LoopFigures run;
 };
 

@@ -10,9 +10,9 @@
 namespace demecal::bench {
 
 struct SpeedUp {
-  double median = 0.0;                 ///< over pairs of runs, one worker's time over two workers'
-  double least = 0.0, greatest = 0.0;  ///< of the pairs
-  std::vector<DistributionFigures> one, two;    ///< parallel
+  double median = 0.0;                        ///< over pairs of runs, one worker's time over two workers'
+  double least = 0.0, greatest = 0.0;         ///< of the pairs
+  std::vector<DistributionFigures> one, two;  ///< parallel
 };
 SpeedUp speed_up(std::vector<DistributionFigures> one, std::vector<DistributionFigures> two);
 

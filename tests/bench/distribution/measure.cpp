@@ -50,7 +50,8 @@ double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chron
 
 }  // namespace
 
-DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data, std::chrono::seconds idle) {
+DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
+                            std::chrono::seconds idle) {
   const std::unique_ptr<Transport> carrier = join_dds(dds, Role::coordinator, "");
   const LocalWorkers workers = started(dds, fleet);
   CountedTransport transport(*carrier);

@@ -29,6 +29,6 @@ struct DistributionFigures {
 
 /// Throws std::runtime_error where the workers do not come or the run does not finish.
 DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
-                   std::chrono::seconds idle = std::chrono::seconds(0));
+                            std::chrono::seconds idle = std::chrono::seconds(0));
 
 }  // namespace demecal::bench
