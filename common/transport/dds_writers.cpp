@@ -128,14 +128,15 @@ bool DdsWriters::catch_up() {
   return ready;
 }
 
-/// Returns those that have to wait.
+/// Returns those that have to wait: who is told of an instance's end together with samples from before it loops for
+/// ever where the writer has said more since (Fast DDS 2.9, StatefulWriter::check_acked_status).
 DdsWriters::Values DdsWriters::withdraw_arrived(Values ended) {
   std::map<Place, bool> arrived;
   for (const auto& [key, in_parts] : ended)
-    if (in_parts) arrived.try_emplace(place_of(key), have_arrived(place_of(key)));
+    if (!arrived.contains(place_of(key))) arrived[place_of(key)] = have_arrived(place_of(key));
   std::erase_if(ended, [&](const auto& value) {
-    const auto& [key, in_parts] = value;
-    if (in_parts && !arrived.at(place_of(key))) return false;
+    const TopicKey& key = value.first;
+    if (!arrived.at(place_of(key))) return false;
     dds::DataWriter* writer = at(place_of(key));
     // Unregistering disposes as well; disposing alone would keep the memory.
     with_wire_form(empty_message(key), [&](auto* sample) { writer->unregister_instance(sample, dds::HANDLE_NIL); });

@@ -12,9 +12,9 @@
 
 namespace demecal {
 
-/// What does not fit into a datagram travels in parts, and is not replaced or withdrawn before it has arrived: a reader
-/// that has some of the parts may take them for the whole then, and abort (Fast DDS 2.9,
-/// StatefulReader::processGapMsg). Any thread may call.
+/// What does not fit into a datagram travels in parts, and is not replaced before it has arrived: a reader that has
+/// some of the parts may take them for the whole then, and abort (Fast DDS 2.9, StatefulReader::processGapMsg). Nothing
+/// is withdrawn before all that its writer has said has arrived. Any thread may call.
 class DdsWriters {
  public:
   /// A topic, and the joint (from 0) where it is migrants, else 0.

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -89,6 +90,16 @@ std::vector<Message> receive_until(Transport& transport, Enough enough) {
 inline std::vector<Message> receive_up_to(Transport& transport, const Message& awaited) {
   return receive_until(transport,
                        [&](const auto& messages) { return !messages.empty() && messages.back() == awaited; });
+}
+
+/// Receives until all of `expected` have come, in whatever order; nothing else may have come by then.
+inline void expect_exactly(Transport& transport, const std::vector<Message>& expected) {
+  const auto messages = receive_until(transport, [&](const std::vector<Message>& arrived) {
+    return arrived.size() >= expected.size() && std::all_of(expected.begin(), expected.end(), [&](const Message& one) {
+             return std::find(arrived.begin(), arrived.end(), one) != arrived.end();
+           });
+  });
+  EXPECT_EQ(messages.size(), expected.size());
 }
 
 /// Those of one kind, in order of arrival.

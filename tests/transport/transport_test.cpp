@@ -28,16 +28,6 @@ Migrants emigration(std::uint32_t joint, std::uint32_t deme, std::uint32_t epoch
   return {1, {joint, deme}, epoch, {{variable_tree(0), 1.0 / epoch}}, sender};
 }
 
-/// Receives until all of `expected` have come, in whatever order; nothing else may have come by then.
-void expect_exactly(Transport& transport, const std::vector<Message>& expected) {
-  const auto messages = receive_until(transport, [&](const std::vector<Message>& arrived) {
-    return arrived.size() >= expected.size() && std::all_of(expected.begin(), expected.end(), [&](const Message& one) {
-             return std::find(arrived.begin(), arrived.end(), one) != arrived.end();
-           });
-  });
-  EXPECT_EQ(messages.size(), expected.size());
-}
-
 TEST_P(Transports, DeliverEveryMessageEqualToAllWhoseRoleReadsIt) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");
@@ -225,44 +215,6 @@ TEST_P(Transports, DoNotCallAWorkerLostThatSaysItLeaves) {
   leaver.reset();
   loser.reset();
   expect_exactly(*coordinator, {status_of("leaver", true), WorkerLost{"loser"}});
-}
-
-TEST_P(Transports, ForgetWhatWasSaidOfARunThatIsOverAndGoOnWithOthers) {
-  const auto coordinator = network->join(Role::coordinator, "coordinator");
-  const auto worker = network->join(Role::worker, "worker");
-  const Control over{1, Control::State::finished, ""};
-  Progress of_over, of_next;
-  of_over.run = 1;
-  of_next.run = 2;
-  IslandTask task_of_over, task_of_next;
-  of_over.worker = of_next.worker = "worker";
-  task_of_over.run = 1;
-  task_of_next.run = 2;
-  RandomMessages random(59);
-  const CalibrationData data_of_next = random.data_of(task_of_next);
-  coordinator->publish(random.data_of(task_of_over));
-  coordinator->publish(data_of_next);
-  coordinator->publish(task_of_over);
-  coordinator->publish(task_of_next);
-  worker->publish(of_over);
-  worker->publish(of_next);
-  receive_up_to(*coordinator, of_next);
-  coordinator->publish(over);
-  receive_up_to(*worker, over);
-  const auto late_worker = network->join(Role::worker, "late worker");
-  const auto late_coordinator = network->join(Role::coordinator, "late coordinator");
-  const auto watcher = network->join(Role::watcher, "watcher");
-  expect_exactly(*late_worker, {over, data_of_next, task_of_next});
-  expect_exactly(*late_coordinator, {of_next});
-  receive_up_to(*watcher, of_next);
-  ++of_next.epoch;
-  ++task_of_next.attempt;
-  worker->publish(of_next);
-  coordinator->publish(task_of_next);
-  expect_exactly(*late_worker, {task_of_next});
-  expect_exactly(*late_coordinator, {of_next});
-  const auto watched = only<Progress>(receive_up_to(*watcher, of_next));
-  EXPECT_EQ(watched, std::vector<Progress>{of_next});
 }
 
 TEST_P(Transports, FlushWhenNobodyListens) {
