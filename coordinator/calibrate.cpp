@@ -19,6 +19,11 @@ std::string words_for(Sought sought, int luck) {
   return "the same search on permuted poses, to know what luck finds: number " + std::to_string(luck);
 }
 
+/// Whether the corrections are evolved by workers, and not in this process.
+bool evolves_on_islands(const Job& job) {
+  return job.declared.joint_corrections && (job.method != Method::distal || job.distal.form == DistalForm::parallel);
+}
+
 /// What islands or this process evolved for every joint, by the job's method; the run's end is in `evolutions`.
 std::vector<JointCandidates> learn(const DataSet& data, const Job& job, Evolutions& evolutions,
                                    CalibrateResult& result) {
@@ -83,8 +88,9 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   const Clock::time_point begin = Clock::now();
   if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
   CalibrateResult result;
-  result.preparation = prepare(data, job);
   Evolutions evolutions(job, make_fleet, interrupt, options);
+  if (evolves_on_islands(job)) evolutions.gather();
+  result.preparation = prepare(data, job);
   const std::vector<JointCandidates> candidates = learn(data, job, evolutions, result);
   result.end = evolutions.end();
   result.fronts = evolutions.take_fronts();
@@ -93,6 +99,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0) {
     close_the_loop(data, job, evolutions, interrupt, options, result);
   }
+  evolutions.dismiss();
   result.model = model_of(data, job, result.calibration);
   result.history = evolutions.take_history();
   result.facts = evolutions.facts();

@@ -20,12 +20,13 @@
 
 namespace demecal {
 
-/// How a calibration reaches its workers: opens the transport, and keeps the workers that it starts alive.
+/// How a calibration reaches its workers: opens the transport, and keeps the workers that it starts alive from one run
+/// to the next.
 class Fleet {
  public:
   virtual ~Fleet() = default;
   virtual Transport& transport() = 0;
-  /// Called once the run is known, before it begins.
+  /// Called before each run: starts workers where none that it started is left. `run`: one of this coordinator's.
   virtual void launch(RunId run) = 0;
 };
 
@@ -55,9 +56,9 @@ struct CalibrateResult {
 CalibratedModel model_of(const DataSet& data, const Job& job, const Calibration& calibration);
 
 /// Everything but files: prepares, evolves on the fleet, concludes, and closes the loop unless the job allows it no
-/// effects. A fleet is asked for wherever joint corrections are evolved: once, and anew each time the loop has added
-/// effects beside them. The structural method evolves no corrections: it needs no fleet, and no loop follows. Throws
-/// InputError for data that the job cannot be fitted to.
+/// effects. One fleet is asked for where joint corrections are evolved, and serves all evolutions; another takes its
+/// place after one that was stuck. The structural method evolves no corrections: it needs no fleet, and no loop
+/// follows. Throws InputError for data that the job cannot be fitted to.
 CalibrateResult calibrate(const DataSet& data, const Job& job,
                           const std::function<std::unique_ptr<Fleet>()>& make_fleet, const std::atomic<bool>& interrupt,
                           const CalibrateOptions& options);

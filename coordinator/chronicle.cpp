@@ -67,12 +67,15 @@ void Chronicle::run_begins(const CalibrationData& data, const std::vector<Progre
 
 void Chronicle::run_ends(Control::State state) {
   file_.note(Control{stage_.run, state, stage_.job});
+  if (state == Control::State::finished) tell_stage(Stage::closing, "closing the loop");
+}
+
+void Chronicle::fleet_ends() {
   for (auto& [name, status] : workers_) {
-    if (status.only_run != stage_.run || status.leaving) continue;
+    if (status.only_run == 0 || status.leaving) continue;
     status.leaving = true;  // nobody listens when it says so itself
     file_.note(status);
   }
-  if (state == Control::State::finished) tell_stage(Stage::closing, "closing the loop");
 }
 
 void Chronicle::heard(const WorkerStatus& status) {

@@ -26,6 +26,8 @@ class Chronicle {
   /// `reached`: figures of islands of a run that goes on from where it was broken off; no worker will give them again.
   void run_begins(const CalibrationData& data, const std::vector<Progress>& reached);
   void run_ends(Control::State state);
+  /// The workers that serve this coordinator alone are let go.
+  void fleet_ends();
   void heard(const Progress& progress) { file_.note(progress); }
   void heard(const WorkerStatus& status);
   void heard(const WorkerLost& lost) { file_.note(lost); }

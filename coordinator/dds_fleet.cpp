@@ -28,6 +28,7 @@ DdsFleet::DdsFleet(const DdsOptions& options, int local_workers)
       transport_(join_dds(options, Role::coordinator, "coordinator")) {}
 
 void DdsFleet::launch(RunId run) {
+  if (workers_ && workers_->any_alive()) return;
   std::vector<std::string> arguments = worker_arguments(options_, run);
   int processes = local_workers_;
   if (!options_.security.empty() && processes > 0) {

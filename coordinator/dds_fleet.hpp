@@ -12,8 +12,8 @@ namespace demecal {
 
 class DdsFleet : public Fleet {
  public:
-  /// Joins the domain; will start `local_workers` processes, each with one slot, that serve this run alone; or, where
-  /// certificates are shown, one process with as many slots: handshakes grow with the square of the processes.
+  /// Joins the domain; will start `local_workers` processes, each with one slot, that serve this coordinator alone; or,
+  /// where certificates are shown, one process with as many slots: handshakes grow with the square of the processes.
   DdsFleet(const DdsOptions& options, int local_workers);
 
   Transport& transport() override { return *transport_; }

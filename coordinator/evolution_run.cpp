@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "protocol/faults.hpp"
+#include "transport/participant_of.hpp"
 
 namespace demecal {
 namespace {
@@ -19,7 +20,8 @@ constexpr int kMostDoublings = 10;
 EvolutionRun::EvolutionRun(Transport& transport, CalibrationData data, RunObserver& observer)
     : EvolutionRun(transport, RunState(std::move(data)), observer) {}
 
-EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& observer)
+EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& observer,
+                           const std::map<std::string, WorkerStatus>& present)
     : transport_(transport),
       state_(std::move(state)),
       observer_(observer),
@@ -31,6 +33,7 @@ EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& ob
     assignment_.finish(outcome.island);
     diligence_.finished(outcome.island);
   }
+  for (const auto& [name, status] : present) take(status);
 }
 
 RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience patience) {
@@ -47,6 +50,7 @@ RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience pati
   if (how == RunEnd::interrupted) hear_last_words();
   RunResult result = state_.result(how);
   count_strangers();
+  result.present = std::move(present_);
   result.waited_share = std::move(waited_share_);
   result.dropped = transport_.dropped();
   return result;
@@ -55,6 +59,7 @@ RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience pati
 RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patience) {
   Clock::time_point last_worker = Clock::now(), last_tick = last_worker;
   last_news_ = last_worker;
+  hand_out();
   while (!state_.all_finished() || waits_for_history()) {
     if (const std::optional<Message> message = transport_.receive(kTick)) receive(*message);
     hand_out();
@@ -91,7 +96,7 @@ void EvolutionRun::hear_last_words() {
 
 void EvolutionRun::end(Control::State state) {
   transport_.publish(Control{state_.data().run, state, state_.data().job});
-  transport_.flush(kFarewell);
+  if (state != Control::State::finished) transport_.flush(kFarewell);
 }
 
 void EvolutionRun::receive(const Message& message) {
@@ -104,12 +109,13 @@ void EvolutionRun::receive(const Message& message) {
 
 void EvolutionRun::take(const WorkerStatus& status) {
   if (const Fault fault = find_fault(status)) return transport_.drop(status.worker, *fault);
-  if (status.only_run != 0 && status.only_run != state_.data().run) return;
+  if (status.only_run != 0 && !have_one_publisher(status.only_run, state_.data().run)) return;
   waited_share_[status.worker] = status.waited_share;
   if (status.leaving) {
     lose(status.worker);
     return;
   }
+  present_[status.worker] = status;
   Aside& aside = aside_[status.worker];
   aside.slots = status.slots;
   if (!aside.now) assignment_.add_worker(status.worker, status.slots);
@@ -124,7 +130,8 @@ template <class IslandMessage>
 bool EvolutionRun::is_credible(const IslandMessage& message) {
   constexpr std::size_t kMostStrangers = 1024;
   if (message.run != state_.data().run) {
-    if (of_other_runs_.size() < kMostStrangers) ++of_other_runs_[message.worker];
+    const bool is_late = have_one_publisher(message.run, state_.data().run);
+    if (!is_late && of_other_runs_.size() < kMostStrangers) ++of_other_runs_[message.worker];
     return false;
   }
   const auto named = named_.find(message.island);
@@ -168,6 +175,7 @@ void EvolutionRun::take(const Outcome& outcome) {
 void EvolutionRun::lose(const std::string& worker) {
   assignment_.remove_worker(worker);
   aside_.erase(worker);
+  present_.erase(worker);
   observer_.on_lost(worker);
 }
 

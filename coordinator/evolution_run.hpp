@@ -39,11 +39,14 @@ class EvolutionRun {
  public:
   /// Begins at the start of the evolution.
   EvolutionRun(Transport& transport, CalibrationData data, RunObserver& observer);
-  /// Goes on from what is known; `state` is that of a run whose number is new.
-  EvolutionRun(Transport& transport, RunState state, RunObserver& observer);
+  /// Goes on from what is known; `state` is that of a run whose number is new. `present` are the workers that were
+  /// there when the last run over this transport ended: who came or went since, the transport still tells.
+  EvolutionRun(Transport& transport, RunState state, RunObserver& observer,
+               const std::map<std::string, WorkerStatus>& present = {});
 
   /// Until every island has bred all its generations, `interrupt` is set, no worker was there for as long as `patience`
-  /// says, or the run is stuck. Where an observer throws, the workers are told that the run is over.
+  /// says, or the run is stuck. Where an observer throws, the workers are told that the run is over. That it finished
+  /// may still be on its way to them: they may serve another.
   RunResult run(const std::atomic<bool>& interrupt, RunPatience patience);
 
  private:
@@ -90,9 +93,10 @@ class EvolutionRun {
   RunObserver& observer_;
   Assignment assignment_;
   Diligence diligence_;
-  std::map<IslandKey, Given> given_;                    ///< the last task of each island
-  std::map<IslandKey, std::set<std::string>> named_;    ///< whom tasks have given it
-  std::map<std::string, Aside> aside_;                  ///< by worker
+  std::map<IslandKey, Given> given_;                  ///< the last task of each island
+  std::map<IslandKey, std::set<std::string>> named_;  ///< whom tasks have given it
+  std::map<std::string, Aside> aside_;                ///< by worker
+  std::map<std::string, WorkerStatus> present_;
   std::map<std::string, std::uint64_t> of_other_runs_;  ///< how much was heard, by worker
   std::map<std::string, double> waited_share_;          ///< by worker
   Clock::time_point last_news_;

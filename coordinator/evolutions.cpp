@@ -10,6 +10,8 @@
 namespace demecal {
 namespace {
 
+constexpr std::chrono::milliseconds kParting{2000};
+
 /// Without a run's number yet.
 CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings, const RoundTerms& terms,
                                  bool asynchronous) {
@@ -128,21 +130,45 @@ RunResult Evolutions::evolve(RunState state, bool shown) {
 
 /// Under a number that shows whose the run is.
 RunResult Evolutions::attempt(RunState& state, bool shown) {
-  const std::unique_ptr<Fleet> fleet = make_fleet_();
+  if (!fleet_) fleet_ = make_fleet_();
+  Transport& transport = fleet_->transport();
   const RunId left = state.data().run;
-  state.rename(fleet->transport().new_run());
+  state.rename(transport.new_run());
   ProgressDisplay display(stderr, state.data(), options_.quiet || !shown);
   for (const Progress& progress : state.progress()) display.on_progress(progress);
   Recorded observer(display, options_.chronicle, options_.journal);
   if (options_.journal != nullptr) options_.journal->begin(state.data());
-  if (left != 0) fleet->transport().publish(Control{left, Control::State::cancelled, state.data().job});
+  if (left != 0) transport.publish(Control{left, Control::State::cancelled, state.data().job});
   if (options_.chronicle != nullptr) options_.chronicle->run_begins(state.data(), state.progress());
-  fleet->launch(state.data().run);
-  RunResult result = EvolutionRun(fleet->transport(), state, observer).run(interrupt_, options_.patience);
+  fleet_->launch(state.data().run);
+  RunResult result = EvolutionRun(transport, state, observer, present_).run(interrupt_, options_.patience);
+  present_ = std::move(result.present);
+  result.dropped -= std::exchange(dropped_, result.dropped);
   if (options_.journal != nullptr) options_.journal->finish();
   display.finish();
   if (options_.chronicle != nullptr) options_.chronicle->run_ends(state_told(result.end));
+  if (result.end != RunEnd::finished) let_go();
   return result;
+}
+
+void Evolutions::gather() {
+  if (fleet_) return;
+  fleet_ = make_fleet_();
+  fleet_->launch(fleet_->transport().new_run());
+}
+
+void Evolutions::dismiss() {
+  // Those who served it must hear that the last run is over.
+  if (fleet_ && !interrupt_) fleet_->transport().flush(kParting);
+  let_go();
+}
+
+void Evolutions::let_go() {
+  if (!fleet_) return;
+  fleet_.reset();
+  present_.clear();
+  dropped_ = 0;
+  if (options_.chronicle != nullptr) options_.chronicle->fleet_ends();
 }
 
 void Evolutions::note_own(std::uint32_t generations, std::uint64_t evaluations) {
@@ -164,7 +190,7 @@ void Evolutions::note(RunResult& result, int generations, bool shown) {
   facts_.evaluations += result.evaluations;
   facts_.migrations += result.migrations;
   facts_.dropped_samples += result.dropped;
-  facts_.waited_share.merge(result.waited_share);
+  for (const auto& [worker, share] : result.waited_share) facts_.waited_share[worker] = share;
   if (!shown) return;
   generations_shown_ += static_cast<std::uint32_t>(generations);
   fronts_ = std::move(result.fronts);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,8 +15,9 @@
 
 namespace demecal {
 
-/// The evolutions of one calibration, each a run of its own on a fleet of its own. One that the journal tells the end
-/// of is not run again; one that it tells the beginning of goes on from there. A run that is stuck is begun anew.
+/// The evolutions of one calibration, each a run of its own. One fleet serves them all: its workers know each other,
+/// and begin with the next run at once. One that the journal tells the end of is not run again; one that it tells the
+/// beginning of goes on from there. A run that is stuck is begun anew, on another fleet.
 class Evolutions {
  public:
   Evolutions(const Job& job, const std::function<std::unique_ptr<Fleet>()>& make_fleet,
@@ -28,6 +30,10 @@ class Evolutions {
   /// The same with a seed and a number of generations of its own.
   std::vector<JointCandidates> run(const std::vector<JointTraining>& training, const RoundTerms& terms,
                                    bool shown = true);
+  /// Has the fleet's workers start before anything is to be evolved: they take their time to come.
+  void gather();
+  /// Lets the fleet go. It serves no more: another would be made.
+  void dismiss();
   /// Counts what this process evolved itself.
   void note_own(std::uint32_t generations, std::uint64_t evaluations);
   bool is_interrupted() const { return interrupt_; }
@@ -43,11 +49,15 @@ class Evolutions {
   RunResult evolve(RunState state, bool shown);
   RunResult attempt(RunState& state, bool shown);
   void note(RunResult& result, int generations, bool shown);
+  void let_go();
 
   const Job& job_;
   const std::function<std::unique_ptr<Fleet>()>& make_fleet_;
   const std::atomic<bool>& interrupt_;
   const CalibrateOptions& options_;
+  std::unique_ptr<Fleet> fleet_;                 ///< from the first run on
+  std::map<std::string, WorkerStatus> present_;  ///< its workers when the last run ended
+  std::uint64_t dropped_ = 0;                    ///< by its transport, as counted so far
   RunEnd end_ = RunEnd::finished;
   std::vector<Progress> history_;
   std::map<IslandKey, Population> fronts_;

@@ -27,8 +27,9 @@ struct RunResult {
   std::uint64_t migrations = 0;  ///< individuals taken in
   std::size_t workers = 0;       ///< different ones that finished an island
   std::uint64_t dropped = 0;     ///< messages that were received and not acted on, since they could not be believed
-  std::map<std::string, double> waited_share;  ///< of each worker heard of: of its slots' time while it had islands to
-                                               ///< breed, the share without work
+  std::map<std::string, WorkerStatus> present;  ///< workers that were there at the end, by name
+  std::map<std::string, double> waited_share;   ///< of each worker heard of: of its slots' time while it had islands to
+                                                ///< breed, the share without work
 };
 
 /// Grows with the messages it is given; late, doubled and faulty ones change nothing.

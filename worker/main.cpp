@@ -1,4 +1,5 @@
 // demecal-worker: evolves islands for whichever coordinator serves its domain.
+#include <semaphore.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -6,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <thread>
 
 #include "errors/input_error.hpp"
 #include "protocol/printable.hpp"
@@ -17,16 +19,35 @@ namespace {
 constexpr unsigned kLongestStop_s = 2;
 
 std::atomic<bool> stop{false};
+sem_t stop_asked;
 
 /// The first asks for an end, which the alarm sees to where the work takes too long to notice; the second does not ask.
 void on_signal(int) {
   if (stop.exchange(true)) ::_exit(130);
   ::alarm(kLongestStop_s);
+  ::sem_post(&stop_asked);
 }
 
 void on_alarm(int) {
   ::_exit(0);
 }
+
+/// Wakes a worker that waits for messages when it is asked to end: a signal's own handler may not.
+class Waker {
+ public:
+  explicit Waker(demecal::Transport& transport)
+      : thread_([&transport] {
+          while (::sem_wait(&stop_asked) != 0) {
+          }
+          transport.wake();
+        }) {}
+  ~Waker() { ::sem_post(&stop_asked); }
+  Waker(const Waker&) = delete;
+  Waker& operator=(const Waker&) = delete;
+
+ private:
+  std::jthread thread_;
+};
 
 std::string host_name() {
   char name[128] = "unknown";
@@ -61,7 +82,7 @@ int main(int argc, char** argv) {
   app.add_option("--security", dds.security,
                  "folder of certificates, from scripts/security; not with a discovery server")
       ->excludes("--discovery-server");
-  app.add_option("--only-run", options.only_run, "serve this run alone and end with it");
+  app.add_option("--only-run", options.only_run, "serve the coordinator of this run alone");
   app.set_version_flag("--version", DEMECAL_VERSION);
   try {
     app.parse(argc, argv);
@@ -69,6 +90,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 10;
   }
   if (network || !dds.peers.empty() || !dds.discovery_server.empty()) dds.reach = demecal::DdsOptions::Reach::network;
+  ::sem_init(&stop_asked, 0, 0);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGALRM, on_alarm);
@@ -77,6 +99,7 @@ int main(int argc, char** argv) {
   options.name = unique_name(options.host);
   try {
     const auto transport = demecal::join_dds(dds, demecal::Role::worker, options.name);
+    const Waker waker(*transport);
     demecal::Worker(*transport, options).serve(stop);
   } catch (const demecal::InputError& error) {
     std::fprintf(stderr, "demecal-worker: %s\n", error.what());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "protocol/faults.hpp"
+#include "transport/participant_of.hpp"
 
 namespace demecal {
 namespace {
@@ -27,7 +28,7 @@ Worker::Worker(Transport& transport, const WorkerOptions& options)
 
 void Worker::serve(const std::atomic<bool>& stop) {
   announce(false);
-  while (!stop && (options_.only_run == 0 || !ended_.contains(options_.only_run))) {
+  while (!stop) {
     keep_alive();
     if (const std::optional<Message> message = transport_.receive(kBeat)) receive(*message);
     while (const auto spell = slots_.finished()) finish(**spell);
@@ -39,6 +40,10 @@ void Worker::serve(const std::atomic<bool>& stop) {
   transport_.flush(kFarewell);
 }
 
+bool Worker::serves(RunId run) const {
+  return options_.only_run == 0 || have_one_publisher(options_.only_run, run);
+}
+
 void Worker::receive(const Message& message) {
   if (const auto* data = std::get_if<CalibrationData>(&message)) take(*data);
   if (const auto* task = std::get_if<IslandTask>(&message)) take(*task);
@@ -48,7 +53,7 @@ void Worker::receive(const Message& message) {
 
 void Worker::take(const CalibrationData& data) {
   if (ended_.contains(data.run) || runs_.contains(data.run)) return;
-  if (options_.only_run != 0 && data.run != options_.only_run) return;
+  if (!serves(data.run)) return;
   if (const Fault fault = find_fault(data)) return transport_.drop(coordinator_of(data.run), *fault);
   runs_[data.run] = std::make_shared<RunData>(RunData{data});
   inboxes_[data.run];
@@ -125,7 +130,7 @@ void Worker::reach(const Place& place) {
 }
 
 void Worker::keep_for_later(const IslandTask& task) {
-  if (options_.only_run != 0 && task.run != options_.only_run) return;
+  if (!serves(task.run)) return;
   if (waiting_tasks_ >= kMostWaitingTasks) return transport_.drop(coordinator_of(task.run), "a task without data");
   const auto [waiting, is_first] = waiting_[task.run].try_emplace(task.island, task);
   if (is_first) ++waiting_tasks_;
@@ -169,7 +174,7 @@ bool Worker::is_awaited_elsewhere(const Tenancy& tenancy) const {
 /// the island can still lie; certificates keep out whom one does not trust.
 void Worker::take(const Migrants& migrants) {
   if (ended_.contains(migrants.run)) return;
-  if (options_.only_run != 0 && migrants.run != options_.only_run) return;
+  if (!serves(migrants.run)) return;
   const auto run = runs_.find(migrants.run);
   if (run == runs_.end() || !holders_.was_given({migrants.run, migrants.island}, migrants.worker)) {
     if (!unproven_.put(migrants)) transport_.drop(migrants.worker, kNotGiven);

@@ -26,7 +26,7 @@ struct WorkerOptions {
   std::string host;
   std::uint32_t process = 0;
   std::uint32_t slots = 1;                              ///< islands computed at once
-  RunId only_run = 0;                                   ///< 0: serves every run
+  RunId only_run = 0;                                   ///< 0: serves every run; else those of this one's publisher
   std::chrono::milliseconds progress_interval{250};     ///< at least, between two words of an island's progress
   std::chrono::milliseconds checkpoint_interval{1000};  ///< at least, but for islands of many epochs a second
   std::chrono::milliseconds spell{20};       ///< about so long, islands that need nobody else breed without a word
@@ -37,10 +37,11 @@ class Worker {
  public:
   Worker(Transport& transport, const WorkerOptions& options);
 
-  /// Works until `stop` is set, then says goodbye. With only_run set it also ends when that run does.
+  /// Works until `stop` is set, then says goodbye. Transport::wake() has it notice that at once.
   void serve(const std::atomic<bool>& stop);
 
  private:
+  bool serves(RunId run) const;
   void receive(const Message& message);
   void take(const CalibrationData& data);
   void take(const IslandTask& task);

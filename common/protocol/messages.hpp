@@ -124,7 +124,7 @@ struct WorkerStatus {
   std::uint32_t slots = 1;  ///< islands it computes at once
   std::string version;
   bool leaving = false;
-  RunId only_run = 0;         ///< 0: serves every run
+  RunId only_run = 0;         ///< 0: serves every run; else those of this one's coordinator alone
   double waited_share = 0.0;  ///< of its slots' time while it had islands to breed: without work
 
   bool operator==(const WorkerStatus&) const = default;

@@ -35,6 +35,7 @@ class DdsTransport final : public Transport {
       return participant_.is_own(publication) ||
              (role_ == Role::coordinator && participant_.is_of_this_process(publication));
     };
+    inbox_.id = participant_.id();
     inbox_.secured = !options.security.empty();
     inbox_.name_of = [this](const ParticipantId& participant) { return participant_.name_of(participant); };
     for (const Topic topic : kTopics)

@@ -51,6 +51,8 @@ class Receiver : public dds::DataReaderListener {
       drop(writer, "it speaks for worker " + message.worker);
     } else if constexpr (std::is_same_v<Plain, WorkerStatus>) {
       inbox_.presence.heard(writer, std::move(message));
+    } else if (is_for_another(message)) {
+      return;
     } else if (!inbox_.mailbox.put(source, std::move(message))) {
       drop(writer, "more than can be kept");
     }
@@ -66,6 +68,12 @@ class Receiver : public dds::DataReaderListener {
   bool may_speak_for(const ParticipantId& source, const Plain& message) const {
     if (inbox_.secured || (std::is_same_v<Plain, Progress> && inbox_.role == Role::watcher)) return true;
     return source == participant_of(message.worker);
+  }
+
+  /// Whether it answers another coordinator; one that does not read for a while would have to keep it.
+  template <class Plain>
+  bool is_for_another(const Plain& message) const {
+    return inbox_.role == Role::coordinator && shows_publisher(message.run) && !may_publish(inbox_.id, message.run);
   }
 
   void drop(const WriterId& writer, const std::string& why) {

@@ -18,7 +18,8 @@ namespace demecal {
 struct Inbox {
   explicit Inbox(Role reader) : role(reader) {}
 
-  const Role role;  ///< of who reads
+  const Role role;     ///< of who reads
+  ParticipantId id{};  ///< of who reads; to be set before any reader is made
   Mailbox mailbox;
   DroppedSamples dropped;
   Presence presence{mailbox};

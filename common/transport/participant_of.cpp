@@ -41,6 +41,10 @@ bool may_publish(const ParticipantId& publisher, std::uint64_t run) {
   return !shows_publisher(run) || run == run_of(publisher, static_cast<std::uint16_t>(run));
 }
 
+bool have_one_publisher(std::uint64_t a, std::uint64_t b) {
+  return a == b || (shows_publisher(a) && a >> kSerialBits == b >> kSerialBits);
+}
+
 std::string text_of(const ParticipantId& participant) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string text;

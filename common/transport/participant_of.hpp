@@ -24,6 +24,9 @@ bool may_publish(const ParticipantId& publisher, std::uint64_t run);
 /// Whether the number shows who publishes the run.
 bool shows_publisher(std::uint64_t run);
 
+/// Whether two runs show the same publisher; of those that show nobody, whether they are one.
+bool have_one_publisher(std::uint64_t a, std::uint64_t b);
+
 /// As RTPS writes it: "01.0f.…".
 std::string text_of(const ParticipantId& participant);
 

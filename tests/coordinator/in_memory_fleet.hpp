@@ -16,6 +16,7 @@ class InMemoryFleet : public Fleet {
 
   Transport& transport() override { return *transport_; }
   void launch(RunId) override {
+    if (!threads_.empty()) return;
     for (int i = 0; i < workers_; ++i) {
       threads_.push_back(std::make_unique<WorkerThread>(exchange_, std::string("worker-").append(std::to_string(i))));
     }

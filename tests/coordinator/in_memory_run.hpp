@@ -46,7 +46,7 @@ inline CalibrationData small_run(std::uint64_t seed, Topology topology = Topolog
 /// Between checkpoints, ten times as long as a spell: every epoch, or many of them.
 inline constexpr std::chrono::milliseconds kAllCheckpoints{0}, kSomeCheckpoints{20};
 
-/// A worker in a thread of its own, from now until it is stopped or its run ends.
+/// A worker in a thread of its own, from now until it is stopped.
 class WorkerThread {
  public:
   /// It tells of every epoch.
@@ -54,13 +54,13 @@ class WorkerThread {
                std::chrono::milliseconds checkpoint_interval = kSomeCheckpoints)
       : WorkerThread(join(exchange, Role::worker, name), name, slots, checkpoint_interval) {}
   WorkerThread(std::unique_ptr<Transport> transport, const std::string& name, std::uint32_t slots,
-               std::chrono::milliseconds checkpoint_interval = kSomeCheckpoints)
-      : transport_(std::move(transport)), thread_([this, name, slots, checkpoint_interval] {
+               std::chrono::milliseconds checkpoint_interval = kSomeCheckpoints, RunId only_run = 0)
+      : transport_(std::move(transport)), thread_([this, name, slots, checkpoint_interval, only_run] {
           Worker(*transport_, {.name = name,
                                .host = "here",
                                .process = 1,
                                .slots = slots,
-                               .only_run = 0,
+                               .only_run = only_run,
                                .progress_interval = std::chrono::milliseconds(0),
                                .checkpoint_interval = checkpoint_interval,
                                .spell = checkpoint_interval / 10})

@@ -29,6 +29,17 @@ TEST(RunOf, ShowsItsPublisherAndNoOther) {
   EXPECT_FALSE(shows_publisher(5));
 }
 
+TEST(RunOf, TellsWhetherRunsHaveOnePublisher) {
+  const ParticipantId one = participant_of("one"), two = participant_of("two");
+  for (const std::uint16_t serial : {0, 1, 65535}) {
+    EXPECT_TRUE(have_one_publisher(run_of(one, serial), run_of(one, 7)));
+    EXPECT_FALSE(have_one_publisher(run_of(one, serial), run_of(two, serial)));
+  }
+  EXPECT_TRUE(have_one_publisher(5, 5));
+  EXPECT_FALSE(have_one_publisher(5, 6));
+  EXPECT_FALSE(have_one_publisher(run_of(one, 7), 7));
+}
+
 TEST(ParticipantOf, IsTheSameOnEveryHost) {
   EXPECT_EQ(text_of(participant_of("worker")), text_of(participant_of(std::string("wor") + "ker")));
   EXPECT_EQ(text_of(participant_of("worker")).substr(0, 6), "01.0f.");
