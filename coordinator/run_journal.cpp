@@ -10,7 +10,7 @@ namespace demecal {
 namespace {
 
 constexpr std::chrono::milliseconds kSnapshotInterval{250};
-/// A snapshot that took long is followed by as many times as long without one.
+/// A snapshot, or a disk, that took long is followed by as many times as long without one.
 constexpr int kRest = 20;
 constexpr std::size_t kShortenAtGrowth = 4;
 
@@ -77,12 +77,21 @@ void RunJournal::begin(const CalibrationData& data) {
   if (found == evolutions_.end()) evolutions_.emplace_back(data);
   reached_.clear();
   file_.append(begin_record(present_, data));
-  file_.sync();
+  sync_where_due();
 }
 
 void RunJournal::finish() {
   write_snapshot();
+  sync_where_due();
+}
+
+/// A process that dies loses nothing that it appended; the disk is waited for lest a computer that dies lose much.
+void RunJournal::sync_where_due() {
+  const Clock::time_point begin = Clock::now();
+  if (begin < next_sync_) return;
   file_.sync();
+  const Clock::time_point end = Clock::now();
+  next_sync_ = end + std::max<Clock::duration>(kSnapshotInterval, kRest * (end - begin));
 }
 
 void RunJournal::on_progress(const Progress& progress) {

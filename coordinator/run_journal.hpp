@@ -51,6 +51,7 @@ class RunJournal : public RunObserver {
   void begin_anew();
   void take_up();
   void write_snapshot();
+  void sync_where_due();
   void shorten();
 
   JournalFile file_;
@@ -62,7 +63,7 @@ class RunJournal : public RunObserver {
   std::map<IslandKey, Checkpoint> reached_;  ///< since the last snapshot
   std::size_t shorten_from_bytes_;
   std::size_t shortened_bytes_ = 0;  ///< size of the file when it was last written anew
-  Clock::time_point next_snapshot_{};
+  Clock::time_point next_snapshot_{}, next_sync_{};
 };
 
 }  // namespace demecal
