@@ -7,29 +7,13 @@
 #include <utility>
 
 #include "errors/check.hpp"
+#include "expression/argument_order.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {
 namespace {
 
 const Node kConstant{Primitive::variable, 0, 0.0};
-
-bool precedes(const Tree& a, const Tree& b) {
-  const auto order = [](const Node& x, const Node& y) {
-    return std::pair(x.primitive, x.variable) < std::pair(y.primitive, y.variable);
-  };
-  if (a.size() != b.size()) return a.size() < b.size();
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), order);
-}
-
-struct Precedes {
-  bool operator()(const Tree& a, const Tree& b) const { return precedes(a, b); }
-};
-
-bool is_commutative(Primitive function) {
-  return function == Primitive::add || function == Primitive::multiply || function == Primitive::minimum ||
-         function == Primitive::maximum;
-}
 
 bool is_constant(const Tree& form) {
   return form == Tree{kConstant};
@@ -49,9 +33,7 @@ Tree joined(Primitive function, Tree a, Tree b) {
   if (!is_commutative(function)) return apply(function, a, b);
   if (is_constant(a) && holds_constant(b, function)) return b;
   if (is_constant(b) && holds_constant(a, function)) return a;
-  const bool larger_first = function == Primitive::add;
-  if (larger_first ? precedes(a, b) : precedes(b, a)) std::swap(a, b);
-  return apply(function, a, b);
+  return apply_in_order(function, a, b);
 }
 
 /// Of the subtree that begins at `at`, which is moved behind it.

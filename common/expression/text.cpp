@@ -52,7 +52,8 @@ constexpr int kDeepestNesting = 256;  // parse() calls itself at every parenthes
 
 class Parser {
  public:
-  Parser(std::string_view text, const VariableNames& names) : text_(text), names_(names) {}
+  Parser(std::string_view text, const VariableNames& names, std::span<const SharedFunction> functions)
+      : text_(text), names_(names), functions_(functions) {}
 
   Tree whole() {
     Tree tree = chain(Precedence::sum);
@@ -134,6 +135,23 @@ class Parser {
     return apply(function, left, right);
   }
 
+  Tree call_of_shared(const SharedFunction& function) {
+    if (++nesting_ > kDeepestNesting) fail("no more than " + std::to_string(kDeepestNesting) + " nested parentheses");
+    std::vector<Tree> places;
+    for (int i = 0; i < arity(function); ++i) {
+      take(i == 0 ? '(' : ',', i == 0 ? "'('" : "an operator (+ - * %) or ','");
+      places.push_back(chain(Precedence::sum));
+      const bool is_number = places.back().front().primitive == Primitive::constant;
+      if (i < function.coefficients && !is_number) fail("a number as coefficient before here");
+    }
+    take(')', "an operator (+ - * %) or ')'");
+    --nesting_;
+    called_nodes_ += expanded_size(function, places);
+    if (called_nodes_ > kLongestExpansion)
+      fail("calls that come to no more than " + std::to_string(kLongestExpansion) + " nodes");
+    return expanded(function, places);
+  }
+
   Tree number() {
     const bool negative = text_[at_] == '-';
     if (negative) ++at_;
@@ -160,6 +178,11 @@ class Parser {
         return function.arity == 1 ? apply(function.primitive, parenthesis()) : call_of_two(function.primitive);
       }
     }
+    for (std::size_t i = 0; i < functions_.size(); ++i) {
+      if (name != name_of_function(i)) continue;
+      at_ = end;
+      return call_of_shared(functions_[i]);
+    }
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) fail(known_names() + ", not " + std::string(name));
     at_ = end;
@@ -172,12 +195,15 @@ class Parser {
     for (const PrimitiveTraits& function : kPrimitives) {
       if (function.arity != 0 && !is_operator(function)) list.append(function.symbol).append(" ");
     }
+    for (std::size_t i = 0; i < functions_.size(); ++i) list.append(name_of_function(i)).append(" ");
     list.pop_back();
     return list;
   }
 
   std::string_view text_;
   const VariableNames& names_;
+  std::span<const SharedFunction> functions_;
+  std::size_t called_nodes_ = 0;
   std::size_t at_ = 0;
   int nesting_ = 0;
 };
@@ -203,8 +229,8 @@ std::string to_text(std::span<const Node> tree, const VariableNames& names) {
       .text;
 }
 
-Tree parse(std::string_view text, const VariableNames& names) {
-  return Parser(text, names).whole();
+Tree parse(std::string_view text, const VariableNames& names, std::span<const SharedFunction> functions) {
+  return Parser(text, names, functions).whole();
 }
 
 }  // namespace demecal

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "expression/shared_function.hpp"
 #include "expression/tree.hpp"
 
 namespace demecal {
@@ -20,8 +21,10 @@ VariableNames theta_only();
 std::string to_text(std::span<const Node> tree, const VariableNames& names = theta_only());
 
 /// The tree that `text` writes. `%` and `*` bind alike, from the left; unary minus stands only before a number.
-/// Case counts; spaces do not. Throws InputError naming the column (from 1) and what was expected there; also where
-/// parentheses nest deeper than 256.
-Tree parse(std::string_view text, const VariableNames& names = theta_only());
+/// Case counts; spaces do not. Calls of `functions`, F1 the first, become what they stand for. Throws InputError naming
+/// the column (from 1) and what was expected there; also where parentheses nest deeper than 256, or calls come to more
+/// than kLongestExpansion nodes.
+Tree parse(std::string_view text, const VariableNames& names = theta_only(),
+           std::span<const SharedFunction> functions = {});
 
 }  // namespace demecal
