@@ -94,6 +94,18 @@ std::optional<ParameterFault> weights_fault(const GpParameters& p) {
   return std::nullopt;
 }
 
+std::optional<ParameterFault> shared_fault(const GpParameters& p) {
+  const std::size_t count = p.shared_functions.size();
+  if (count > kMostSharedFunctions)
+    return ParameterFault{"shared_functions", text_of(count), "must be at most " + text_of(kMostSharedFunctions)};
+  for (std::size_t i = 0; i < count; ++i)
+    if (const auto fault = find_fault(p.shared_functions[i]))
+      return ParameterFault{"shared_functions", name_of_function(i), *fault};
+  if (!(p.shared_function_weight > 0.0 && std::isfinite(p.shared_function_weight)))
+    return ParameterFault{"shared_function_weight", text_of(p.shared_function_weight), "must be finite and above 0"};
+  return std::nullopt;
+}
+
 std::optional<ParameterFault> constants_fault(const GpParameters& p) {
   if (p.constants > ConstantPolicy::baldwin)
     return ParameterFault{"constants", text_of(static_cast<int>(p.constants)), "must be a known policy"};
@@ -119,6 +131,7 @@ std::optional<ParameterFault> find_fault(const GpParameters& p) {
     return ParameterFault{"tournament_size", text_of(p.tournament_size), "must not exceed population_size"};
   if (auto fault = function_fault(p.functions)) return fault;
   if (auto fault = weights_fault(p)) return fault;
+  if (auto fault = shared_fault(p)) return fault;
   if (p.restart_after < 0) return ParameterFault{"restart_after", text_of(p.restart_after), "must not be negative"};
   return constants_fault(p);
 }

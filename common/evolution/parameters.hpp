@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "expression/primitive.hpp"
+#include "expression/shared_function.hpp"
 
 namespace demecal {
 
@@ -43,6 +43,8 @@ struct GpParameters {
   bool no_duplicates = false;              ///< whether offspring that a generation holds already are varied again
   int restart_after = 0;                   ///< epochs without gain before an island's population begins anew; 0: never
   std::vector<double> function_weights{};  ///< how often each function is drawn beside the others; empty: all alike
+  std::vector<SharedFunction> shared_functions{};  ///< of which calls are drawn beside the functions
+  double shared_function_weight = 1.0;             ///< how often each of them is, where a function's weight is 1
 
   bool operator==(const GpParameters&) const = default;
 };
@@ -57,7 +59,8 @@ struct ParameterFault {
 /// The first broken rule: counts positive, rates within 0 to 1, min_tree_depth <= initial_max_tree_depth1 <=
 /// initial_max_tree_depth2 <= max_tree_depth <= 15, max_tree_nodes 0 or enough for every tree of
 /// initial_max_tree_depth2, tournament no larger than the population, at least one function, no
-/// function twice, no weights of functions or one for each, finite and above 0, constants_lower < constants_upper and
+/// function twice, no weights of functions or one for each, finite and above 0, at most kMostSharedFunctions that are
+/// shared, each sound, with a weight that is finite and above 0, constants_lower < constants_upper and
 /// both finite, a known policy for constants. Nothing where all hold.
 std::optional<ParameterFault> find_fault(const GpParameters& parameters);
 

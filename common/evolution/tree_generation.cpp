@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "evolution/tree_index.hpp"
 
@@ -15,12 +16,59 @@ void append_function(Primitive function, Tree& tree) {
   tree.push_back({function, 0, 0.0});
 }
 
-Primitive weighed_function(RandomStream& random, const NodeSet& nodes) {
-  const std::vector<double>& weights = nodes.weights;
+std::size_t weighed(RandomStream& random, std::span<const double> weights) {
   double left = random.real(0.0, std::accumulate(weights.begin(), weights.end(), 0.0));
   std::size_t i = 0;
   while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
-  return nodes.functions[i];
+  return i;
+}
+
+CallableFunction callable(const SharedFunction& function) {
+  CallableFunction made{function, 0, std::vector<int>(static_cast<std::size_t>(arity(function)), 0)};
+  std::vector<int> levels{0};
+  for (const Node& node : function.body) {
+    const int level = levels.back();
+    levels.pop_back();
+    levels.insert(levels.end(), static_cast<std::size_t>(arity(node.primitive)), level + 1);
+    made.depth = std::max(made.depth, level);
+    if (node.primitive == Primitive::variable)
+      made.deepest[node.variable] = std::max(made.deepest[node.variable], level);
+  }
+  return made;
+}
+
+std::vector<double> weights_of(const GpParameters& parameters) {
+  std::vector<double> weights = parameters.function_weights;
+  if (parameters.shared_functions.empty()) return weights;
+  if (weights.empty() && parameters.shared_function_weight == 1.0) return weights;
+  weights.resize(parameters.functions.size(), 1.0);
+  weights.resize(weights.size() + parameters.shared_functions.size(), parameters.shared_function_weight);
+  return weights;
+}
+
+/// A function's place among functions and calls; `drawn` is that where all are alike. One that is too deep for what is
+/// left gives way to a function.
+std::size_t choice(RandomStream& random, const NodeSet& nodes, std::size_t drawn, int depth) {
+  const std::size_t functions = nodes.functions.size();
+  const std::size_t chosen = nodes.weights.empty() ? drawn : weighed(random, nodes.weights);
+  if (chosen < functions || nodes.calls[chosen - functions].depth <= depth) return chosen;
+  return nodes.weights.empty() ? random.index(functions) : weighed(random, std::span(nodes.weights).first(functions));
+}
+
+/// Appends what a call comes to, its arguments made by `append_argument(depth, tree)`. Returns its depth.
+template <class AppendArgument>
+int append_call(RandomStream& random, const NodeSet& nodes, const CallableFunction& call, int depth_left,
+                const AppendArgument& append_argument, Tree& tree) {
+  std::vector<Tree> places(call.deepest.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i < static_cast<std::size_t>(call.function.coefficients))
+      places[i] = constant_tree(random.real(nodes.constants_lower, nodes.constants_upper));
+    else
+      append_argument(depth_left - call.deepest[i], places[i]);
+  }
+  const Tree whole = expanded(call.function, places);
+  tree.insert(tree.end(), whole.begin(), whole.end());
+  return depth(whole);
 }
 
 void grow_at_least(RandomStream& random, const NodeSet& nodes, int min_depth, int max_depth, Tree& tree) {
@@ -42,8 +90,10 @@ struct Ramp {
 }  // namespace
 
 NodeSet node_set(const GpParameters& parameters, int variables) {
-  return {parameters.functions, variables, parameters.constants_lower, parameters.constants_upper,
-          parameters.function_weights};
+  NodeSet nodes{parameters.functions,   variables, parameters.constants_lower, parameters.constants_upper,
+                weights_of(parameters), {}};
+  for (const SharedFunction& function : parameters.shared_functions) nodes.calls.push_back(callable(function));
+  return nodes;
 }
 
 void append_terminal(RandomStream& random, const NodeSet& nodes, Tree& tree) {
@@ -56,13 +106,18 @@ void append_terminal(RandomStream& random, const NodeSet& nodes, Tree& tree) {
 
 int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree) {
   const std::size_t terminals = static_cast<std::size_t>(nodes.variables) + 1;
-  const std::size_t drawn = depth == 0 ? 0 : random.index(terminals + nodes.functions.size());
+  const std::size_t kinds = terminals + nodes.functions.size() + nodes.calls.size();
+  const std::size_t drawn = depth == 0 ? 0 : random.index(kinds);
   if (drawn < terminals) {
     append_terminal(random, nodes, tree);
     return 0;
   }
-  const Primitive function =
-      nodes.weights.empty() ? nodes.functions[drawn - terminals] : weighed_function(random, nodes);
+  const std::size_t chosen = choice(random, nodes, drawn - terminals, depth);
+  if (chosen >= nodes.functions.size()) {
+    const auto grow = [&](int left, Tree& argument) { append_grown(random, nodes, left, argument); };
+    return append_call(random, nodes, nodes.calls[chosen - nodes.functions.size()], depth, grow, tree);
+  }
+  const Primitive function = nodes.functions[chosen];
   append_function(function, tree);
   int deepest = 0;
   for (int argument = 0; argument < arity(function); ++argument)
@@ -72,8 +127,14 @@ int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tr
 
 void append_full(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree) {
   if (depth == 0) return append_terminal(random, nodes, tree);
-  const Primitive function =
-      nodes.weights.empty() ? nodes.functions[random.index(nodes.functions.size())] : weighed_function(random, nodes);
+  const std::size_t drawn = nodes.weights.empty() ? random.index(nodes.functions.size() + nodes.calls.size()) : 0;
+  const std::size_t chosen = choice(random, nodes, drawn, depth);
+  if (chosen >= nodes.functions.size()) {
+    const auto fill = [&](int left, Tree& argument) { append_full(random, nodes, left, argument); };
+    append_call(random, nodes, nodes.calls[chosen - nodes.functions.size()], depth, fill, tree);
+    return;
+  }
+  const Primitive function = nodes.functions[chosen];
   append_function(function, tree);
   for (int argument = 0; argument < arity(function); ++argument) append_full(random, nodes, depth - 1, tree);
 }

@@ -9,14 +9,22 @@
 
 namespace demecal {
 
+/// A shared function with what drawing its calls takes.
+struct CallableFunction {
+  SharedFunction function;
+  int depth = 0;             ///< of its body
+  std::vector<int> deepest;  ///< by place: how deep it stands in the body, where it stands deepest
+};
+
 /// What random trees are made of: the terminal set T (each variable, and the ephemeral constant) and the function set
-/// N.
+/// N, calls of shared functions among it.
 struct NodeSet {
   std::vector<Primitive> functions;
   int variables = 1;
   double constants_lower = 0.0;
   double constants_upper = 1.0;
-  std::vector<double> weights{};  ///< of the functions; empty: all alike
+  std::vector<double> weights{};          ///< of the functions, then of the calls; empty: all alike
+  std::vector<CallableFunction> calls{};  ///< what stands in a tree is what a call comes to
 };
 
 NodeSet node_set(const GpParameters& parameters, int variables);
@@ -24,10 +32,10 @@ NodeSet node_set(const GpParameters& parameters, int variables);
 /// Appends a random terminal to `tree`, each of T equally likely.
 void append_terminal(RandomStream& random, const NodeSet& nodes, Tree& tree);
 /// Appends a tree of at most `depth` to `tree`, every node above that depth drawn from T and N alike (fig. 3-4);
-/// among functions by their weights.
-/// Returns the depth it came to.
+/// among functions by their weights. A call's coefficients are ephemeral constants, its arguments grown trees; where
+/// its body is deeper than what is left, another function is drawn in its place. Returns the depth it came to.
 int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree);
-/// Appends a tree whose leaves all lie at `depth` to `tree` (fig. 3-5).
+/// Appends a tree whose leaves all lie at `depth` to `tree` (fig. 3-5), but for those of calls that lie higher.
 void append_full(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree);
 
 /// The trees of a first population: the neutral model once, then FULL and GROW in turn, going round the ramp of depths

@@ -49,25 +49,25 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/3/data";
+      return "demecal/4/data";
     case Topic::task:
-      return "demecal/3/task";
+      return "demecal/4/task";
     case Topic::control:
-      return "demecal/3/control";
+      return "demecal/4/control";
     case Topic::migrants:
-      return "demecal/3/migrants/" + std::to_string(joint + 1);
+      return "demecal/4/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/3/progress";
+      return "demecal/4/progress";
     case Topic::checkpoint:
-      return "demecal/3/checkpoint";
+      return "demecal/4/checkpoint";
     case Topic::outcome:
-      return "demecal/3/outcome";
+      return "demecal/4/outcome";
     case Topic::loop:
-      return "demecal/3/loop";
+      return "demecal/4/loop";
     case Topic::worker:
       break;
   }
-  return "demecal/3/worker";
+  return "demecal/4/worker";
 }
 
 dds::DataWriterQos writer_qos(Topic topic) {

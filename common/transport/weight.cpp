@@ -32,6 +32,7 @@ struct Weight {
   std::size_t operator()(const Outcome& m) const { return sizeof m + kText_bytes + (*this)(m.front); }
   std::size_t operator()(const CalibrationData& m) const {
     std::size_t bytes = sizeof m + kText_bytes;
+    for (const SharedFunction& function : m.parameters.shared_functions) bytes += (*this)(function.body);
     for (const TrainingTable& table : m.tables) {
       bytes += sizeof table + (table.target.size() + table.weight.size()) * sizeof(double);
       for (const auto& column : table.variables) bytes += sizeof column + column.size() * sizeof(double);

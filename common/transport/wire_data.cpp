@@ -29,6 +29,19 @@ std::optional<ConstantPolicy> decode(wire::ConstantPolicy policy) {
   return std::nullopt;
 }
 
+wire::SharedFunction encode(const SharedFunction& function) {
+  wire::SharedFunction encoded;
+  encoded.body(encode(function.body));
+  encoded.coefficients(static_cast<std::uint8_t>(function.coefficients));
+  return encoded;
+}
+
+std::optional<SharedFunction> decode(const wire::SharedFunction& function) {
+  auto body = demecal::decode(function.body());
+  if (!body) return std::nullopt;
+  return SharedFunction{std::move(*body), function.coefficients()};
+}
+
 wire::GpParameters encode(const GpParameters& p) {
   wire::GpParameters encoded;
   encoded.population_size(p.population_size);
@@ -55,6 +68,8 @@ wire::GpParameters encode(const GpParameters& p) {
   encoded.no_duplicates(p.no_duplicates);
   encoded.restart_after(p.restart_after);
   encoded.function_weights(p.function_weights);
+  for (const SharedFunction& function : p.shared_functions) encoded.shared_functions().push_back(encode(function));
+  encoded.shared_function_weight(p.shared_function_weight);
   return encoded;
 }
 
@@ -90,6 +105,12 @@ std::optional<GpParameters> decode(const wire::GpParameters& p) {
   decoded.no_duplicates = p.no_duplicates();
   decoded.restart_after = p.restart_after();
   decoded.function_weights = p.function_weights();
+  for (const wire::SharedFunction& wired : p.shared_functions()) {
+    auto function = decode(wired);
+    if (!function) return std::nullopt;
+    decoded.shared_functions.push_back(std::move(*function));
+  }
+  decoded.shared_function_weight = p.shared_function_weight();
   return decoded;
 }
 

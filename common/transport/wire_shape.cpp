@@ -10,7 +10,7 @@ namespace {
 // most n bytes, [...] a sequence.
 const std::string kFormula = "[1][1][8]";
 const std::string kIndividuals = "[" + kFormula + "8]";
-const std::string kParameters = "44444444488888[1]88~3,48??4[8]";
+const std::string kParameters = "44444444488888[1]88~3,48??4[8][" + kFormula + "1]8";
 const std::string kArchipelago = "[4]4~3,44??~2,8";
 const std::string kTables = "[[[8]][8][8]~2,[" + kFormula + "]8]";
 const std::string kMigrants = "8444" + kIndividuals + "$255,";

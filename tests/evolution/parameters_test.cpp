@@ -62,6 +62,15 @@ TEST(Parameters, ThatBreakARuleAreNamedWithKeyAndValue) {
          p.function_weights = {1.0, 2.0};
        }},
       {"function_weights", "0", [](GpParameters& p) { p.function_weights.assign(p.functions.size(), 0.0); }},
+      {"shared_functions", "17",
+       [](GpParameters& p) {
+         p.shared_functions.assign(17, {neutral_tree(), 0});
+       }},
+      {"shared_functions", "F2",
+       [](GpParameters& p) {
+         p.shared_functions = {{neutral_tree(), 0}, {neutral_tree(), 1}};
+       }},
+      {"shared_function_weight", "0", [](GpParameters& p) { p.shared_function_weight = 0.0; }},
       {"restart_after", "-1", [](GpParameters& p) { p.restart_after = -1; }},
       {"functions", "terminal", [](GpParameters& p) { p.functions.push_back(Primitive::variable); }},
       {"constants_lower", "-inf", [](GpParameters& p) { p.constants_lower = -kInfinity; }},

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "expression/folded_formula.hpp"
+
 namespace demecal {
 namespace {
 
@@ -89,6 +91,94 @@ TEST(Full, HasAllLeavesAtItsDepth) {
       levels.insert(levels.end(), static_cast<std::size_t>(arity(node.primitive)), level + 1);
     }
   }
+}
+
+std::vector<SharedFunction> two_functions() {
+  return {parse_definition("F1(c1, c2, a1) = c1 * ATAN(c2 + a1)", 0),
+          parse_definition("F2(a1, a2) = TANH(a1 * SQUARE(a1 + a2))", 1)};
+}
+
+GpParameters with_functions() {
+  GpParameters parameters = with_constants_of_both_signs();
+  parameters.shared_functions = two_functions();
+  return parameters;
+}
+
+TEST(Calls, StandInValidTreesThatKeepToTheirDepth) {
+  RandomStream random{391};
+  const NodeSet nodes = node_set(with_functions(), 2);
+  for (int trial = 0; trial < 4000; ++trial) {
+    Tree grown, full;
+    const int limit = trial % 10;
+    const int came_to = append_grown(random, nodes, limit, grown);
+    EXPECT_EQ(came_to, depth(grown));
+    append_full(random, nodes, limit, full);
+    for (const Tree& tree : {grown, full}) {
+      ASSERT_TRUE(is_valid(tree, 2));
+      ASSERT_LE(depth(tree), limit);
+    }
+  }
+}
+
+TEST(Calls, HaveNumbersInTheRangeOfConstantsAsCoefficients) {
+  RandomStream random{392};
+  GpParameters parameters = with_functions();
+  parameters.functions = {Primitive::sine};  // what is neither sine nor terminal comes from a call
+  const NodeSet nodes = node_set(parameters, 1);
+  int calls = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    Tree tree;
+    append_grown(random, nodes, 6, tree);
+    const FoldedFormula formula = folded(tree, parameters.shared_functions);
+    EXPECT_TRUE(std::ranges::all_of(formula.outline, [](const Node& node) {
+      return arity(node.primitive) == 0 || node.primitive == Primitive::sine;
+    })) << to_text(formula);
+    calls += static_cast<int>(formula.calls.size());
+    for (const Node& node : tree) {
+      if (node.primitive != Primitive::constant) continue;
+      EXPECT_GE(node.value, -2.0);
+      EXPECT_LT(node.value, 3.0);
+    }
+  }
+  EXPECT_GT(calls, 300);
+}
+
+TEST(Calls, AreDrawnByTheirWeight) {
+  GpParameters parameters = with_functions();
+  for (const double weight : {0.25, 1.0, 4.0}) {
+    for (const bool weighed : {false, true}) {
+      RandomStream random{393};
+      parameters.shared_function_weight = weight;
+      parameters.function_weights.assign(weighed ? parameters.functions.size() : 0, 1.0);
+      const NodeSet nodes = node_set(parameters, 1);
+      int calls = 0;
+      constexpr int kDraws = 20000;
+      for (int trial = 0; trial < kDraws; ++trial) {
+        Tree tree;
+        append_full(random, nodes, 5, tree);
+        calls += tree.front().primitive == Primitive::hyperbolic_tangent ? 1 : 0;  // only the second begins so
+      }
+      EXPECT_NEAR(calls, kDraws * weight / (8.0 + 2.0 * weight), 300);
+    }
+  }
+}
+
+TEST(Calls, ThatAreTooDeepGiveWayToFunctions) {
+  RandomStream random{394};
+  const NodeSet nodes = node_set(with_functions(), 1);
+  for (int trial = 0; trial < 500; ++trial) {
+    Tree tree;
+    append_full(random, nodes, 2, tree);  // the bodies have a depth of 3
+    EXPECT_TRUE(folded(tree, two_functions()).calls.empty());
+    EXPECT_EQ(depth(tree), 2);
+  }
+}
+
+TEST(Calls, WithoutFunctionsChangeNoDraw) {
+  GpParameters weighed;
+  weighed.shared_function_weight = 7.0;
+  RandomStream one{395}, other{395};
+  EXPECT_EQ(ramped_half_and_half(one, GpParameters{}, 1), ramped_half_and_half(other, weighed, 1));
 }
 
 TEST(FirstPopulation, HoldsTheNeutralModelOnce) {

@@ -156,7 +156,9 @@ Progress progress_of(const Checkpoint& checkpoint) {
 std::vector<Target> wire_targets() {
   RandomMessages random(3, "w");
   const Checkpoint last = told_after(kEpochsOfSmallRun);
-  return {target<CalibrationData>("sample_data", Topic::data, {the_run(), random.data()}),
+  CalibrationData sharing = the_run();
+  sharing.parameters.shared_functions = {parse_definition("F1(c1, a1, a2) = c1 * SIN(a1) + a2", 0)};
+  return {target<CalibrationData>("sample_data", Topic::data, {the_run(), sharing, random.data()}),
           target<IslandTask>("sample_task", Topic::task, {task_after(0), task_after(1), random.task()}),
           target<Migrants>("sample_migrants", Topic::migrants, {migrants_of(last), random.migrants()}),
           target<Progress>("sample_progress", Topic::progress, {progress_of(last), random.progress()}),

@@ -16,6 +16,11 @@ struct DataSpoiling {
   std::function<void(CalibrationData&)> spoil;
 };
 
+/// F(c1, a1) = SIN(c1 * a1).
+SharedFunction sine_of_multiple() {
+  return {apply(Primitive::sine, apply(Primitive::multiply, variable_tree(0), variable_tree(1))), 1};
+}
+
 const std::vector<DataSpoiling>& spoilings() {
   static const std::vector<DataSpoiling> all{
       {"no run", [](auto& d) { d.run = 0; }},
@@ -74,6 +79,20 @@ const std::vector<DataSpoiling>& spoilings() {
          d.tables[0].variables.push_back(d.tables[0].target);
          d.tables[0].limit = 3.0;
        }},
+      {"more shared functions than are believed",
+       [](auto& d) { d.parameters.shared_functions.assign(kMostSharedFunctions + 1, sine_of_multiple()); }},
+      {"a shared function that is no formula", [](auto& d) { d.parameters.shared_functions = {SharedFunction{}}; }},
+      {"a shared function longer than is believed",
+       [](auto& d) {
+         Tree body = variable_tree(0);
+         while (body.size() <= kLongestBody) body = apply(Primitive::sine, body);
+         d.parameters.shared_functions = {{body, 0}};
+       }},
+      {"a shared function without an argument",
+       [](auto& d) {
+         d.parameters.shared_functions = {{sine_of_multiple().body, 2}};
+       }},
+      {"a weight of shared functions that is no number", [](auto& d) { d.parameters.shared_function_weight = 0.0; }},
       {"an unknown replacement", [](auto& d) { d.archipelago.replacement = static_cast<Replacement>(2); }},
       {"a spread above 1", [](auto& d) { d.archipelago.spread = 1.5; }},
       {"a weight above 1", [](auto& d) { d.tables[0].weight[11] = 1.1; }},
@@ -83,6 +102,12 @@ const std::vector<DataSpoiling>& spoilings() {
 
 TEST(DataFaults, ASoundRunHasNone) {
   EXPECT_EQ(find_fault(small_run()), std::nullopt);
+}
+
+TEST(DataFaults, ARunWithSharedFunctionsHasNone) {
+  CalibrationData data = small_run();
+  data.parameters.shared_functions.assign(kMostSharedFunctions, sine_of_multiple());
+  EXPECT_EQ(find_fault(data), std::nullopt);
 }
 
 TEST(DataFaults, EverySpoiltFieldIsFound) {

@@ -122,6 +122,9 @@ class RandomMessages {
     p.no_duplicates = random_.chance(0.5);
     p.restart_after = count();
     p.function_weights.assign(random_.index(8), real());
+    p.shared_functions.resize(random_.index(3));
+    for (SharedFunction& function : p.shared_functions) function = {tree(), static_cast<int>(random_.index(256))};
+    p.shared_function_weight = real();
     return p;
   }
 
