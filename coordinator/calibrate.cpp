@@ -1,8 +1,10 @@
 #include "coordinator/calibrate.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "calibration/closed_calibration.hpp"
+#include "calibration/function_stages.hpp"
 #include "coordinator/distal_learning.hpp"
 #include "coordinator/evolutions.hpp"
 #include "coordinator/loop_display.hpp"
@@ -24,13 +26,36 @@ bool evolves_on_islands(const Job& job) {
   return job.declared.joint_corrections && (job.method != Method::distal || job.distal.form == DistalForm::parallel);
 }
 
+std::string words_for(const std::vector<SharedFunction>& functions) {
+  if (functions.empty()) return "no structure shortens formulas of two joints: no function is shared yet";
+  std::string words = "joints share";
+  for (std::size_t i = 0; i < functions.size(); ++i) words += (i == 0 ? " " : "; ") + definition_text(functions[i], i);
+  return words;
+}
+
+/// In stages where joints are to share functions.
+std::vector<JointCandidates> learn_directly(const DataSet& data, const Job& job, Evolutions& evolutions,
+                                            const CalibrateOptions& options, CalibrateResult& result) {
+  const std::vector<JointTraining>& training = result.preparation.training;
+  if (job.corrections.sharing.functions == 0) return evolutions.run(training);
+  LoopDisplay display(stderr, data.robot, options.quiet);
+  bool first = true;
+  const auto evolve = [&](const std::vector<JointTraining>& of_stage, const RoundTerms& terms) {
+    if (!std::exchange(first, false)) display.say(words_for(terms.functions));
+    return evolutions.run(of_stage, terms);
+  };
+  StagedOutcome outcome = learn_in_stages(training, job, evolve, [&] { return evolutions.end() == RunEnd::finished; });
+  result.functions = std::move(outcome.functions);
+  return std::move(outcome.candidates);
+}
+
 /// What islands or this process evolved for every joint, by the job's method; the run's end is in `evolutions`.
 std::vector<JointCandidates> learn(const DataSet& data, const Job& job, Evolutions& evolutions,
-                                   CalibrateResult& result) {
-  const Preparation& preparation = result.preparation;
-  if (job.method != Method::distal) return evolutions.run(preparation.training);
-  DistalOutcome outcome = learn_distally(data, job, preparation, evolutions);
+                                   const CalibrateOptions& options, CalibrateResult& result) {
+  if (job.method != Method::distal) return learn_directly(data, job, evolutions, options, result);
+  DistalOutcome outcome = learn_distally(data, job, result.preparation, evolutions);
   result.distal = std::move(outcome.steps);
+  if (job.corrections.sharing.functions > 0) result.functions = std::move(outcome.functions);
   return std::move(outcome.candidates);
 }
 
@@ -46,14 +71,16 @@ void close_the_loop(const DataSet& data, const Job& job, Evolutions& evolutions,
   int lucky = 0;
   const Evolve evolve = [&](const std::vector<JointTraining>& training, Sought sought) {
     display.say(words_for(sought, sought == Sought::luck ? ++lucky : 0));
-    std::optional<std::vector<JointCandidates>> candidates = evolutions.run(training, sought != Sought::luck);
+    RoundTerms terms{job.seed, job.gp.number_generations};
+    if (sought == Sought::corrections && result.functions) terms.functions = *result.functions;
+    std::optional<std::vector<JointCandidates>> candidates = evolutions.run(training, terms, sought != Sought::luck);
     if (evolutions.end() == RunEnd::no_worker) display.say("no worker is left: the loop's own corrections are kept");
     if (evolutions.end() != RunEnd::finished) candidates.reset();
     return candidates;
   };
   LearnCorrections distally = [&](const Preparation& of) -> std::optional<std::vector<JointCandidates>> {
     display.say(words_for(Sought::corrections, 0));
-    DistalOutcome outcome = learn_distally(data, job, of, evolutions);
+    DistalOutcome outcome = learn_distally(data, job, of, evolutions, result.functions);
     if (evolutions.end() != RunEnd::finished) return std::nullopt;
     return std::move(outcome.candidates);
   };
@@ -91,7 +118,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   Evolutions evolutions(job, make_fleet, interrupt, options);
   if (evolves_on_islands(job)) evolutions.gather();
   result.preparation = prepare(data, job);
-  const std::vector<JointCandidates> candidates = learn(data, job, evolutions, result);
+  const std::vector<JointCandidates> candidates = learn(data, job, evolutions, options, result);
   result.end = evolutions.end();
   result.fronts = evolutions.take_fronts();
   result.calibration = conclude(data, job, result.preparation, candidates);
@@ -101,6 +128,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job,
   }
   evolutions.dismiss();
   result.model = model_of(data, job, result.calibration);
+  result.model.functions = result.functions;
   result.history = evolutions.take_history();
   result.facts = evolutions.facts();
   result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -47,6 +47,7 @@ struct CalibrateResult {
   LoopOutcome loop;
   std::vector<Progress> history;
   std::vector<DistalStep> distal;          ///< of distal learning, before the loop
+  KnownFunctions functions;                ///< that joints share; nothing where the job does not ask for any
   std::vector<FoundTransform> structure;   ///< of the structural method
   std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
   RunFacts facts;

@@ -5,7 +5,7 @@
 namespace demecal {
 
 DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparation& preparation,
-                             Evolutions& evolutions) {
+                             Evolutions& evolutions, const KnownFunctions& known) {
   const DistalIndex index(data, preparation.targets.poses, preparation.declared);
   if (job.distal.form == DistalForm::sequential) {
     SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [&] { return !evolutions.is_interrupted(); });
@@ -17,7 +17,7 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
     if (evolutions.end() != RunEnd::finished) candidates.reset();
     return candidates;
   };
-  return learn_in_rounds(index, preparation, job, evolve);
+  return learn_in_rounds(index, preparation, job, evolve, known);
 }
 
 }  // namespace demecal

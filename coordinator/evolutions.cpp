@@ -20,6 +20,7 @@ CalibrationData calibration_data(const Job& job, const std::vector<JointTraining
   data.seed = terms.seed;
   data.parameters = job.gp;
   data.parameters.number_generations = terms.generations;
+  data.parameters.shared_functions = terms.functions;
   data.archipelago.demes_per_joint = job.islands.per_joint;
   data.archipelago.topology = job.islands.topology;
   data.archipelago.migration_interval = job.islands.migration_interval;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/calibration.hpp"
+#include "calibration/round_terms.hpp"
 
 namespace demecal {
 
@@ -17,6 +18,8 @@ struct CalibratedModel {
   CorrectedRobot robot;
   std::vector<ParameterEstimate> estimates;
   std::vector<JointSummary> joints;
+  /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
+  KnownFunctions functions{};
   std::string data_name;
   std::string data_sha256;
   std::uint64_t seed = 0;

@@ -15,9 +15,17 @@ struct SeedFormula {
   Tree formula;             ///< of theta, rad
 };
 
+/// Whether joints are to share functions (thesis 7.1 ii): how many, and into how many stages the generations are
+/// divided, between which these are found.
+struct SharingOptions {
+  int functions = 0;  ///< at most; 0: none, and no stages
+  int stages = 4;
+};
+
 struct CorrectionOptions {
   double largest_rad = std::numeric_limits<double>::infinity();  ///< that any correction may become in its range
   std::vector<SeedFormula> seeds;
+  SharingOptions sharing{};
 };
 
 }  // namespace demecal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calibration/function_stages.hpp"
 #include "evolution/fitness.hpp"
 
 namespace demecal {
@@ -18,12 +19,14 @@ std::vector<Tree> trees_of(const Population& front) {
 
 class Rounds {
  public:
-  Rounds(const DistalIndex& index, const Preparation& preparation, const Job& job)
+  Rounds(const DistalIndex& index, const Preparation& preparation, const Job& job, const KnownFunctions& known)
       : index_(index),
         job_(job),
+        seeks_functions_(!known),
         trainings_(preparation.training),
         outcome_{without_corrections(preparation.declared.robot), 0.0} {
     outcome_.index_mm2 = index_(outcome_.robot);
+    if (known) outcome_.functions = *known;
     trees_.resize(trainings_.size());
   }
 
@@ -32,10 +35,12 @@ class Rounds {
  private:
   void prepare();
   std::vector<Tree> seeds_of(std::size_t i) const;
-  bool round(const EvolveRound& evolve, const RoundTerms& terms);
+  bool round(const EvolveRound& evolve, RoundTerms terms);
 
   const DistalIndex& index_;
   const Job& job_;
+  bool seeks_functions_;
+  std::vector<SharedFunction> next_functions_;
   std::vector<JointTraining> trainings_;  ///< of the present round; their scales stay
   std::vector<std::vector<Tree>> trees_;  ///< by training: the fronts of the last round
   bool first_ = true;
@@ -66,12 +71,15 @@ void Rounds::prepare() {
 }
 
 /// Whether another may follow.
-bool Rounds::round(const EvolveRound& evolve, const RoundTerms& terms) {
+bool Rounds::round(const EvolveRound& evolve, RoundTerms terms) {
   prepare();
+  if (seeks_functions_) outcome_.functions = next_functions_;
+  terms.functions = outcome_.functions;
   const auto candidates = evolve(trainings_, terms);
   if (!candidates) return false;
   generation_ += static_cast<std::uint32_t>(terms.generations);
   for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of((*candidates)[i].front);
+  if (seeks_functions_) next_functions_ = shared_functions(*candidates, job_.corrections.sharing);
   const std::size_t before = outcome_.steps.size();
   take_candidates(index_, *candidates, generation_, outcome_);
   return outcome_.steps.size() > before;
@@ -80,9 +88,7 @@ bool Rounds::round(const EvolveRound& evolve, const RoundTerms& terms) {
 DistalOutcome Rounds::run(const EvolveRound& evolve) {
   const int rounds = std::min(job_.distal.rounds, job_.gp.number_generations), all = job_.gp.number_generations;
   for (int number = 0; number < rounds && !trainings_.empty(); ++number) {
-    // Rounds differ in their random numbers as seeds do.
-    const std::uint64_t seed = job_.seed + (static_cast<std::uint64_t>(number) << 32U);
-    if (!round(evolve, {seed, all / rounds + (number < all % rounds ? 1 : 0)})) break;
+    if (!round(evolve, terms_of_round(job_.seed, all, rounds, number))) break;
   }
   offer_for_choice(index_, trainings_, trees_, outcome_);
   return std::move(outcome_);
@@ -91,8 +97,8 @@ DistalOutcome Rounds::run(const EvolveRound& evolve) {
 }  // namespace
 
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
-                              const EvolveRound& evolve) {
-  return Rounds(index, preparation, job).run(evolve);
+                              const EvolveRound& evolve, const KnownFunctions& known) {
+  return Rounds(index, preparation, job, known).run(evolve);
 }
 
 void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,

@@ -8,14 +8,9 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/distal_steps.hpp"
+#include "calibration/round_terms.hpp"
 
 namespace demecal {
-
-/// What one round's evolution has of its own.
-struct RoundTerms {
-  std::uint64_t seed = 0;
-  int generations = 0;
-};
 
 /// Evolves candidates for every joint of a training; nothing where that could not be done to the end.
 using EvolveRound =
@@ -24,10 +19,11 @@ using EvolveRound =
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
 /// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
 /// of the round before; then the model takes candidates (see take_candidates), so that its exact index never rises.
-/// Ends with the rounds, with the first in which no joint gains, or where evolution is cut off. A function of data, job
-/// and what `evolve` finds.
+/// Ends with the rounds, with the first in which no joint gains, or where evolution is cut off. Where the job has
+/// joints share functions, these are the known ones or, without any such list, found anew after every round. A function
+/// of data, job and what `evolve` finds.
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
-                              const EvolveRound& evolve);
+                              const EvolveRound& evolve, const KnownFunctions& known = std::nullopt);
 
 /// The outcome's candidates: of every training's joint what is best of each length among `trees`, by the table against
 /// what the final model leaves, and the model's own correction.

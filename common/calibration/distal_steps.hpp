@@ -24,6 +24,7 @@ struct DistalOutcome {
   double index_mm2 = 0.0;
   std::vector<DistalStep> steps{};            ///< of falling index
   std::vector<JointCandidates> candidates{};  ///< for conclude(): the last fronts, and the model's own corrections
+  std::vector<SharedFunction> functions{};    ///< that joints shared in the last round
 };
 
 /// The table of `like`'s joint against what all corrections leave: the squared rows of a pose are, as far as they are

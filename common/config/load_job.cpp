@@ -115,6 +115,11 @@ Job read_job(const YamlNode& root) {
   if (const YamlNode* distal = root.find("distal")) job.distal = read_distal(*distal);
   if (!job.corrections.seeds.empty() && job.method == Method::distal && job.distal.form == DistalForm::sequential)
     root.at("gp").fail("", "has seed formulas, for which the sequential form of distal learning has no place");
+  if (job.corrections.sharing.functions > 0 && job.method == Method::distal &&
+      job.distal.form == DistalForm::sequential)
+    root.at("gp").fail("",
+                       "has shared functions: joints that learn one at a time, as in the sequential form of distal "
+                       "learning, have none");
   return job;
 }
 

@@ -6,6 +6,7 @@
 #include "config/read_effects.hpp"
 #include "config/read_yaml.hpp"
 #include "errors/input_error.hpp"
+#include "expression/argument_order.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 
@@ -33,20 +34,45 @@ void read_link(const YamlNode& node, Joint& joint) {
   joint.beta_rad = radians(node.at("beta_deg").number());
 }
 
-Tree read_formula(const YamlNode& node) {
+Tree read_formula(const YamlNode& node, std::span<const SharedFunction> functions = {}) {
   try {
-    return parse(node.text());
+    return parse(node.text(), theta_only(), functions);
   } catch (const InputError& error) {
     node.fail(error.what());
   }
 }
 
+/// For people: that it is what the expression says is all that is asked of it.
+void check_calls(const YamlNode& node, const Tree& formula, const CalibratedModel& model) {
+  if (!model.functions) node.fail("calls functions that the model does not define");
+  if (in_order(read_formula(node, *model.functions)) != in_order(formula))
+    node.fail("is not the formula that `expression` is");
+}
+
+KnownFunctions read_functions(const YamlNode* node) {
+  if (node == nullptr) return std::nullopt;
+  std::vector<SharedFunction> functions;
+  for (const YamlNode& entry : node->list()) {
+    entry.with_keys({"definition", "joints"});
+    const YamlNode& definition = entry.at("definition");
+    if (functions.size() == kMostSharedFunctions) entry.fail("", "is one function too many");
+    try {
+      functions.push_back(parse_definition(definition.text(), functions.size()));
+    } catch (const InputError& error) {
+      definition.fail(error.what());
+    }
+  }
+  return functions;
+}
+
 /// Reads one entry of `corrections` into summary and correction.
-JointCorrection read_correction(const YamlNode& node, JointSummary& summary) {
-  node.with_keys({"joint", "expression", "range_rad", "branch_centre_rad", "bound_rad", "discontinuities_rad", "note"});
+JointCorrection read_correction(const YamlNode& node, const CalibratedModel& model, JointSummary& summary) {
+  node.with_keys({"joint", "expression", "with_functions", "range_rad", "branch_centre_rad", "bound_rad",
+                  "discontinuities_rad", "note"});
   if (const YamlNode* note = node.find("note")) summary.note = note->text();
   const Tree formula = read_formula(node.at("expression"));
   summary.kept = formula != neutral_tree();
+  if (const YamlNode* calls = node.find("with_functions")) check_calls(*calls, formula, model);
   if (!summary.kept) return {};
   if (const YamlNode* bound = node.find("bound_rad")) summary.bound_rad = bound->non_negative();
   if (const YamlNode* jumps = node.find("discontinuities_rad")) summary.discontinuities_rad = jumps->numbers();
@@ -63,7 +89,7 @@ void read_corrections(const YamlNode& node, CalibratedModel& model) {
   for (int joint = 0; joint < joints; ++joint) model.joints[static_cast<std::size_t>(joint)].joint = joint;
   for (const YamlNode& entry : node.list()) {
     const auto joint = static_cast<std::size_t>(entry.at("joint").whole_number(1, joints) - 1);
-    model.robot.corrections[joint] = read_correction(entry, model.joints[joint]);
+    model.robot.corrections[joint] = read_correction(entry, model, model.joints[joint]);
   }
 }
 
@@ -72,7 +98,7 @@ void read_corrections(const YamlNode& node, CalibratedModel& model) {
 CalibratedModel load_model(const std::filesystem::path& path) {
   const YamlNode file = read_yaml(path).of_version("model", 1);
   file.with_keys({"demecal_model", "job", "version", "method", "seed", "data", "robot", "declared", "base", "tools",
-                  "links", "estimates", "effects", "corrections"});
+                  "links", "estimates", "effects", "shared_functions", "corrections"});
   CalibratedModel model;
   model.job = file.at("job").text();
   model.version = file.at("version").text();
@@ -94,6 +120,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
     const YamlNode* target = tool.find("target");
     model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
   }
+  model.functions = read_functions(file.find("shared_functions"));
   read_corrections(file.at("corrections"), model);
   model.robot.effects = read_effects(file.at("effects"), model.nominal);
   model.robot.described = model.nominal;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "calibration/shared_calls.hpp"
 #include "config/effect_text.hpp"
 #include "config/robot_text.hpp"
 #include "config/yaml_text.hpp"
@@ -42,7 +43,21 @@ std::string link_text(const Joint& joint) {
          ", beta_deg: " + degrees_text(joint.beta_rad) + "}";
 }
 
-std::string correction_text(const JointSummary& summary, const JointCorrection& correction) {
+std::string functions_text(const CalibratedModel& model) {
+  if (!model.functions) return {};
+  std::ostringstream text;
+  text << "shared_functions:" << (model.functions->empty() ? " []\n" : "\n");
+  for (std::size_t i = 0; i < model.functions->size(); ++i) {
+    text << "  - {definition: " << yaml_text(definition_text((*model.functions)[i], i)) << ", joints: [";
+    const std::vector<int> joints = joints_calling(model.robot, *model.functions, i);
+    for (std::size_t k = 0; k < joints.size(); ++k) text << (k == 0 ? "" : ", ") << joints[k] + 1;
+    text << "]}\n";
+  }
+  return text.str();
+}
+
+std::string correction_text(const JointSummary& summary, const JointCorrection& correction,
+                            const KnownFunctions& functions) {
   std::ostringstream text;
   text << "  - joint: " << summary.joint + 1 << '\n';
   if (!summary.kept) {
@@ -52,6 +67,8 @@ std::string correction_text(const JointSummary& summary, const JointCorrection& 
   }
   const double range[] = {correction.range_rad().lower, correction.range_rad().upper};
   text << "    expression: " << yaml_text(to_text(correction.formula())) << '\n';
+  if (const FoldedFormula calling = folded_correction(correction, functions); !calling.calls.empty())
+    text << "    with_functions: " << yaml_text(to_text(calling)) << '\n';
   text << "    range_rad: " << yaml_numbers(range) << '\n';
   if (correction.branch().wraps)
     text << "    branch_centre_rad: " << number_text(correction.branch().centre_rad) << '\n';
@@ -84,9 +101,10 @@ std::string model_text(const CalibratedModel& model) {
     if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects say their own below
     text << "  - " << estimate_text(estimate) << '\n';
   }
-  text << effects_text(model.robot.effects, model.nominal) << "corrections:\n";
+  text << effects_text(model.robot.effects, model.nominal) << functions_text(model) << "corrections:\n";
   for (const JointSummary& summary : model.joints) {
-    text << correction_text(summary, model.robot.corrections[static_cast<std::size_t>(summary.joint)]);
+    const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
+    text << correction_text(summary, correction, model.functions);
   }
   return text.str();
 }

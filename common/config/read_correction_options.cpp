@@ -5,6 +5,7 @@
 #include "config/files.hpp"
 #include "config/model_text.hpp"
 #include "errors/input_error.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/text.hpp"
 
 namespace demecal {
@@ -33,6 +34,18 @@ void append_corrections(const YamlNode& file, std::vector<SeedFormula>& seeds) {
   }
 }
 
+constexpr std::int64_t kMostStages = 1000;
+
+SharingOptions read_sharing(const YamlNode& node) {
+  SharingOptions sharing;
+  const auto most = static_cast<std::int64_t>(kMostSharedFunctions);
+  if (const YamlNode* functions = node.find("shared_functions"))
+    sharing.functions = static_cast<int>(functions->whole_number(0, most));
+  if (const YamlNode* stages = node.find("function_stages"))
+    sharing.stages = static_cast<int>(stages->whole_number(2, kMostStages));
+  return sharing;
+}
+
 }  // namespace
 
 CorrectionOptions read_correction_options(const YamlNode& node) {
@@ -44,6 +57,7 @@ CorrectionOptions read_correction_options(const YamlNode& node) {
   if (const YamlNode* models = node.find("seed_models")) {
     for (const YamlNode& file : models->list()) append_corrections(file, options.seeds);
   }
+  options.sharing = read_sharing(node);
   return options;
 }
 

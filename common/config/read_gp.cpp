@@ -37,7 +37,8 @@ constexpr std::array<RateKey, 6> kRates{{{"crossover_rate", &GpParameters::cross
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys{
       "functions",        "constants_range",         "constants",     "linear_scaling", "no_duplicates",
-      "function_weights", "largest_correction_mrad", "seed_formulas", "seed_models"};
+      "function_weights", "largest_correction_mrad", "seed_formulas", "seed_models",    "shared_functions",
+      "function_stages",  "shared_function_weight"};
   for (const CountKey& count : kCounts) keys.emplace_back(count.key);
   for (const RateKey& rate : kRates) keys.emplace_back(rate.key);
   return keys;
@@ -95,6 +96,8 @@ GpParameters read_gp(const YamlNode& node) {
                                                               {"baldwin", ConstantPolicy::baldwin}});
   }
   if (const YamlNode* weights = node.find("function_weights")) parameters.function_weights = weights->numbers();
+  if (const YamlNode* weight = node.find("shared_function_weight"))
+    parameters.shared_function_weight = weight->number();
   if (const YamlNode* none = node.find("no_duplicates")) parameters.no_duplicates = none->truth();
   if (const YamlNode* scaling = node.find("linear_scaling")) parameters.linear_scaling = scaling->truth();
   check_together(parameters, node);

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "calibration/shared_calls.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 
@@ -31,7 +32,17 @@ std::vector<JointLine> joint_lines(const CalibratedModel& model) {
   for (const JointSummary& summary : model.joints) {
     const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
     lines.push_back({summary, to_text(correction.formula()), correction.range_rad()});
+    const FoldedFormula calling = folded_correction(correction, model.functions);
+    if (!calling.calls.empty()) lines.back().with_functions = to_text(calling);
   }
+  return lines;
+}
+
+std::optional<std::vector<SharedFunctionLine>> function_lines(const CalibratedModel& model) {
+  if (!model.functions) return std::nullopt;
+  std::vector<SharedFunctionLine> lines;
+  for (std::size_t i = 0; i < model.functions->size(); ++i)
+    lines.push_back({definition_text((*model.functions)[i], i), joints_calling(model.robot, *model.functions, i)});
   return lines;
 }
 
@@ -87,6 +98,7 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   report.index_before_mm2 = calibration.index_before_mm2;
   report.index_after_mm2 = calibration.index_after_mm2;
   report.joints = joint_lines(model);
+  report.functions = function_lines(model);
   report.estimates = model.estimates;
   for (const UnidentifiedDirection& direction : preparation.declared.unidentified) {
     report.unidentified.push_back(direction.sentence());

@@ -44,6 +44,13 @@ struct JointLine {
   JointSummary summary;
   std::string expression;  ///< g(theta) in rad, the thesis's notation
   Interval range_rad;
+  std::string with_functions{};  ///< the expression with calls of functions that joints share; empty without any
+};
+
+/// A function that joints share.
+struct SharedFunctionLine {
+  std::string definition;   ///< F1(c1, a1) = c1 * SIN(a1)
+  std::vector<int> joints;  ///< from 0: those whose corrections call it
 };
 
 struct CalibrationReport {
@@ -63,6 +70,7 @@ struct CalibrationReport {
   Robot described;  ///< the arm as its maker describes it, by which the loop's effects stand
   double index_before_mm2 = 0.0, index_after_mm2 = 0.0;
   std::vector<JointLine> joints;
+  std::optional<std::vector<SharedFunctionLine>> functions;  ///< where the job asked for any
   std::vector<DistalStep> distal;         ///< the course of distal learning before the loop (thesis Table 4-1)
   std::vector<FoundTransform> structure;  ///< of the structural method: what stands between the links
   std::vector<ParameterEstimate> estimates;

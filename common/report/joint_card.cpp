@@ -59,7 +59,11 @@ std::string evolution_figure(const JointEntry& joint, const FitnessHistory& hist
 
 std::string formula_line(const JointEntry& joint) {
   if (!joint.kept || joint.expression.empty()) return {};
-  return "<pre class=\"formula\"><span>g(theta) = </span><code>" + escaped(joint.expression) + "</code></pre>\n";
+  const std::string folded = joint.with_functions.empty()
+                                 ? ""
+                                 : "\n<span>         = </span><code>" + escaped(joint.with_functions) + "</code>";
+  return "<pre class=\"formula\"><span>g(theta) = </span><code>" + escaped(joint.expression) + "</code>" + folded +
+         "</pre>\n";
 }
 
 }  // namespace

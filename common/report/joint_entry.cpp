@@ -16,6 +16,7 @@ JointEntry entry(const JsonValue& json, std::uint64_t position) {
   JointEntry joint;
   joint.joint = json["joint"].count().value_or(position);
   joint.expression = json["expression"].text();
+  joint.with_functions = json["with_functions"].text();
   joint.note = json["note"].text();
   joint.kept = json["kept"].truth().value_or(!joint.expression.empty());
   const JsonValue error = json["mean_abs_error_rad"];

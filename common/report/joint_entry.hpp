@@ -13,7 +13,7 @@ namespace demecal {
 struct JointEntry {
   std::uint64_t joint = 0;  ///< from 1
   bool kept = false;        ///< whether the model corrects it
-  std::string expression, note;
+  std::string expression, with_functions, note;
   std::optional<double> before_rad, after_rad, bound_rad;
   std::optional<Interval> range_rad;
   std::vector<double> jumps_rad;  ///< ascending

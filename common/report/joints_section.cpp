@@ -30,6 +30,22 @@ std::string table(const std::vector<JointEntry>& joints) {
          rows + "</tbody></table></div>\n";
 }
 
+/// Functions that joints share, and who calls them.
+std::string function_definitions(const JsonValue& report) {
+  std::string lines;
+  for (const JsonValue& function : report["shared_functions"].elements()) {
+    std::string joints;
+    for (const double joint : function["joints"].numbers())
+      joints += (joints.empty() ? "joints " : ", ") + fixed(joint, 0);
+    lines += "<code>" + escaped(function["definition"].text()) + "</code> <span>" +
+             (joints.empty() ? "called by no joint" : joints) + "</span>\n";
+  }
+  if (lines.empty()) return lines;
+  return "<p class=\"note\">Functions that formulas of several joints share, each with its own coefficients (c) and "
+         "arguments (a).</p>\n<pre class=\"formula\">" +
+         lines + "</pre>\n";
+}
+
 /// Joints that evolved but that the report does not list, as in one cut short.
 void add_unlisted(const FitnessHistory& history, std::vector<JointEntry>& joints) {
   for (const auto& [joint, curves] : history.joints) {
@@ -43,7 +59,7 @@ void add_unlisted(const FitnessHistory& history, std::vector<JointEntry>& joints
 
 std::string joints_section(const JsonValue& report, const FitnessHistory& history) {
   std::vector<JointEntry> joints = joint_entries(report);
-  std::string body = table(joints);
+  std::string body = table(joints) + function_definitions(report);
   add_unlisted(history, joints);
   for (const JointEntry& joint : joints) body += joint_card(joint, history);
   if (!history.joints.empty()) {

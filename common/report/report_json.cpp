@@ -43,8 +43,15 @@ Json joint(const JointLine& line) {
       {"range_rad", {number(line.range_rad.lower), number(line.range_rad.upper)}},
       {"bound_rad", number(line.summary.bound_rad)},
       {"discontinuities_rad", line.summary.discontinuities_rad}};
+  if (!line.with_functions.empty()) entry["with_functions"] = line.with_functions;
   if (!line.summary.note.empty()) entry["note"] = line.summary.note;
   return entry;
+}
+
+Json shared_function(const SharedFunctionLine& line) {
+  Json joints = Json::array();
+  for (const int joint : line.joints) joints.push_back(joint + 1);
+  return {{"definition", line.definition}, {"joints", joints}};
 }
 
 Json step(const DistalStep& step) {
@@ -126,6 +133,10 @@ std::string to_json(const CalibrationReport& report) {
                                    {"after", number(report.index_after_mm2)}};
   json["joints"] = Json::array();
   for (const JointLine& line : report.joints) json["joints"].push_back(joint(line));
+  if (report.functions) {
+    json["shared_functions"] = Json::array();
+    for (const SharedFunctionLine& line : *report.functions) json["shared_functions"].push_back(shared_function(line));
+  }
   if (report.method == word_of(Method::distal)) {
     json["distal"] = Json::array();
     for (const DistalStep& one : report.distal) json["distal"].push_back(step(one));

@@ -77,6 +77,22 @@ std::string joints(const CalibrationReport& report) {
   return text;
 }
 
+/// The functions, and the corrections that call them.
+std::string shared_functions(const CalibrationReport& report) {
+  if (!report.functions) return {};
+  if (report.functions->empty()) return "  no structure shortened formulas of two joints: they share no function\n";
+  std::string text = "  functions that joints share\n";
+  for (const SharedFunctionLine& line : *report.functions) {
+    std::string callers;
+    for (const int joint : line.joints) callers += fmt::format("{}{}", callers.empty() ? "" : ", ", joint + 1);
+    text += wrapped("   ", line.definition + (callers.empty() ? "; no correction calls it" : "; joints " + callers), 6);
+  }
+  for (const JointLine& line : report.joints)
+    if (!line.with_functions.empty())
+      text += wrapped(fmt::format("    joint {}:", line.summary.joint + 1), line.with_functions, 6);
+  return text;
+}
+
 std::string structure(const CalibrationReport& report) {
   if (report.method != word_of(Method::structural)) return {};
   if (report.structure.empty()) return "\n  nothing between the links that the validation poses bear out\n";
@@ -111,7 +127,7 @@ std::string errors_to_terminal(const ErrorBySet& errors) {
 std::string to_terminal(const CalibrationReport& report) {
   std::string text = stages(report);
   text += structure(report);
-  if (!report.joints.empty()) text.append("\n").append(joints(report));
+  if (!report.joints.empty()) text.append("\n").append(joints(report)).append(shared_functions(report));
   if (const std::string loop = loop_to_terminal(report.loop, report.described); !loop.empty())
     text.append("\n").append(loop).append("\n");
   text += named("poses far out, kept in all figures", report.outliers);

@@ -1,0 +1,91 @@
+#include "calibration/function_stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "evolution/brief_forms.hpp"
+#include "evolution/function_search.hpp"
+#include "expression/simplify.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kGoodFormulas = 8;
+constexpr std::size_t kMostHeirs = 4;  // one in so many individuals may come from the stage before
+constexpr double kLeastFitness = 1e-300;
+
+/// See message_nats(): for absolute errors the mean takes the place of the root of the mean square.
+double nats_of(const Tree& tree, double fitness, const TrainingTable& table) {
+  const double weights = std::accumulate(table.weight.begin(), table.weight.end(), 0.0);
+  const double mean = std::max(fitness, kLeastFitness) / weights;
+  return message_nats(tree, table.loss == Loss::squared ? mean : mean * mean, weights);
+}
+
+/// The front's fittest, as many as may be.
+std::vector<Tree> heirs_of(const Population& front, const Job& job) {
+  const std::size_t most = static_cast<std::size_t>(job.gp.population_size) / kMostHeirs;
+  std::vector<Tree> heirs;
+  for (auto one = front.rbegin(); one != front.rend() && heirs.size() < most; ++one) heirs.push_back(one->tree);
+  return heirs;
+}
+
+void gather_best(std::vector<JointCandidates> found, std::vector<JointCandidates>& best) {
+  if (best.empty()) {
+    best = std::move(found);
+    return;
+  }
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    ParetoFront front(std::move(best[i].front));
+    for (const Individual& member : found[i].front) front.offer(member);
+    best[i].front = std::move(front).release();
+  }
+}
+
+}  // namespace
+
+std::vector<Tree> good_formulas(const JointCandidates& candidates) {
+  const TrainingTable& table = candidates.training.table;
+  std::vector<std::pair<double, Tree>> by_nats;
+  for (const Individual& member : candidates.front) {
+    Tree brief = simplified_over(member.tree, table.variables);
+    const double nats = nats_of(brief, member.fitness, table);
+    by_nats.emplace_back(nats, std::move(brief));
+  }
+  std::ranges::stable_sort(by_nats, {}, [](const auto& entry) { return entry.first; });
+  std::vector<Tree> good;
+  for (auto& [nats, tree] : by_nats) {
+    if (good.size() == kGoodFormulas) break;
+    if (std::ranges::find(good, tree) == good.end()) good.push_back(std::move(tree));
+  }
+  return good;
+}
+
+std::vector<SharedFunction> shared_functions(std::span<const JointCandidates> candidates,
+                                             const SharingOptions& options) {
+  if (options.functions == 0) return {};
+  std::vector<std::vector<Tree>> formulas;
+  for (const JointCandidates& joint : candidates) formulas.push_back(good_formulas(joint));
+  return find_shared_functions(formulas, static_cast<std::size_t>(options.functions));
+}
+
+StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const Job& job, const EvolveStage& evolve,
+                              const std::function<bool()>& goes_on) {
+  const int stages = std::min(job.corrections.sharing.stages, job.gp.number_generations);
+  StagedOutcome outcome;
+  std::vector<JointTraining> present = training;
+  for (int stage = 0; stage < stages; ++stage) {
+    if (stage > 0) {
+      outcome.functions = shared_functions(outcome.candidates, job.corrections.sharing);
+      for (std::size_t i = 0; i < present.size(); ++i)
+        present[i].table.seeds = heirs_of(outcome.candidates[i].front, job);
+    }
+    RoundTerms terms = terms_of_round(job.seed, job.gp.number_generations, stages, stage);
+    terms.functions = outcome.functions;
+    gather_best(evolve(present, terms), outcome.candidates);
+    if (!goes_on()) break;
+  }
+  return outcome;
+}
+
+}  // namespace demecal

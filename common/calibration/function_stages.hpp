@@ -1,0 +1,38 @@
+// Joints that share functions (thesis 7.1 ii): evolution in stages, between which functions are made of what the
+// joints' good formulas have in common.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "calibration/job.hpp"
+#include "calibration/round_terms.hpp"
+#include "calibration/selection.hpp"
+
+namespace demecal {
+
+/// A joint's formulas that are described in the fewest nats together with the errors they leave on its table, taken as
+/// of Laplace's law for absolute and normal for squared errors; simplified, no two equal, the best first.
+std::vector<Tree> good_formulas(const JointCandidates& candidates);
+
+/// Functions that the good formulas of two joints or more have in common (see find_shared_functions()), as many as the
+/// options allow at most.
+std::vector<SharedFunction> shared_functions(std::span<const JointCandidates> candidates,
+                                             const SharingOptions& options);
+
+struct StagedOutcome {
+  std::vector<JointCandidates> candidates;  ///< of every joint the best of each length over all stages
+  std::vector<SharedFunction> functions;    ///< that the last stage had
+};
+
+/// Evolves candidates for every joint of a training: those that the islands found, or had reached.
+using EvolveStage = std::function<std::vector<JointCandidates>(const std::vector<JointTraining>&, const RoundTerms&)>;
+
+/// Evolves in as many stages as the job says, of equally many generations. The first is as if there were no others; in
+/// each that follows calls of functions may stand in what is made at random, and first populations hold the fittest of
+/// the joint's front. Ends early where `goes_on` says so. A function of training, job and what `evolve` finds.
+StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const Job& job, const EvolveStage& evolve,
+                              const std::function<bool()>& goes_on);
+
+}  // namespace demecal
