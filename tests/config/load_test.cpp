@@ -154,6 +154,29 @@ TEST(LoadJob, ReadsWhatIsAskedOfCorrections) {
   EXPECT_EQ(job.corrections.seeds[1].formula, variable_tree(0));
 }
 
+TEST(LoadJob, ReadsHowJointsShareFunctions) {
+  const Samples samples;
+  const std::string head = "demecal_job: 1\ndata: d.yaml\n";
+  const Job none = load_job(samples.folder.write("none.yaml", head));
+  EXPECT_EQ(none.corrections.sharing.functions, 0);
+  const Job job = load_job(samples.folder.write(
+      "sharing.yaml", head + "gp: {shared_functions: 3, function_stages: 5, shared_function_weight: 0.5}\n"));
+  EXPECT_EQ(job.corrections.sharing.functions, 3);
+  EXPECT_EQ(job.corrections.sharing.stages, 5);
+  EXPECT_EQ(job.gp.shared_function_weight, 0.5);
+}
+
+TEST(LoadJob, RefusesFunctionsThatCannotBeShared) {
+  const Samples samples;
+  for (const char* const rest :
+       {"gp: {shared_functions: -1}\n", "gp: {shared_functions: 17}\n", "gp: {function_stages: 1}\n",
+        "gp: {shared_function_weight: 0}\n",
+        "gp: {shared_functions: 2}\nmethod: distal\ndistal: {form: sequential}\n"}) {
+    const auto path = samples.folder.write("bad.yaml", std::string("demecal_job: 1\ndata: d.yaml\n") + rest);
+    EXPECT_THROW(load_job(path), InputError) << rest;
+  }
+}
+
 TEST(LoadJob, RefusesSeedsThatAreNoFormulasOrHaveNoPlace) {
   const Samples samples;
   for (const char* const rest :

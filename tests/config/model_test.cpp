@@ -109,6 +109,65 @@ TEST(ModelFile, WithoutKnownCoefficientsReadsThemAsZero) {
   EXPECT_EQ(written_and_read(model).robot.effects[0].values, (std::vector<double>{0.0, 0.0}));
 }
 
+/// Two joints with formulas of one structure, which is a shared function.
+CalibratedModel sharing_model(RandomStream& stream) {
+  CalibratedModel model = random_model(stream);
+  model.functions = {parse_definition("F1(c1, c2, c3, a1) = c1 * SIN(c2 * a1 + c3)", 0),
+                     parse_definition("F2(a1) = TANH(ATAN(a1))", 1)};
+  for (const int joint : {0, 3}) {
+    const double size = stream.real(1e-4, 1e-3), turns = stream.real(0.5, 3.0), phase = stream.real(-2.0, 2.0);
+    const Tree formula = expanded(model.functions->front(), std::vector<Tree>{constant_tree(size), constant_tree(turns),
+                                                                              constant_tree(phase), variable_tree(0)});
+    model.robot.corrections[static_cast<std::size_t>(joint)] = {formula, {}, {-1.0, 1.0}};
+    model.joints[static_cast<std::size_t>(joint)].kept = true;
+  }
+  return model;
+}
+
+TEST(ModelFile, KeepsSharedFunctionsAndSaysWhichJointsCallThem) {
+  RandomStream stream{996};
+  for (int i = 0; i < 20; ++i) {
+    const CalibratedModel model = sharing_model(stream);
+    const std::string text = model_text(model);
+    EXPECT_THAT(text, HasSubstr("F1(c1, c2, c3, a1) = c1 * SIN(c2 * a1 + c3)\", joints: [1, 4]}"));
+    EXPECT_THAT(text, HasSubstr("F2(a1) = TANH(ATAN(a1))\", joints: []}"));
+    const CalibratedModel read = written_and_read(model);
+    EXPECT_EQ(read.functions, model.functions);
+    for (std::size_t joint = 0; joint < 6; ++joint)
+      EXPECT_EQ(read.robot.corrections[joint].formula(), model.robot.corrections[joint].formula());
+    EXPECT_EQ(model_text(read), text);
+  }
+}
+
+TEST(ModelFile, SaysWhereNoFunctionIsSharedAndWhereNoneWasAskedFor) {
+  RandomStream stream{997};
+  CalibratedModel model = random_model(stream);
+  EXPECT_EQ(model_text(model).find("functions"), std::string::npos);
+  EXPECT_FALSE(written_and_read(model).functions);
+  model.functions.emplace();
+  EXPECT_THAT(model_text(model), HasSubstr("\nshared_functions: []\n"));
+  EXPECT_TRUE(written_and_read(model).functions->empty());
+}
+
+TEST(ModelFile, RefusesFunctionsAndCallsThatAreNone) {
+  RandomStream stream{998};
+  const std::string text = model_text(sharing_model(stream));
+  const auto said_of = [&](const std::string& from, const std::string& to) {
+    std::string spoilt = text;
+    const std::size_t at = spoilt.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    const TemporaryFolder folder;
+    const auto path = folder.write("model.yaml", spoilt.replace(at, from.size(), to));
+    return complaint([&] { load_model(path); });
+  };
+  EXPECT_THAT(said_of("TANH(ATAN(a1))", "TANH(ATAN(a1)"), HasSubstr("shared_functions[2].definition column"));
+  EXPECT_THAT(said_of("TANH(ATAN(a1))", "TANH(0.5 * a1)"), HasSubstr("must have no constants"));
+  EXPECT_THAT(said_of("F2(a1) =", "F3(a1) ="), HasSubstr("must define F2"));
+  EXPECT_THAT(said_of("with_functions: \"F1(", "with_functions: \"F3("), HasSubstr("corrections[1].with_functions"));
+  EXPECT_THAT(said_of("with_functions: \"F1(", "with_functions: \"2 * F1("),
+              HasSubstr("corrections[1].with_functions is not the formula that `expression` is"));
+}
+
 /// An item of `effects`, and what the user must be told of it.
 struct BadEffect {
   const char* name;

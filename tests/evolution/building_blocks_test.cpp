@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "../expression/random_tree.hpp"
+#include "../expression/random_function.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {
@@ -32,25 +32,12 @@ Tree random_filling(RandomStream& random, int depth) {
   }
 }
 
-/// The formula with the arguments of commutative functions swapped at random.
-Tree swapped(RandomStream& random, const Tree& tree, std::size_t& at) {
-  const Node node = tree[at++];
-  if (arity(node.primitive) == 0) return {node};
-  const Tree first = swapped(random, tree, at);
-  if (arity(node.primitive) == 1) return apply(node.primitive, first);
-  const Tree second = swapped(random, tree, at);
-  const bool commutes = node.primitive == Primitive::add || node.primitive == Primitive::multiply ||
-                        node.primitive == Primitive::minimum || node.primitive == Primitive::maximum;
-  return commutes && random.chance(0.5) ? apply(node.primitive, second, first) : apply(node.primitive, first, second);
-}
-
 TEST(BlockForm, IsOneWhateverTheOrderOfArgumentsAndTheConstants) {
   RandomStream random({71});
   int tried = 0;
   for (int i = 0; i < 8000; ++i) {
     const Tree tree = random_tree(random, 5);
-    std::size_t at = 0;
-    Tree other = swapped(random, tree, at);
+    Tree other = swapped(random, tree);
     for (Node& node : other) {
       if (node.primitive == Primitive::constant) node.value *= random.real(0.5, 2.0);
     }
