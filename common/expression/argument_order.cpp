@@ -35,16 +35,22 @@ Tree apply_in_order(Primitive function, const Tree& a, const Tree& b) {
   return swaps ? apply(function, b, a) : apply(function, a, b);
 }
 
-Tree in_order(std::span<const Node> tree, Subtracted constant) {
+Tree with_negatives_added(std::span<const Node> tree) {
+  Tree sums(tree.begin(), tree.end());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].primitive != Primitive::subtract) continue;
+    Node& subtracted = sums[subtree_end(sums, i + 1)];
+    if (subtracted.primitive != Primitive::constant) continue;
+    sums[i].primitive = Primitive::add;
+    subtracted.value = -subtracted.value;
+  }
+  return sums;
+}
+
+Tree in_order(std::span<const Node> tree) {
   return fold<Tree>(
-      tree, [](const Node& node) { return Tree{node}; },
-      [](Primitive function, Tree argument) { return apply(function, std::move(argument)); },
-      [constant](Primitive function, const Tree& left, const Tree& right) {
-        const bool takes_constant = function == Primitive::subtract && right.front().primitive == Primitive::constant;
-        if (takes_constant && constant == Subtracted::adds_negative)
-          return apply_in_order(Primitive::add, left, constant_tree(-right.front().value));
-        return apply_in_order(function, left, right);
-      });
+      with_negatives_added(tree), [](const Node& node) { return Tree{node}; },
+      [](Primitive function, Tree argument) { return apply(function, std::move(argument)); }, apply_in_order);
 }
 
 }  // namespace demecal

@@ -21,11 +21,11 @@ struct Precedes {
 /// The function of two arguments, of which the longer stands first in sums and last in everything else that commutes.
 Tree apply_in_order(Primitive function, const Tree& a, const Tree& b);
 
-/// What becomes of a - c with a constant c.
-enum class Subtracted { stays, adds_negative };
+/// The formula with a + -c in place of a - c for every constant c: the same values, to the bit but for the sign of
+/// zero.
+Tree with_negatives_added(std::span<const Node> tree);
 
-/// The formula with all its arguments in that order, and a + -c in place of a - c unless it stays: the same values, to
-/// the bit but for the sign of zero.
-Tree in_order(std::span<const Node> tree, Subtracted constant = Subtracted::adds_negative);
+/// That formula with all its arguments in order; also of the same values.
+Tree in_order(std::span<const Node> tree);
 
 }  // namespace demecal

@@ -11,6 +11,9 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kMostNames = 255;
+constexpr int kDeepestFolded = 100;  // their texts nest no deeper than can be read
+constexpr int kMostSteps =
+    10'000;  // of one match: bodies from elsewhere may have arguments in more orders than can be tried
 
 /// Where a call's places begin in the formula that it stands in.
 using Bindings = std::vector<std::optional<std::size_t>>;
@@ -50,7 +53,8 @@ class Folding {
     for (std::size_t i = 0; i < functions_.size(); ++i) {
       if (functions_[i].body.front().primitive != tree_[at].primitive) continue;
       Bindings bindings(static_cast<std::size_t>(arity(functions_[i])));
-      if (!matches(functions_[i], {{0, at}}, bindings)) continue;
+      int steps = kMostSteps;
+      if (!matches(functions_[i], {{0, at}}, bindings, steps)) continue;
       Way call{1, i + 1, {}};
       for (const auto& place : bindings) {
         call.places.push_back(*place);
@@ -66,7 +70,7 @@ class Folding {
   bool binds(const SharedFunction& function, std::size_t place, std::size_t at, Bindings& bindings) const {
     const bool is_coefficient = place < static_cast<std::size_t>(function.coefficients);
     if (is_coefficient && tree_[at].primitive != Primitive::constant) return false;
-    if (bindings[place]) return std::ranges::equal(subtree(*bindings[place]), subtree(at));
+    if (bindings[place]) return in_order(subtree(*bindings[place])) == in_order(subtree(at));
     bindings[place] = at;
     return true;
   }
@@ -74,8 +78,9 @@ class Folding {
   /// Parts of the body yet to be found, and where.
   using Pending = std::vector<std::pair<std::size_t, std::size_t>>;
 
-  bool matches(const SharedFunction& function, Pending pending, Bindings& bindings) const {
+  bool matches(const SharedFunction& function, Pending pending, Bindings& bindings, int& steps) const {
     while (!pending.empty()) {
+      if (--steps < 0) return false;
       const auto [body, at] = pending.back();
       pending.pop_back();
       const Node& node = function.body[body];
@@ -94,7 +99,7 @@ class Folding {
         Pending as_they_stand = pending;
         as_they_stand.insert(as_they_stand.end(), {{second, right}, {first, left}});
         Bindings trial = bindings;
-        if (matches(function, std::move(as_they_stand), trial)) {
+        if (matches(function, std::move(as_they_stand), trial, steps)) {
           bindings = std::move(trial);
           return true;
         }
@@ -127,20 +132,14 @@ class Folding {
   std::vector<std::size_t> ends_;
 };
 
-bool subtracts_constant(std::span<const Node> tree) {
-  for (std::size_t i = 0; i < tree.size(); ++i) {
-    if (tree[i].primitive == Primitive::subtract && tree[subtree_end(tree, i + 1)].primitive == Primitive::constant)
-      return true;
-  }
-  return false;
-}
-
 /// Functions may subtract a constant or add its negative.
 Folding shortest_folding(std::span<const Node> tree, std::span<const SharedFunction> functions) {
-  Folding as_it_is(in_order(tree, Subtracted::stays), functions);
-  if (!subtracts_constant(tree)) return as_it_is;
-  Folding added(in_order(tree), functions);
-  return added.size() < as_it_is.size() ? added : as_it_is;
+  if (depth(tree) > kDeepestFolded) functions = {};
+  Folding as_it_is(Tree(tree.begin(), tree.end()), functions);
+  Tree added = with_negatives_added(tree);
+  if (std::ranges::equal(added, tree)) return as_it_is;
+  Folding sums(std::move(added), functions);
+  return sums.size() < as_it_is.size() ? sums : as_it_is;
 }
 
 bool is_call(const FoldedFormula& formula, const Node& node) {

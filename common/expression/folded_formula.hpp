@@ -27,15 +27,15 @@ struct FoldedCall {
 };
 
 /// The shortest way to write a formula of `variables` variables with calls of `functions`, whatever the order of
-/// arguments that have none, and with all its constants subtracted or their negatives added; without a call where none
-/// makes it shorter.
+/// arguments that have none, and with constants either subtracted or their negatives added; without a call where none
+/// makes it shorter, or where the formula is deeper than 100.
 FoldedFormula folded(std::span<const Node> tree, std::span<const SharedFunction> functions, int variables = 1);
 
 /// How many nodes and calls that way has.
 std::size_t folded_size(std::span<const Node> tree, std::span<const SharedFunction> functions);
 std::size_t size(const FoldedFormula& formula);
 
-/// Which of `functions` places of the list are called, ascending.
+/// The places in the list of the functions that are called, ascending.
 std::vector<std::size_t> functions_called(const FoldedFormula& formula);
 
 /// The formula written out: in_order() of it is in_order() of the one that was folded.

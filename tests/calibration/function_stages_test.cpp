@@ -1,4 +1,5 @@
-// Stages between which joints come to share functions: what each is given, and that what joints have in common is found.
+// Stages between which joints come to share functions: what each is given, and that what joints have in common is
+// found.
 #include "calibration/function_stages.hpp"
 
 #include <gmock/gmock.h>

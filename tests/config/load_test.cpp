@@ -168,10 +168,9 @@ TEST(LoadJob, ReadsHowJointsShareFunctions) {
 
 TEST(LoadJob, RefusesFunctionsThatCannotBeShared) {
   const Samples samples;
-  for (const char* const rest :
-       {"gp: {shared_functions: -1}\n", "gp: {shared_functions: 17}\n", "gp: {function_stages: 1}\n",
-        "gp: {shared_function_weight: 0}\n",
-        "gp: {shared_functions: 2}\nmethod: distal\ndistal: {form: sequential}\n"}) {
+  for (const char* const rest : {"gp: {shared_functions: -1}\n", "gp: {shared_functions: 17}\n",
+                                 "gp: {function_stages: 1}\n", "gp: {shared_function_weight: 0}\n",
+                                 "gp: {shared_functions: 2}\nmethod: distal\ndistal: {form: sequential}\n"}) {
     const auto path = samples.folder.write("bad.yaml", std::string("demecal_job: 1\ndata: d.yaml\n") + rest);
     EXPECT_THROW(load_job(path), InputError) << rest;
   }

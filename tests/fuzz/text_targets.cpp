@@ -6,7 +6,8 @@
 #include "coordinator/run_state.hpp"
 #include "data/csv.hpp"
 #include "errors/input_error.hpp"
-#include "expression/text.hpp"
+#include "expression/argument_order.hpp"
+#include "expression/folded_formula.hpp"
 #include "monitor/event_line.hpp"
 #include "monitor/monitor_page.hpp"
 #include "monitor/watched.hpp"
@@ -24,6 +25,19 @@ void read_formula(std::string_view bytes) {
     const Tree tree = parse(bytes, names);
     demand(is_valid(tree, static_cast<int>(names.size())), "what is parsed is a formula");
     demand(parse(to_text(tree, names), names) == tree, "a formula comes back from its text");
+  } catch (const InputError&) {
+  }
+}
+
+/// A definition on the first line, and a formula that may call it.
+void read_definition(std::string_view bytes) {
+  const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+  try {
+    const std::vector<SharedFunction> functions{parse_definition(bytes.substr(0, end), 0)};
+    demand(parse_definition(definition_text(functions[0], 0), 0) == functions[0], "a definition comes back");
+    const Tree tree = parse(bytes.substr(end), theta_only(), functions);
+    const FoldedFormula formula = folded(tree, functions);
+    demand(in_order(parse(to_text(formula), theta_only(), functions)) == in_order(tree), "calls come back");
   } catch (const InputError&) {
   }
 }
@@ -122,6 +136,10 @@ std::vector<Target> text_targets() {
   return {{"formula",
            {"0.004 * SIN(2 * theta - 1.2)", "(theta + q1) % -1e-3", "SQRTp(ABS(COS(s))) - SIGN(theta)"},
            read_formula},
+          {"definition",
+           {"F1(c1, c2, a1) = c1 * SIN(c2 + a1)\n0.3 * SIN(0.5 + theta) - F1(2, 3, TANH(theta))",
+            "F1(a1, a2) = a1 % (a2 - a1)\nF1(F1(theta, 2), 3)"},
+           read_definition},
           {"expression",
            {"-cos(PI/2)*sin(theta1)", "(a2*cos(q1) + d3^2)/(1.5e-1 - tan(x))", "sqrt(abs(q1)) - -q1*sin(q1 + PI)^2"},
            read_expression},

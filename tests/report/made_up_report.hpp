@@ -126,6 +126,15 @@ inline CalibrationReport made_up_report() {
   return report;
 }
 
+/// The same whose joints share functions, of which two call the first and none the second.
+inline CalibrationReport made_up_sharing_report() {
+  CalibrationReport report = made_up_report();
+  report.functions = {{"F1(c1, c2, a1) = c1 * SIN(a1 + c2)", {0, 2}}, {"F2(a1) = TANH(ATAN(a1))", {}}};
+  report.joints[0].with_functions = "F1(0.00042, 0.7, theta) + 0.00011 * COS(4.1 * theta)";
+  report.joints[2].with_functions = "F1(0.00061, 1.4, 1.02 * theta)";
+  return report;
+}
+
 /// Rows of `joints` joints with `demes` islands each, whose best fitness falls from epoch to epoch.
 inline std::vector<HistoryRow> made_up_history(std::uint32_t joints, std::uint32_t demes, std::uint32_t epochs) {
   RandomStream random{77};

@@ -168,6 +168,16 @@ TEST(ReportPage, PlotsEveryKeptCorrection) {
   EXPECT_THAT(lines_of(page, "island"), IsEmpty()) << "no history, no charts of it";
 }
 
+TEST(ReportPage, ShowsSharedFunctionsAndTheFormulasThatCallThem) {
+  const std::string page = page_of(made_up_sharing_report());
+  EXPECT_EQ(unbalanced(page), "");
+  EXPECT_THAT(words_of(page), HasSubstr("F1(c1, c2, a1) = c1 * SIN(a1 + c2)"));
+  EXPECT_THAT(words_of(page), HasSubstr("joints 1, 3"));
+  EXPECT_THAT(words_of(page), HasSubstr("called by no joint"));
+  EXPECT_THAT(words_of(page), HasSubstr("F1(0.00061, 1.4, 1.02 * theta)"));
+  EXPECT_THAT(words_of(page_of(made_up_report())), Not(HasSubstr("called by")));
+}
+
 TEST(ReportPage, ShowsAFormulaItCannotReadWithoutItsPlot) {
   Json json = made_up_json();
   json["joints"][0]["expression"] = "TAN(theta) < 3";

@@ -33,6 +33,17 @@ TEST(ReportJson, HasEveryPromisedKeyAtTheTop) {
   EXPECT_TRUE(report["not_found"].is_array());
 }
 
+TEST(ReportJson, HasSharedFunctionsWhereTheyWereAskedFor) {
+  EXPECT_FALSE(json::parse(to_json(made_up_report())).contains("shared_functions"));
+  const json report = json::parse(to_json(made_up_sharing_report()));
+  ASSERT_EQ(report["shared_functions"].size(), 2U);
+  EXPECT_EQ(report["shared_functions"][0]["definition"], "F1(c1, c2, a1) = c1 * SIN(a1 + c2)");
+  EXPECT_EQ(report["shared_functions"][0]["joints"], (json{1, 3}));
+  EXPECT_EQ(report["shared_functions"][1]["joints"], json::array());
+  EXPECT_EQ(report["joints"][2]["with_functions"], "F1(0.00061, 1.4, 1.02 * theta)");
+  EXPECT_FALSE(report["joints"][1].contains("with_functions"));
+}
+
 TEST(ReportJson, HasEveryPromisedKeyBelow) {
   const json report = json::parse(to_json(made_up_report()));
   for (const char* const key : {"calibration", "validation", "accept", "outliers"}) {

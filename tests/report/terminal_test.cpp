@@ -41,6 +41,18 @@ TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
   EXPECT_THAT(text, HasSubstr("noise floor from repeats: 0.051 mm per axis"));
 }
 
+TEST(Terminal, DefinesSharedFunctionsAndShowsWhoCallsThem) {
+  EXPECT_THAT(to_terminal(made_up_report()), Not(HasSubstr("share")));
+  CalibrationReport report = made_up_sharing_report();
+  const std::string text = to_terminal(report);
+  EXPECT_THAT(text, HasSubstr("F1(c1, c2, a1) = c1 * SIN(a1 + c2); joints 1, 3"));
+  EXPECT_THAT(text, HasSubstr("F2(a1) = TANH(ATAN(a1)); no correction calls it"));
+  EXPECT_THAT(text, HasSubstr("joint 1: F1(0.00042, 0.7, theta) + 0.00011 * COS(4.1 * theta)"));
+  EXPECT_THAT(text, HasSubstr("joint 3: F1(0.00061, 1.4, 1.02 * theta)"));
+  report.functions->clear();
+  EXPECT_THAT(to_terminal(report), HasSubstr("they share no function"));
+}
+
 TEST(Terminal, IsAtMostAHundredColumnsWide) {
   RandomStream random{451};
   for (int trial = 0; trial < 100; ++trial) {
@@ -50,7 +62,8 @@ TEST(Terminal, IsAtMostAHundredColumnsWide) {
       for (std::size_t i = random.index(140); i > 0; --i) text += random.chance(0.1) ? " " : "ü";
       return text;
     };
-    for (JointLine& joint : report.joints) joint.summary.note = name();
+    report.functions = {{name(), {1, 2}}};
+    for (JointLine& joint : report.joints) joint.summary.note = joint.with_functions = name();
     report.unidentified = {name() + name() + name(), name()};
     report.outliers = {name(), name(), name()};
     for (const std::string& line : screen_lines(to_terminal(report))) EXPECT_LE(letters_of(line), 100u) << line;
