@@ -14,7 +14,9 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kMostTried = 200;  // structures of a search that are looked at closely
+constexpr std::size_t kMostTried = 200;     // structures of a search that are looked at closely
+constexpr int kMostArguments = 2;           // what takes more says little of what it stands for
+constexpr std::size_t kLeastFunctions = 3;  // smaller structures save little, and evolution makes them anew with ease
 
 // In structures, before their places are numbered.
 const Node kCoefficient{Primitive::constant, 0, 0.0};
@@ -67,10 +69,10 @@ struct StructureHolders {
 };
 using HeldStructures = std::map<Tree, StructureHolders, Precedes>;
 
-/// Counts those of two functions or more in a form of the joint; joints count from 1.
+/// Counts those that are large enough in a form of the joint; joints count from 1.
 void count_structures(const Tree& form, std::size_t joint, HeldStructures& held) {
   const auto count = [&](const Structures& here) {
-    for (std::size_t i = 2; i < here.size(); ++i) {
+    for (std::size_t i = kLeastFunctions; i < here.size(); ++i) {
       for (const Tree& structure : here[i]) {
         StructureHolders& holders = held[structure];
         if (std::exchange(holders.last_joint, joint) != joint) ++holders.joints;
@@ -118,7 +120,8 @@ std::vector<SharedFunction> candidates_among(std::span<const std::vector<Tree>> 
     for (const bool one : {true, false}) {
       if (one && arguments < 2) continue;
       SharedFunction function = function_of(structure, one);
-      if (!find_fault(function)) candidates.push_back(std::move(function));
+      const bool is_wanted = function.coefficients > 0 && arity(function) - function.coefficients <= kMostArguments;
+      if (is_wanted && !find_fault(function)) candidates.push_back(std::move(function));
     }
   }
   return candidates;

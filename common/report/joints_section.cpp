@@ -34,9 +34,10 @@ std::string table(const std::vector<JointEntry>& joints) {
 std::string function_definitions(const JsonValue& report) {
   std::string lines;
   for (const JsonValue& function : report["shared_functions"].elements()) {
+    const std::vector<double> callers = function["joints"].numbers();
     std::string joints;
-    for (const double joint : function["joints"].numbers())
-      joints += (joints.empty() ? "joints " : ", ") + fixed(joint, 0);
+    for (const double joint : callers)
+      joints += (joints.empty() ? (callers.size() == 1 ? "joint " : "joints ") : ", ") + fixed(joint, 0);
     lines += "<code>" + escaped(function["definition"].text()) + "</code> <span>" +
              (joints.empty() ? "called by no joint" : joints) + "</span>\n";
   }

@@ -85,7 +85,11 @@ std::string shared_functions(const CalibrationReport& report) {
   for (const SharedFunctionLine& line : *report.functions) {
     std::string callers;
     for (const int joint : line.joints) callers += fmt::format("{}{}", callers.empty() ? "" : ", ", joint + 1);
-    text += wrapped("   ", line.definition + (callers.empty() ? "; no correction calls it" : "; joints " + callers), 6);
+    text +=
+        wrapped("   ",
+                line.definition + (callers.empty() ? "; no correction calls it"
+                                                   : (line.joints.size() == 1 ? "; joint " : "; joints ") + callers),
+                6);
   }
   for (const JointLine& line : report.joints)
     if (!line.with_functions.empty())

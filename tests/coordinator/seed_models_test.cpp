@@ -27,11 +27,12 @@ class SeedModels : public testing::Test {
   SeedModels() {
     Job job = short_looping_job();
     job.closed_loop.max_effects = 0;
+    data.sha256 = "of no file";
     earlier = calibrate_in_memory(data, job).model;
     folder.write("earlier.yaml", model_text(earlier));
   }
 
-  const DataSet data = simulate(lacking_puma(false));
+  DataSet data = simulate(lacking_puma(false));
   const TemporaryFolder folder;
   CalibratedModel earlier;
 };
