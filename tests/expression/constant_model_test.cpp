@@ -3,24 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
 #include "expression/text.hpp"
+#include "random_columns.hpp"
 #include "random_tree.hpp"
 
 namespace demecal {
 namespace {
 
 using Scaling = ConstantModel::Scaling;
-
-std::vector<std::vector<double>> random_columns(RandomStream& random, std::size_t rows) {
-  std::vector<std::vector<double>> columns(2, std::vector<double>(rows));
-  for (std::vector<double>& column : columns)
-    for (double& entry : column) entry = random.real(-3.0, 3.0);
-  columns[0][0] = 0.0;
-  return columns;
-}
 
 std::vector<double> row_of(const std::vector<std::vector<double>>& columns, std::size_t row) {
   return {columns[0][row], columns[1][row]};
@@ -61,7 +53,7 @@ class ConstantModels : public testing::Test {
 
 TEST_F(ConstantModels, HaveTheBitsOfEvaluate) {
   for (const std::size_t rows : {1, 30, 300}) {
-    const auto columns = random_columns(random, rows);
+    const auto columns = random_columns(random, 2, rows);
     ConstantModel model(columns);
     for (int i = 0; i < 100; ++i) {
       const Tree formula = tree();
@@ -74,7 +66,7 @@ TEST_F(ConstantModels, HaveTheBitsOfEvaluate) {
 }
 
 TEST_F(ConstantModels, FoldWithoutChangingAValue) {
-  const auto columns = random_columns(random, 12);
+  const auto columns = random_columns(random, 2, 12);
   ConstantModel model(columns);
   int shorter = 0;
   for (int i = 0; i < 300; ++i) {
@@ -91,7 +83,7 @@ TEST_F(ConstantModels, FoldWithoutChangingAValue) {
 }
 
 TEST_F(ConstantModels, AreRebuiltWithTheConstantsTheyAreGiven) {
-  const auto columns = random_columns(random, 12);
+  const auto columns = random_columns(random, 2, 12);
   ConstantModel model(columns);
   for (const Scaling scaling : {Scaling::none, Scaling::linear}) {
     for (int i = 0; i < 200; ++i) {
@@ -113,7 +105,7 @@ TEST_F(ConstantModels, AreRebuiltWithTheConstantsTheyAreGiven) {
 // Where two widths of differences agree, and those to either side, the formula is smooth there.
 TEST_F(ConstantModels, HaveTheSlopesThatDifferencesShow) {
   constexpr std::size_t kRows = 20;
-  const auto columns = random_columns(random, kRows);
+  const auto columns = random_columns(random, 2, kRows);
   ConstantModel model(columns);
   int compared = 0, varying = 0;
   for (int i = 0; i < 400; ++i) {
@@ -152,7 +144,7 @@ TEST_F(ConstantModels, HaveTheSlopesThatDifferencesShow) {
 }
 
 TEST_F(ConstantModels, ShareTheConstantsOfEqualSubtrees) {
-  const auto columns = random_columns(random, 5);
+  const auto columns = random_columns(random, 2, 5);
   ConstantModel model(columns);
   const Tree half = constant_tree(0.5);
   const Tree wave = apply(Primitive::sine, apply(Primitive::multiply, half, variable_tree(0)));
@@ -161,7 +153,7 @@ TEST_F(ConstantModels, ShareTheConstantsOfEqualSubtrees) {
 }
 
 TEST_F(ConstantModels, LeaveOutConstantsThatAreNotFinite) {
-  const auto columns = random_columns(random, 5);
+  const auto columns = random_columns(random, 2, 5);
   ConstantModel model(columns);
   const Tree huge = apply(Primitive::multiply, constant_tree(1e200), constant_tree(1e200));
   const Tree formula = apply(Primitive::divide, variable_tree(0), huge);
@@ -171,7 +163,7 @@ TEST_F(ConstantModels, LeaveOutConstantsThatAreNotFinite) {
 }
 
 TEST_F(ConstantModels, KnowWhetherAConstantMovesAJump) {
-  const auto columns = random_columns(random, 5);
+  const auto columns = random_columns(random, 2, 5);
   ConstantModel model(columns);
   const auto jumps = [&](const Tree& formula) {
     model.bind(store, store.enter(formula));
@@ -183,7 +175,7 @@ TEST_F(ConstantModels, KnowWhetherAConstantMovesAJump) {
 }
 
 TEST_F(ConstantModels, TakeOffWhatScalingMakesRedundant) {
-  const auto columns = random_columns(random, 5);
+  const auto columns = random_columns(random, 2, 5);
   ConstantModel model(columns);
   const Tree wave = apply(Primitive::sine, variable_tree(0));
   const Tree scaled =

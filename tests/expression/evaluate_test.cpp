@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
 #include "expression/text.hpp"
+#include "random_columns.hpp"
 #include "random_tree.hpp"
 
 namespace demecal {
@@ -14,16 +14,6 @@ namespace {
 
 double value(std::string_view formula, double theta) {
   return evaluate(parse(formula), {&theta, 1});
-}
-
-std::vector<std::vector<double>> random_columns(RandomStream& random, std::size_t count, std::size_t rows,
-                                                double largest) {
-  std::vector<std::vector<double>> columns(count, std::vector<double>(rows));
-  for (std::vector<double>& column : columns) {
-    for (double& entry : column) entry = random.real(-largest, largest);
-  }
-  if (rows > 0) columns.front().front() = 0.0;
-  return columns;
 }
 
 void expect_rows_like_points(RandomStream& random, const std::vector<std::vector<double>>& columns, int trees) {

@@ -3,23 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
+#include "random_columns.hpp"
 #include "random_tree.hpp"
 
 namespace demecal {
 namespace {
-
-std::vector<std::vector<double>> random_columns(RandomStream& random, std::size_t count, std::size_t rows,
-                                                double largest) {
-  std::vector<std::vector<double>> columns(count, std::vector<double>(rows));
-  for (std::vector<double>& column : columns) {
-    for (double& entry : column) entry = random.real(-largest, largest);
-  }
-  columns.front().front() = 0.0;
-  return columns;
-}
 
 // Batches bred from each other, so that they share subtrees; some formulas are dropped in between.
 void expect_batches_like_points(RandomStream& random, const std::vector<std::vector<double>>& columns,
