@@ -7,6 +7,7 @@
 #include "config/read_yaml.hpp"
 #include "errors/input_error.hpp"
 #include "expression/argument_order.hpp"
+#include "expression/folded_formula.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 
@@ -45,6 +46,7 @@ Tree read_formula(const YamlNode& node, std::span<const SharedFunction> function
 /// For people: that it is what the expression says is all that is asked of it.
 void check_calls(const YamlNode& node, const Tree& formula, const CalibratedModel& model) {
   if (!model.functions) node.fail("calls functions that the model does not define");
+  if (depth(formula) > kDeepestFolded) node.fail("stands for a formula that is too deep for calls");
   if (in_order(read_formula(node, *model.functions)) != in_order(formula))
     node.fail("is not the formula that `expression` is");
 }

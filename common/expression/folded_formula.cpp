@@ -11,7 +11,6 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kMostNames = 255;
-constexpr int kDeepestFolded = 100;  // their texts nest no deeper than can be read
 constexpr int kMostSteps =
     10'000;  // of one match: bodies from elsewhere may have arguments in more orders than can be tried
 
@@ -136,6 +135,7 @@ class Folding {
 Folding shortest_folding(std::span<const Node> tree, std::span<const SharedFunction> functions) {
   if (depth(tree) > kDeepestFolded) functions = {};
   Folding as_it_is(Tree(tree.begin(), tree.end()), functions);
+  if (functions.empty()) return as_it_is;
   Tree added = with_negatives_added(tree);
   if (std::ranges::equal(added, tree)) return as_it_is;
   Folding sums(std::move(added), functions);

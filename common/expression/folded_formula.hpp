@@ -11,6 +11,9 @@
 
 namespace demecal {
 
+/// No deeper formula is written with calls: the texts of these nest no deeper than can be read.
+inline constexpr int kDeepestFolded = 100;
+
 struct FoldedCall;
 
 /// A formula whose variables from `variables` on stand for calls: the first for calls[0].
@@ -28,7 +31,7 @@ struct FoldedCall {
 
 /// The shortest way to write a formula of `variables` variables with calls of `functions`, whatever the order of
 /// arguments that have none, and with constants either subtracted or their negatives added; without a call where none
-/// makes it shorter, or where the formula is deeper than 100.
+/// makes it shorter, or where the formula is deeper than kDeepestFolded.
 FoldedFormula folded(std::span<const Node> tree, std::span<const SharedFunction> functions, int variables = 1);
 
 /// How many nodes and calls that way has.

@@ -62,7 +62,9 @@ std::vector<Target> file_targets() {
           {"job", {kJobText, shipped("configs/jobs/demo.yaml")}, reader("job.yaml", load_job)},
           {"data_set", {files}, read_data_set},
           {"scenario", {kScenarioText, shipped("configs/scenarios/demo.yaml")}, reader("scenario.yaml", load_scenario)},
-          {"model", {shipped("tests/fuzz/seeds/model.yaml")}, reader("model.yaml", read_model)}};
+          {"model",
+           {shipped("tests/fuzz/seeds/model.yaml"), shipped("tests/fuzz/seeds/sharing-model.yaml")},
+           reader("model.yaml", read_model)}};
 }
 
 }  // namespace demecal::fuzz
