@@ -161,7 +161,8 @@ TEST(ModelFile, RefusesFunctionsAndCallsThatAreNone) {
     const auto path = folder.write("model.yaml", spoilt.replace(at, from.size(), to));
     return complaint([&] { load_model(path); });
   };
-  EXPECT_THAT(said_of("TANH(ATAN(a1))", "TANH(ATAN(a1)"), HasSubstr("shared_functions[2].definition ' TANH(ATAN(a1)': column 15"));
+  EXPECT_THAT(said_of("TANH(ATAN(a1))", "TANH(ATAN(a1)"),
+              HasSubstr("shared_functions[2].definition ' TANH(ATAN(a1)': column 15"));
   EXPECT_THAT(said_of("TANH(ATAN(a1))", "TANH(0.5 * a1)"), HasSubstr("must have no constants"));
   EXPECT_THAT(said_of("F2(a1) =", "F3(a1) ="), HasSubstr("must define F2"));
   EXPECT_THAT(said_of("with_functions: \"F1(", "with_functions: \"F3("), HasSubstr("corrections[1].with_functions"));
