@@ -68,9 +68,8 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   const auto decoys =
       std::ranges::find_if(candidates_, [](const Candidate& c) { return c.disguise != Disguise::none; });
   const auto evolved = candidates_.insert(decoys, options_.evolved.begin(), options_.evolved.end());
-  std::for_each_n(evolved, options_.evolved.size(), [&](Candidate& candidate) {
-    set_measured_ranges(candidate.effect, of_.data.robot, evidence);
-  });
+  std::for_each_n(evolved, options_.evolved.size(),
+                  [&](Candidate& candidate) { set_measured_ranges(candidate.effect, of_.data.robot, evidence); });
   const std::vector<ArmState>& states = at.fitted.states;
   const auto shuffled_approach = disguised(states, Disguise::shuffled_approach, random(1));
   const auto shuffled_heat = disguised(states, Disguise::shuffled_temperature, random(2));
