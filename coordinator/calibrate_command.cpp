@@ -5,11 +5,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/dds_arguments.hpp"
 #include "coordinator/dds_fleet.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/job_identity.hpp"
@@ -22,12 +22,11 @@ namespace {
 
 struct CalibrateRequest {
   std::string job_file, out, resume, data_file, method;
-  int workers = static_cast<int>(std::thread::hardware_concurrency());
+  FleetArguments fleet;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
-  bool quiet = false, network = false, asynchronous = false;
-  DdsOptions dds;
+  bool quiet = false, asynchronous = false;
 };
 
 Job job_of(const CalibrateRequest& request) {
@@ -50,9 +49,9 @@ void print_head(const CalibrateRequest& request, const Job& job, const DataSet& 
   }
   fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
              data.poses.size(), job.islands.per_joint, job.seed);
-  fmt::print(stderr, "  DDS domain {}, {}\n", request.dds.domain,
-             request.workers > 0 ? fmt::format("{} local workers", request.workers)
-                                 : fmt::format("waiting up to {:g} s for workers", request.worker_timeout_s));
+  fmt::print(stderr, "  DDS domain {}, {}\n", request.fleet.dds->domain,
+             request.fleet.workers > 0 ? fmt::format("{} local workers", request.fleet.workers)
+                                       : fmt::format("waiting up to {:g} s for workers", request.worker_timeout_s));
 }
 
 /// The journal of the run in its folder of results.
@@ -93,22 +92,20 @@ ExitCode run(CalibrateRequest request) {
                "--out is missing, or names another folder than --resume: a resumed run leaves its results there\n");
     return ExitCode::wrong_arguments;
   }
-  if (request.network || !request.dds.peers.empty() || !request.dds.discovery_server.empty()) {
-    request.dds.reach = DdsOptions::Reach::network;
-  }
   const Job job = job_of(request);
   const DataSet data = load_data_set(job.data_file);
   make_writable(request.out);
   print_head(request, job, data);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
-  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(request.dds, request.workers); };
+  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;
   options.quiet = request.quiet;
   options.asynchronous = request.asynchronous;
   options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
-  Chronicle chronicle(request.out, !request.resume.empty(), job.name, join_dds(request.dds, Role::herald, "chronicle"));
+  Chronicle chronicle(request.out, !request.resume.empty(), job.name,
+                      join_dds(*request.fleet.dds, Role::herald, "chronicle"));
   options.chronicle = &chronicle;
   const CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
   const RunEnd end = result.end;
@@ -116,7 +113,7 @@ ExitCode run(CalibrateRequest request) {
     chronicle.ends(LoopNews::Stage::failed, "failed: no worker came");
     fmt::print(stderr,
                "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default; {}\n",
-               request.worker_timeout_s, request.dds.domain, resuming(request));
+               request.worker_timeout_s, request.fleet.dds->domain, resuming(request));
     return ExitCode::no_worker;
   }
   const CalibrationReport report = write(request, data, result);
@@ -145,27 +142,13 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", request->out, "folder for the results (needed, unless --resume names it)");
   command->add_option("--resume", request->resume,
                       "folder of a run that was broken off: goes on from its journal, and leaves the results there");
-  command->add_option("--workers", request->workers, "local worker processes; 0 waits for workers started elsewhere")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
   command->add_option("--method", request->method, "learning method (default: the job's)")
       ->check(CLI::IsMember({"direct", "distal", "structural"}));
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--data", request->data_file, "data set in place of the job's");
-  command->add_option("--domain", request->dds.domain, "DDS domain")
-      ->envname("DEMECAL_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
-  command->add_flag("--network", request->network, "let workers on other machines join, found by multicast");
-  command->add_option("--interface", request->dds.interfaces, "addresses of the network interfaces to use");
-  command->add_option("--peer", request->dds.peers, "addresses of other hosts, where there is no multicast");
-  command->add_option("--discovery-server", request->dds.discovery_server, "ADDRESS:PORT of a discovery server");
-  command
-      ->add_option("--security", request->dds.security,
-                   "folder of certificates, from scripts/security; not with a discovery server")
-      ->excludes("--discovery-server");
+  add_fleet_arguments(*command, request->fleet);
   command
       ->add_option("--worker-timeout-s", request->worker_timeout_s,
                    "how long to be without any worker before giving up")

@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "baselines/baseline.hpp"
@@ -15,6 +14,7 @@
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/dds_arguments.hpp"
 #include "coordinator/dds_fleet.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/result_folder.hpp"
@@ -27,8 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 struct CompareRequest {
   std::string job_file, data_file, out;
-  int workers = static_cast<int>(std::thread::hardware_concurrency());
-  int domain = 0;
+  FleetArguments fleet;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   bool json = false, baselines_only = false;
@@ -89,9 +88,7 @@ int constants_in(const CalibratedModel& model) {
 }
 
 ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const Job& job, Comparison& comparison) {
-  DdsOptions dds;
-  dds.domain = request.domain;
-  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(dds, request.workers); };
+  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;
   options.quiet = request.json;
   const CalibrateResult result = calibrate(data, job, make_fleet, watch_for_interrupt(), options);
@@ -136,13 +133,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", request->out, "folder for comparison.json and this job's results");
   command->add_flag("--json", request->json, "one line of JSON");
   command->add_flag("--baselines-only", request->baselines_only, "leave out the job itself, which takes longest");
-  command->add_option("--workers", request->workers, "local worker processes")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->add_option("--domain", request->domain, "DDS domain")
-      ->envname("DEMECAL_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  add_fleet_arguments(*command, request->fleet);
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);

@@ -23,4 +23,11 @@ std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
   return dds;
 }
 
+void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
+  command.add_option("--workers", fleet.workers, "local worker processes; 0 waits for workers started elsewhere")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  fleet.dds = add_dds_arguments(command);
+}
+
 }  // namespace demecal

@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "config/files.hpp"
 #include "config/load_data_set.hpp"
 #include "config/study_grid.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/dds_arguments.hpp"
 #include "coordinator/dds_fleet.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/result_folder.hpp"
@@ -28,8 +28,7 @@ struct StudyRequest {
   std::vector<std::string> set;
   int seeds = 6;
   std::optional<std::uint64_t> seed;
-  int workers = static_cast<int>(std::thread::hardware_concurrency());
-  int domain = 0;
+  FleetArguments fleet;
   std::size_t blocks = 12;
   bool closed_loop = false, json = false, quiet = false;
 };
@@ -97,7 +96,7 @@ ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) 
   }
   if (end == RunEnd::no_worker) {
     fmt::print(stderr, "no worker came: start `demecal-worker --domain {}`, or leave --workers at its default\n",
-               request.domain);
+               request.fleet.dds->domain);
     return ExitCode::no_worker;
   }
   return study.interrupted ? ExitCode::interrupted : ExitCode::done;
@@ -110,9 +109,7 @@ ExitCode run(const StudyRequest& request) {
   const DataSet data = load_data_set(data_file);
   make_writable(request.out);
   Study study = study_of(request, axes, cells, data);
-  DdsOptions dds;
-  dds.domain = request.domain;
-  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(dds, request.workers); };
+  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;
   options.quiet = true;
   const auto on_run = [&](const StudyOutcome& reached) {
@@ -165,13 +162,7 @@ void add_study(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--json", request->json, "one line of JSON");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
-  command->add_option("--workers", request->workers, "local worker processes; 0 waits for workers started elsewhere")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->add_option("--domain", request->domain, "DDS domain")
-      ->envname("DEMECAL_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  add_fleet_arguments(*command, request->fleet);
   command->callback([request, &exit_code] { exit_code = run_or_refuse(*request); });
 }
 
