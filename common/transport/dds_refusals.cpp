@@ -37,7 +37,7 @@ void Refusals::on_participant_discovery(dds::DomainParticipant*, rtps::Participa
   const bool settled = !secured_ && !certified;
   const std::string name = printable(found.info.m_participantName.to_string());
   Other& other =
-      others_.try_emplace(found.info.m_guid, name, place_of(found.info), Clock::now(), settled).first->second;
+      others_.try_emplace(found.info.m_guid, Other{name, place_of(found.info), Clock::now(), settled}).first->second;
   if (secured_ && !certified) tell(other, "is refused: it shows no certificate");
   if (!secured_ && certified)
     tell(other, "does not talk to this one: it demands a certificate, which --security would show");

@@ -13,6 +13,8 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 
 constexpr std::size_t kMostOver = 64;
+/// A task that waits longer goes all the same.
+constexpr std::chrono::milliseconds kLongestHold{300};
 /// What is larger travels in parts.
 constexpr std::size_t kDatagram_bytes = 60'000;
 
@@ -60,19 +62,23 @@ void DdsWriters::send(const Message& message) {
 }
 
 bool DdsWriters::hold(const TopicKey& key, const Message& message) {
-  if (key.topic != Topic::checkpoint) return false;
-  std::unique_lock lock(mutex_);
-  const auto travels_in_parts = [&key](const Values& values) {
-    const auto last = values.find(key);
-    return last != values.end() && last->second;
-  };
-  const bool in_parts = travels_in_parts(published_) || travels_in_parts(ended_);
-  lock.unlock();
-  const bool must_wait = in_parts && !have_arrived(place_of(key));
-  lock.lock();
+  if (key.topic != Topic::checkpoint && key.topic != Topic::task) return false;
+  const bool must_wait = !may_replace(key);
+  const std::lock_guard lock(mutex_);
   held_.erase(key);
   if (must_wait) held_.emplace(key, message);
   return must_wait;
+}
+
+bool DdsWriters::may_replace(const TopicKey& key) {
+  Value last;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Values* values : {&published_, &ended_})
+      if (const auto found = values->find(key); found != values->end()) last = found->second;
+  }
+  const bool is_late = key.topic == Topic::task && std::chrono::steady_clock::now() - last.written >= kLongestHold;
+  return !last.in_parts || is_late || have_arrived(place_of(key));
 }
 
 void DdsWriters::write(const TopicKey& key, const Message& message) {
@@ -86,9 +92,9 @@ void DdsWriters::write(const TopicKey& key, const Message& message) {
   if (key.run == 0 || key.topic == Topic::control) return;
   const std::lock_guard lock(mutex_);
   if (std::ranges::find(over_, key.run) == over_.end()) {
-    published_[key] = in_parts;
+    published_[key] = {in_parts, std::chrono::steady_clock::now()};
   } else {
-    ended_[key] = true;  // a last word, which goes again when it has arrived
+    ended_[key] = {true, std::chrono::steady_clock::now()};  // a last word, which goes again when it has arrived
   }
 }
 
@@ -118,21 +124,23 @@ bool DdsWriters::catch_up() {
   std::map<TopicKey, Message> held = std::exchange(held_, {});
   Values ended = std::exchange(ended_, {});
   lock.unlock();
-  const bool ready = !held.empty() && have_arrived({Topic::checkpoint, 0});
-  if (ready)
-    for (const auto& [key, message] : held) write(key, message);
+  const std::size_t sent = std::erase_if(held, [this](const auto& waiting) {
+    if (!may_replace(waiting.first)) return false;
+    write(waiting.first, waiting.second);
+    return true;
+  });
   Values waiting = withdraw_arrived(std::move(ended));
   lock.lock();
-  if (!ready) held_.merge(held);
+  held_.merge(held);
   ended_.merge(waiting);
-  return ready;
+  return sent > 0;
 }
 
 /// Returns those that have to wait: who is told of an instance's end together with samples from before it loops for
 /// ever where the writer has said more since (Fast DDS 2.9, StatefulWriter::check_acked_status).
 DdsWriters::Values DdsWriters::withdraw_arrived(Values ended) {
   std::map<Place, bool> arrived;
-  for (const auto& [key, in_parts] : ended)
+  for (const auto& [key, value] : ended)
     if (!arrived.contains(place_of(key))) arrived[place_of(key)] = have_arrived(place_of(key));
   std::erase_if(ended, [&](const auto& value) {
     const TopicKey& key = value.first;
