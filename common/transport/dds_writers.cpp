@@ -15,6 +15,9 @@ namespace dds = eprosima::fastdds::dds;
 constexpr std::size_t kMostOver = 64;
 /// A task that waits longer goes all the same.
 constexpr std::chrono::milliseconds kLongestHold{300};
+/// So long after a run's end its last words may still be said. A reader aborts where more is said of an instance that
+/// was withdrawn (Fast DDS 2.9, DataReaderHistory::update_instance_nts).
+constexpr std::chrono::milliseconds kLastWords{1000};
 /// What is larger travels in parts.
 constexpr std::size_t kDatagram_bytes = 60'000;
 
@@ -58,6 +61,11 @@ std::vector<std::pair<Topic, dds::DataWriter*>> DdsWriters::all() {
 
 void DdsWriters::send(const Message& message) {
   const TopicKey key = key_of(message);
+  if (key.topic != Topic::control) {
+    const std::lock_guard lock(mutex_);
+    const std::optional<Time> end = end_of(key.run);
+    if (end && std::chrono::steady_clock::now() - *end >= kLastWords) return;
+  }
   if (!hold(key, message)) write(key, message);
 }
 
@@ -91,11 +99,7 @@ void DdsWriters::write(const TopicKey& key, const Message& message) {
   if (!written) throw std::runtime_error("DDS: cannot write to " + topic_name(key.topic, key.island.joint));
   if (key.run == 0 || key.topic == Topic::control) return;
   const std::lock_guard lock(mutex_);
-  if (std::ranges::find(over_, key.run) == over_.end()) {
-    published_[key] = {in_parts, std::chrono::steady_clock::now()};
-  } else {
-    ended_[key] = {true, std::chrono::steady_clock::now()};  // a last word, which goes again when it has arrived
-  }
+  (end_of(key.run) ? ended_ : published_)[key] = {in_parts, std::chrono::steady_clock::now()};
 }
 
 /// Whether all this place's values have reached all who read them. To ask for one key alone would not do, since Fast
@@ -107,7 +111,8 @@ bool DdsWriters::have_arrived(Place place) {
 void DdsWriters::withdraw(RunId run) {
   {
     const std::lock_guard lock(mutex_);
-    over_.push_back(run);
+    if (end_of(run)) return;
+    over_.emplace_back(run, std::chrono::steady_clock::now());
     if (over_.size() > kMostOver) over_.pop_front();
     std::erase_if(published_, [&](const auto& value) {
       if (value.first.run != run) return false;
@@ -116,13 +121,28 @@ void DdsWriters::withdraw(RunId run) {
     });
     std::erase_if(held_, [run](const auto& held) { return held.first.run == run; });
   }
-  catch_up();
+}
+
+/// When it ended; nothing where it goes on, or ended long ago.
+std::optional<DdsWriters::Time> DdsWriters::end_of(RunId run) const {
+  const auto found = std::ranges::find(over_, run, &std::pair<RunId, Time>::first);
+  return found != over_.end() ? std::optional(found->second) : std::nullopt;
 }
 
 bool DdsWriters::catch_up() {
   std::unique_lock lock(mutex_);
   std::map<TopicKey, Message> held = std::exchange(held_, {});
-  Values ended = std::exchange(ended_, {});
+  Values ended, lately;
+  const Time before = std::chrono::steady_clock::now() - kLastWords;
+  for (const auto& [key, value] : std::exchange(ended_, {})) {
+    const std::optional<Time> end = end_of(key.run);
+    (end && *end > before ? lately : ended).emplace(key, value);
+  }
+  ended_ = std::move(lately);
+  std::erase_if(held, [&](const auto& waiting) {
+    const std::optional<Time> end = end_of(waiting.first.run);
+    return end && *end <= before;
+  });
   lock.unlock();
   const std::size_t sent = std::erase_if(held, [this](const auto& waiting) {
     if (!may_replace(waiting.first)) return false;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,8 @@ class DdsWriters {
   /// Publishes, or has a checkpoint or task wait for catch_up(), in place of an older one that does. Throws
   /// std::runtime_error where Fast DDS refuses.
   void send(const Message& message);
-  /// Takes back what was said of this run, the Control apart: now, or in catch_up() as soon as that may be.
+  /// Takes back what was said of this run, the Control apart, in catch_up(): when its last words must have been said
+  /// and as soon as that may be. What is said of it after that is not sent.
   void withdraw(RunId run);
   /// Sends and withdraws what had to wait and no longer has to; whether anything was sent. To be called now and then.
   bool catch_up();
@@ -48,15 +50,15 @@ class DdsWriters {
   void write(const TopicKey& key, const Message& message);
   bool have_arrived(Place place);
   bool may_replace(const TopicKey& key);
+  std::optional<Time> end_of(RunId run) const;
   Values withdraw_arrived(Values ended);
 
   std::mutex mutex_;
   std::map<Place, Owned<eprosima::fastdds::dds::DataWriter>> writers_;
-  Values published_;                  ///< those of runs that go on
-  Values ended_;                      ///< those of runs that are over
-  std::map<TopicKey, Message> held_;  ///< those that wait
-  std::deque<RunId> over_;  ///< the last ones that were taken back: what is still said of them goes when it has
-                            ///< arrived
+  Values published_;                         ///< those of runs that go on
+  Values ended_;                             ///< those of runs that are over
+  std::map<TopicKey, Message> held_;         ///< those that wait
+  std::deque<std::pair<RunId, Time>> over_;  ///< the last ones that ended, and when
 };
 
 }  // namespace demecal

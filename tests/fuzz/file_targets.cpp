@@ -4,9 +4,12 @@
 #include "../config/temporary_folder.hpp"
 #include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
+#include "config/load_matrices.hpp"
+#include "config/load_preparation.hpp"
 #include "config/load_robot.hpp"
 #include "config/load_scenario.hpp"
 #include "config/model_text.hpp"
+#include "config/study_grid.hpp"
 #include "errors/input_error.hpp"
 #include "targets.hpp"
 
@@ -32,17 +35,38 @@ std::function<void(std::string_view)> reader(const std::string& name, Load load)
 
 constexpr std::string_view kNextFile = "\n# next file\n";
 
-/// Data set, robot and poses, one after the other.
-void read_data_set(std::string_view bytes) {
-  for (const std::string name : {"dataset.yaml", "robot.yaml", "poses.csv"}) {
+/// Writes files that follow each other in the bytes.
+void write_files(std::string_view bytes, const std::vector<std::string>& names) {
+  folder().write("robot.yaml", kRobotText);
+  for (const std::string& name : names) {
     const std::size_t size = std::min(bytes.size(), bytes.find(kNextFile));
     folder().write(name, std::string(bytes.substr(0, size)));
     bytes.remove_prefix(std::min(bytes.size(), size + kNextFile.size()));
   }
+}
+
+void read_data_set(std::string_view bytes) {
+  write_files(bytes, {"dataset.yaml", "robot.yaml", "poses.csv"});
   try {
     load_data_set(folder().path() / "dataset.yaml");
   } catch (const InputError&) {
   }
+}
+
+const std::vector<std::string> kPreparation{"preparation.yaml", "calibration.csv", "calibration.v2", "validation.csv",
+                                            "validation.v2",    "local-frame.csv", "local-frame.v2"};
+
+void read_preparation(std::string_view bytes) {
+  write_files(bytes, kPreparation);
+  try {
+    load_preparation(folder().path() / kPreparation.front());
+  } catch (const InputError&) {
+  }
+}
+
+void read_matrices(const std::filesystem::path& path) {
+  Algebra algebra;
+  load_matrices(algebra, path);
 }
 
 void read_model(const std::filesystem::path& path) {
@@ -54,6 +78,15 @@ std::string shipped(const std::string& path) {
   return read_file(std::string(DEMECAL_SOURCE_DIR) + "/" + path);
 }
 
+std::string shipped_preparation() {
+  std::string all = shipped("configs/preparation/puma761-cords.yaml");
+  const std::string robot = "../robots/puma761.yaml";
+  all.replace(all.find(robot), robot.size(), "robot.yaml");
+  for (std::size_t i = 1; i < kPreparation.size(); ++i)
+    all += std::string(kNextFile) + shipped("configs/preparation/" + kPreparation[i]);
+  return all;
+}
+
 }  // namespace
 
 std::vector<Target> file_targets() {
@@ -62,6 +95,9 @@ std::vector<Target> file_targets() {
           {"job", {kJobText, shipped("configs/jobs/demo.yaml")}, reader("job.yaml", load_job)},
           {"data_set", {files}, read_data_set},
           {"scenario", {kScenarioText, shipped("configs/scenarios/demo.yaml")}, reader("scenario.yaml", load_scenario)},
+          {"preparation", {shipped_preparation()}, read_preparation},
+          {"matrices", {shipped("configs/matrices/puma761.yaml")}, reader("matrices.yaml", read_matrices)},
+          {"grid", {shipped("configs/grids/search.yaml")}, reader("grid.yaml", load_grid)},
           {"model",
            {shipped("tests/fuzz/seeds/model.yaml"), shipped("tests/fuzz/seeds/sharing-model.yaml")},
            reader("model.yaml", read_model)}};

@@ -7,7 +7,7 @@ namespace demecal::fuzz {
 
 std::vector<Target> targets() {
   std::vector<Target> all = wire_targets();
-  for (auto more : {text_targets(), file_targets()}) all.insert(all.end(), more.begin(), more.end());
+  for (auto more : {text_targets(), file_targets(), program_targets()}) all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
