@@ -19,19 +19,6 @@ Job small_job() {
   return job;
 }
 
-std::vector<JointTraining> small_training() {
-  std::vector<JointTraining> training;
-  const CalibrationData data = small_run(8);
-  for (std::size_t i = 0; i < data.tables.size(); ++i) {
-    training.push_back({.joint = data.archipelago.joints[i],
-                        .table = data.tables[i],
-                        .scale_rad = 1.0,
-                        .range_rad = {},
-                        .branch = {}});
-  }
-  return training;
-}
-
 CalibrateOptions quiet_options() {
   CalibrateOptions options;
   options.quiet = true;

@@ -84,19 +84,6 @@ Job short_job() {
   return job;
 }
 
-std::vector<JointTraining> short_training() {
-  std::vector<JointTraining> training;
-  const CalibrationData data = small_run(8);
-  for (std::size_t i = 0; i < data.tables.size(); ++i) {
-    training.push_back({.joint = data.archipelago.joints[i],
-                        .table = data.tables[i],
-                        .scale_rad = 1.0,
-                        .range_rad = {},
-                        .branch = {}});
-  }
-  return training;
-}
-
 constexpr int kEvolutions = 4;
 
 /// The fronts of some evolutions, one after the other, with `between` before each but the first.
@@ -111,7 +98,7 @@ std::vector<Population> fronts_of_all(Hosts& hosts, const std::function<void()>&
   std::vector<Population> fronts;
   for (int i = 0; i < kEvolutions; ++i) {
     if (i > 0) between();
-    for (auto& joint : evolutions.run(short_training(), {static_cast<std::uint64_t>(i), 40}))
+    for (auto& joint : evolutions.run(small_training(), {static_cast<std::uint64_t>(i), 40}))
       fronts.push_back(std::move(joint.front));
     EXPECT_EQ(evolutions.end(), RunEnd::finished);
   }

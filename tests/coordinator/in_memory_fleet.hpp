@@ -29,6 +29,20 @@ class InMemoryFleet : public Fleet {
   std::vector<std::unique_ptr<WorkerThread>> threads_;
 };
 
+/// What the joints of small_run(8) learn from.
+inline std::vector<JointTraining> small_training() {
+  std::vector<JointTraining> training;
+  const CalibrationData data = small_run(8);
+  for (std::size_t i = 0; i < data.tables.size(); ++i) {
+    training.push_back({.joint = data.archipelago.joints[i],
+                        .table = data.tables[i],
+                        .scale_rad = 1.0,
+                        .range_rad = {},
+                        .branch = {}});
+  }
+  return training;
+}
+
 /// The whole calibration of `data`, without files and processes.
 inline CalibrateResult calibrate_in_memory(const DataSet& data, const Job& job, int workers = 2) {
   const std::atomic<bool> interrupt{false};
