@@ -156,12 +156,12 @@ TEST(Code, InPythonAgreesWithTheModel) {
 }
 
 TEST(Code, InMatlabAgreesWithTheModelWhereOctaveRunsIt) {
-  if (!there_is("octave")) GTEST_SKIP() << "there is no octave; the next test reads the file";
+  if (!there_is("octave")) GTEST_SKIP() << "there is no octave";
   const Judged judged = judged_arm();
   std::ostringstream main;
   main << "for q = [";
-  for (const JointVector& q : judged.stops) main << numbers(q, ";") << ",\n";
-  main << "]\n  [pose, h] = forward(q);\n  printf('%.17g ', pose'(:), h);\nend\n";
+  for (const JointVector& q : judged.stops) main << numbers(q, ", ") << '\n';
+  main << "]'\n  [pose, h] = forward(q);\n  printf('%.17g ', pose', h);\nend\n";
   const Folder folder;
   folder.write("forward.m", code_in(judged.robot, CodeLanguage::matlab));
   folder.write("judge.m", main.str());
