@@ -53,7 +53,7 @@ class DdsTransport final : public Transport {
   std::uint64_t dropped() const override { return inbox_.dropped.count(); }
 
  private:
-  void join_topic(DdsWriters::Place place);
+  void join_topic(DdsWriters::Channel channel);
   bool wait_for_acknowledgments(steady_clock::time_point deadline);
   void note_status(const WorkerStatus& status);
   std::optional<WorkerStatus> status_due();
@@ -65,25 +65,25 @@ class DdsTransport final : public Transport {
   DdsParticipant participant_;
   DdsWriters writers_;
   std::mutex mutex_;  ///< guards what follows
-  std::map<DdsWriters::Place, Owned<dds::DataReader>> readers_;
+  std::map<DdsWriters::Channel, Owned<dds::DataReader>> readers_;
   std::optional<WorkerStatus> status_;  ///< the last one published
   steady_clock::time_point status_published_;
 };
 
-void DdsTransport::join_topic(DdsWriters::Place place) {
-  const auto [topic, joint] = place;
+void DdsTransport::join_topic(DdsWriters::Channel channel) {
+  const auto [topic, joint] = channel;
   if (reads(role_, topic)) {
     receivers_.push_back(make_receiver(topic, inbox_));
-    readers_.emplace(place,
+    readers_.emplace(channel,
                      participant_.make_reader(topic, joint, receivers_.back().get(), reads_reliably(role_, topic)));
   }
-  if (writes(role_, topic)) writers_.add(place, participant_.make_writer(topic, joint));
+  if (writes(role_, topic)) writers_.add(channel, participant_.make_writer(topic, joint));
 }
 
 void DdsTransport::follow_migrants(std::uint32_t joint) {
   const std::lock_guard lock(mutex_);
-  const DdsWriters::Place place{Topic::migrants, joint};
-  if (!readers_.contains(place)) join_topic(place);
+  const DdsWriters::Channel channel{Topic::migrants, joint};
+  if (!readers_.contains(channel)) join_topic(channel);
 }
 
 void DdsTransport::publish(const Message& message) {

@@ -25,19 +25,13 @@ void set_both_ends(Qos& qos, Topic topic) {
   qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
   qos.resource_limits() = no_limits();
   qos.data_sharing().off();
-  // The dynamic policies cannot receive what is withdrawn: such samples are empty, and all later ones would wait for
-  // them.
+  // The dynamic policies cannot receive a disposal, which is an empty sample: all later ones of its writer would wait.
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   if (topic == Topic::worker) {
     qos.liveliness().kind = dds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
     qos.liveliness().lease_duration = dds_duration(kLease);
     qos.liveliness().announcement_period = dds_duration(kLease / 3);
   }
-}
-
-/// Whether bounds on its texts keep every message below a datagram's size.
-bool is_always_small(Topic topic) {
-  return topic == Topic::progress || topic == Topic::control || topic == Topic::worker || topic == Topic::loop;
 }
 
 }  // namespace
@@ -49,34 +43,34 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/4/data";
+      return "demecal/5/data";
     case Topic::task:
-      return "demecal/4/task";
+      return "demecal/5/task";
     case Topic::control:
-      return "demecal/4/control";
+      return "demecal/5/control";
     case Topic::migrants:
-      return "demecal/4/migrants/" + std::to_string(joint + 1);
+      return "demecal/5/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/4/progress";
+      return "demecal/5/progress";
     case Topic::checkpoint:
-      return "demecal/4/checkpoint";
+      return "demecal/5/checkpoint";
     case Topic::outcome:
-      return "demecal/4/outcome";
+      return "demecal/5/outcome";
     case Topic::loop:
-      return "demecal/4/loop";
+      return "demecal/5/loop";
     case Topic::worker:
       break;
   }
-  return "demecal/4/worker";
+  return "demecal/5/worker";
 }
 
 dds::DataWriterQos writer_qos(Topic topic) {
   dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
   set_both_ends(qos, topic);
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = values_kept(topic);
-  // Messages that may be larger than a datagram need the sending thread, which costs more.
-  qos.publish_mode().kind = is_always_small(topic) ? dds::SYNCHRONOUS_PUBLISH_MODE : dds::ASYNCHRONOUS_PUBLISH_MODE;
+  qos.history().depth = 1;
+  // Every sample fits into a datagram: a thread that sends them in pieces would only cost.
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kHeartbeat);
   return qos;
 }

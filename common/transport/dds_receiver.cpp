@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <mutex>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "transport/message_bytes.hpp"
+#include "transport/parts.hpp"
 #include "transport/wire_form.hpp"
 
 namespace demecal {
@@ -12,6 +17,7 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
+using eprosima::fastrtps::rtps::SequenceNumber_t;
 
 WriterId writer_id(const InstanceHandle_t& publication) {
   WriterId id{};
@@ -19,27 +25,38 @@ WriterId writer_id(const InstanceHandle_t& publication) {
   return id;
 }
 
-template <class Wire>
-class Receiver : public dds::DataReaderListener {
+/// Who puts what a reader heard where it belongs.
+class Delivery : public dds::DataReaderListener {
  public:
-  explicit Receiver(Inbox& inbox) : inbox_(inbox) {}
-
-  void on_data_available(dds::DataReader* reader) override {
-    Wire sample;
-    dds::SampleInfo info;
-    while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
-      if (!info.valid_data || inbox_.is_own(info.publication_handle)) continue;
-      const WriterId writer = writer_id(info.publication_handle);
-      auto message = decode(sample);
-      if (message) {
-        deliver(std::move(*message), writer);
-      } else {
-        drop(writer, "it cannot be read");
-      }
-    }
-  }
+  explicit Delivery(Inbox& inbox) : inbox_(inbox) {}
 
  protected:
+  /// Calls `use(sample, writer)` with all that have come, each writer's in the order in which it wrote them: Fast DDS
+  /// hands them over instance by instance.
+  template <class Wire, class Use>
+  void take_all(dds::DataReader& reader, Use use) {
+    struct Taken {
+      WriterId writer;
+      SequenceNumber_t number;
+      Wire sample;
+    };
+    std::vector<Taken> all;
+    Wire sample;
+    dds::SampleInfo info;
+    while (reader.take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK)
+      if (info.valid_data && !inbox_.is_own(info.publication_handle))
+        all.push_back({writer_id(info.publication_handle), info.sample_identity.sequence_number(), std::move(sample)});
+    std::ranges::sort(all, [](const Taken& a, const Taken& b) {
+      return a.writer != b.writer ? a.writer < b.writer : a.number < b.number;
+    });
+    for (Taken& taken : all) use(std::move(taken.sample), taken.writer);
+  }
+
+  template <class Plain>
+  void deliver(std::optional<Plain> message, const WriterId& writer) {
+    if (!message) return drop(writer, "it cannot be read");
+    deliver(std::move(*message), writer);
+  }
   template <class Plain>
   void deliver(Plain message, const WriterId& writer) {
     const ParticipantId source = participant_of(writer);
@@ -56,6 +73,10 @@ class Receiver : public dds::DataReaderListener {
     } else if (!inbox_.mailbox.put(source, std::move(message))) {
       drop(writer, "more than can be kept");
     }
+  }
+
+  void drop(const WriterId& writer, const std::string& why) {
+    inbox_.dropped.note(inbox_.name_of(participant_of(writer)), why);
   }
 
   Inbox& inbox_;
@@ -75,20 +96,60 @@ class Receiver : public dds::DataReaderListener {
   bool is_for_another(const Plain& message) const {
     return inbox_.role == Role::coordinator && shows_publisher(message.run) && !may_publish(inbox_.id, message.run);
   }
+};
 
-  void drop(const WriterId& writer, const std::string& why) {
-    inbox_.dropped.note(inbox_.name_of(participant_of(writer)), why);
+template <class Wire>
+class Receiver : public Delivery {
+ public:
+  using Delivery::Delivery;
+
+  void on_data_available(dds::DataReader* reader) override {
+    take_all<Wire>(*reader, [this](Wire&& sample, const WriterId& writer) { deliver(decode(sample), writer); });
   }
 };
 
-/// Hears also of those whose writer of data goes.
-class DataReceiver final : public Receiver<wire::CalibrationData> {
+/// Hears messages in parts.
+template <class Plain>
+class PartsReceiver : public Delivery {
  public:
-  using Receiver::Receiver;
+  using Delivery::Delivery;
+
+  void on_data_available(dds::DataReader* reader) override {
+    take_all<wire::Part>(*reader, [this](wire::Part&& part, const WriterId& writer) { take(std::move(part), writer); });
+  }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
-    const WriterId writer = writer_id(status.last_publication_handle);
-    if (status.current_count_change < 0) inbox_.owners.departed(participant_of(writer));
+    if (status.current_count_change >= 0) return;
+    const std::lock_guard lock(mutex_);
+    assembly_.departed(writer_id(status.last_publication_handle));
+  }
+
+ private:
+  void take(wire::Part part, const WriterId& writer) {
+    Assembly::Result result;
+    {
+      const std::lock_guard lock(mutex_);
+      result = assembly_.take(writer, std::move(part));
+    }
+    using enum Assembly::Verdict;
+    if (result.verdict == whole) return deliver(message_of<Plain>(result.bytes), writer);
+    if (result.verdict == malformed) return drop(writer, "it cannot be read");
+    if (result.verdict == too_much) drop(writer, "more than can be kept");
+  }
+
+  std::mutex mutex_;
+  Assembly assembly_;
+};
+
+/// Hears also of those whose writer of data goes.
+class DataReceiver final : public PartsReceiver<CalibrationData> {
+ public:
+  using PartsReceiver::PartsReceiver;
+
+  void on_subscription_matched(dds::DataReader* reader, const dds::SubscriptionMatchedStatus& status) override {
+    PartsReceiver::on_subscription_matched(reader, status);
+    if (status.current_count_change < 0)
+      inbox_.owners.departed(participant_of(writer_id(status.last_publication_handle)));
   }
 };
 
@@ -125,17 +186,17 @@ std::unique_ptr<dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox
     case Topic::data:
       return std::make_unique<DataReceiver>(inbox);
     case Topic::task:
-      return std::make_unique<Receiver<wire::IslandTask>>(inbox);
+      return std::make_unique<PartsReceiver<IslandTask>>(inbox);
     case Topic::control:
       return std::make_unique<Receiver<wire::Control>>(inbox);
     case Topic::migrants:
-      return std::make_unique<Receiver<wire::Migrants>>(inbox);
+      return std::make_unique<PartsReceiver<Migrants>>(inbox);
     case Topic::progress:
-      return std::make_unique<Receiver<wire::Progress>>(inbox);
+      return std::make_unique<PartsReceiver<Progress>>(inbox);
     case Topic::checkpoint:
-      return std::make_unique<Receiver<wire::Checkpoint>>(inbox);
+      return std::make_unique<PartsReceiver<Checkpoint>>(inbox);
     case Topic::outcome:
-      return std::make_unique<Receiver<wire::Outcome>>(inbox);
+      return std::make_unique<PartsReceiver<Outcome>>(inbox);
     case Topic::loop:
       return std::make_unique<LoopReceiver>(inbox);
     case Topic::worker:

@@ -60,26 +60,9 @@ dds::TypeSupport wary() {
 }  // namespace
 
 dds::TypeSupport topic_type(Topic topic) {
-  switch (topic) {
-    case Topic::data:
-      return wary<wire::CalibrationDataPubSubType>();
-    case Topic::task:
-      return wary<wire::IslandTaskPubSubType>();
-    case Topic::control:
-      return wary<wire::ControlPubSubType>();
-    case Topic::migrants:
-      return wary<wire::MigrantsPubSubType>();
-    case Topic::progress:
-      return wary<wire::ProgressPubSubType>();
-    case Topic::checkpoint:
-      return wary<wire::CheckpointPubSubType>();
-    case Topic::outcome:
-      return wary<wire::OutcomePubSubType>();
-    case Topic::loop:
-      return wary<wire::LoopNewsPubSubType>();
-    case Topic::worker:
-      break;
-  }
+  if (ends_with_run(topic)) return wary<wire::PartPubSubType>();
+  if (topic == Topic::control) return wary<wire::ControlPubSubType>();
+  if (topic == Topic::loop) return wary<wire::LoopNewsPubSubType>();
   return wary<wire::WorkerStatusPubSubType>();
 }
 

@@ -25,14 +25,6 @@ struct KeyOf {
   }
 };
 
-template <class Plain>
-Message with_key(const TopicKey& key) {
-  Plain message;
-  message.run = key.run;
-  if constexpr (requires { message.island; }) message.island = key.island;
-  return message;
-}
-
 }  // namespace
 
 TopicKey key_of(const Message& message) {
@@ -45,36 +37,6 @@ bool is_sent(const Message& message) {
 
 Topic topic_of(const Message& message) {
   return key_of(message).topic;
-}
-
-Message empty_message(const TopicKey& key) {
-  switch (key.topic) {
-    case Topic::data:
-      return with_key<CalibrationData>(key);
-    case Topic::task:
-      return with_key<IslandTask>(key);
-    case Topic::control:
-      return with_key<Control>(key);
-    case Topic::migrants:
-      return with_key<Migrants>(key);
-    case Topic::progress:
-      return with_key<Progress>(key);
-    case Topic::checkpoint:
-      return with_key<Checkpoint>(key);
-    case Topic::outcome:
-      return with_key<Outcome>(key);
-    case Topic::loop: {
-      LoopNews news;
-      news.calibration = key.calibration;
-      news.round = key.round;
-      return news;
-    }
-    case Topic::worker:
-      break;
-  }
-  WorkerStatus status;
-  status.worker = key.worker;
-  return status;
 }
 
 bool writes(Role role, Topic topic) {
@@ -112,6 +74,10 @@ bool reads_reliably(Role role, Topic topic) {
 
 bool is_awaited(Topic topic) {
   return topic != Topic::data && topic != Topic::progress && topic != Topic::loop;
+}
+
+bool ends_with_run(Topic topic) {
+  return topic != Topic::control && topic != Topic::worker && topic != Topic::loop;
 }
 
 int values_kept(Topic topic) {

@@ -36,8 +36,8 @@ struct TopicKey {
   auto operator<=>(const TopicKey&) const = default;
 };
 TopicKey key_of(const Message& message);
-/// A message with this key and nothing else: what withdraws the key's value.
-Message empty_message(const TopicKey& key);
+/// Whether what is said there concerns a run, and is over with it; Control, which says so, apart.
+bool ends_with_run(Topic topic);
 
 /// How many of a key's values wait for those who come late.
 int values_kept(Topic topic);

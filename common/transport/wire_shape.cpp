@@ -20,6 +20,8 @@ const std::string kState = "4488" + kIndividuals + kIndividuals + "4";
 template <class Wire>
 const std::string kShape;
 template <>
+const std::string kShape<wire::Part> = "4448[1]";
+template <>
 const std::string kShape<wire::CalibrationData> = "8$255,8" + kParameters + kArchipelago + kTables;
 template <>
 const std::string kShape<wire::IslandTask> = "8444$255," + kState + kRecent;
@@ -143,6 +145,7 @@ bool has_shape(std::string_view bytes, Endian endian) {
   return comparison.take(shape) && comparison.left() <= kFilling;
 }
 
+template bool has_shape<wire::Part>(std::string_view, Endian);
 template bool has_shape<wire::CalibrationData>(std::string_view, Endian);
 template bool has_shape<wire::IslandTask>(std::string_view, Endian);
 template bool has_shape<wire::Migrants>(std::string_view, Endian);

@@ -1,3 +1,5 @@
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
 #include <cstring>
 
 #include "../protocol/small_run.hpp"
@@ -11,6 +13,7 @@
 #include "targets.hpp"
 #include "transport/dds_types.hpp"
 #include "transport/message_bytes.hpp"
+#include "transport/parts.hpp"
 #include "transport/wire_form.hpp"
 #include "worker/tenancy.hpp"
 
@@ -87,37 +90,91 @@ void use(const LoopNews& news) {
   demand(is_printable(news.text) && is_printable(news.label), "printable");
 }
 
+template <class Plain>
+void use_decoded(const Plain& message) {
+  // To the bit, since a number that is none equals nothing.
+  demand(to_bytes(message) == to_bytes(*message_of<Plain>(to_bytes(message))),
+         "what was decoded comes back from its bytes");
+  use(message);
+  Watched watched;
+  watched.take(message, 1.0);
+  event_line(message, 1.0);
+}
+
 /// As Fast DDS hands it over, little endian or big as the bytes say.
 template <class Wire>
-void read_sample(Topic topic, std::string_view bytes) {
+Wire sample_from(Topic topic, std::string_view bytes) {
   static const auto type = topic_type(topic);
   eprosima::fastrtps::rtps::SerializedPayload_t payload(static_cast<std::uint32_t>(bytes.size() + 1));
   std::memcpy(payload.data, bytes.data(), bytes.size());
   payload.length = static_cast<std::uint32_t>(bytes.size());
   Wire sample;
   demand(type.get()->deserialize(&payload, &sample), "a sample is read, or is empty");
-  const auto message = decode(sample);
-  if (!message) return;
-  // To the bit, since a number that is none equals nothing.
-  demand(to_bytes(*message) == to_bytes(*message_of<std::decay_t<decltype(*message)>>(to_bytes(*message))),
-         "what was decoded comes back from its bytes");
-  use(*message);
-  Watched watched;
-  watched.take(*message, 1.0);
-  event_line(*message, 1.0);
+  return sample;
 }
 
-/// Behind the encapsulation that says little endian.
-template <class Plain>
-std::string sample_of(const Plain& message) {
-  return std::string("\0\1\0\0", 4) + to_bytes(message);
+std::string encapsulated(const std::string& content) {
+  return std::string("\0\1\0\0", 4) + content;
 }
 
+/// Of a message that is a sample.
 template <class Plain>
-Target target(const std::string& name, Topic topic, const std::vector<Plain>& messages) {
-  Target made{name, {}, [topic](std::string_view bytes) { read_sample<decltype(encode(Plain{}))>(topic, bytes); }};
-  for (const Plain& message : messages) made.seeds.push_back(sample_of(message));
+Target sample_target(const std::string& name, Topic topic, const Plain& message) {
+  return {name, {encapsulated(to_bytes(message))}, [topic](std::string_view bytes) {
+            if (const auto read = decode(sample_from<decltype(encode(Plain{}))>(topic, bytes))) use_decoded(*read);
+          }};
+}
+
+/// Of a message that travels in parts, when these have been put together.
+template <class Plain>
+Target target(const std::string& name, const std::vector<Plain>& messages) {
+  Target made{name, {}, [](std::string_view bytes) {
+                if (const auto read = message_of<Plain>(bytes)) use_decoded(*read);
+              }};
+  for (const Plain& message : messages) made.seeds.push_back(to_bytes(message));
   return made;
+}
+
+// Samples one after the other: a byte says of which of two writers, two how long it is.
+
+std::string stream_of(const std::vector<wire::Part>& parts) {
+  std::string stream;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::string sample(parts[i].getCdrSerializedSize(parts[i]), '\0');
+    eprosima::fastcdr::FastBuffer buffer(sample.data(), sample.size());
+    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+    parts[i].serialize(cdr);
+    sample = encapsulated(sample.substr(0, cdr.getSerializedDataLength()));
+    stream += static_cast<char>(i % 2);
+    stream += static_cast<char>(sample.size() % 256);
+    stream += static_cast<char>(sample.size() / 256);
+    stream += sample;
+  }
+  return stream;
+}
+
+void put_together(std::string_view stream) {
+  constexpr std::size_t kFew_bytes = 200'000, kHead_bytes = 3;
+  Assembly assembly(kFew_bytes);
+  while (stream.size() > kHead_bytes) {
+    WriterId writer{};
+    writer[0] = static_cast<std::uint8_t>(stream[0]) % 2;
+    const std::size_t size = static_cast<std::uint8_t>(stream[1]) + 256u * static_cast<std::uint8_t>(stream[2]);
+    const std::string_view sample = stream.substr(kHead_bytes, size);
+    stream.remove_prefix(kHead_bytes + sample.size());
+    const auto result = assembly.take(writer, sample_from<wire::Part>(Topic::task, sample));
+    demand(result.bytes.empty() || result.verdict == Assembly::Verdict::whole, "only what is whole is handed over");
+    demand(result.bytes.size() <= kFew_bytes, "no more than may be kept is put together");
+    if (sample.empty()) assembly.departed(writer);
+  }
+}
+
+Target parts_target() {
+  std::vector<wire::Part> parts;
+  for (const std::size_t size : {std::size_t{40}, kPart_bytes + 5})
+    for (const wire::Part& part : parts_of(std::string(size, 'x'), 3, 1 + parts.size())) parts.push_back(part);
+  parts.push_back(vacant_part(3, 1, 9));
+  return {"sample_parts", {stream_of(parts)}, put_together};
 }
 
 IslandTask task_after(std::uint32_t epochs) {
@@ -158,15 +215,16 @@ std::vector<Target> wire_targets() {
   const Checkpoint last = told_after(kEpochsOfSmallRun);
   CalibrationData sharing = the_run();
   sharing.parameters.shared_functions = {parse_definition("F1(c1, a1, a2) = c1 * SIN(a1) + a2", 0)};
-  return {target<CalibrationData>("sample_data", Topic::data, {the_run(), sharing, random.data()}),
-          target<IslandTask>("sample_task", Topic::task, {task_after(0), task_after(1), random.task()}),
-          target<Migrants>("sample_migrants", Topic::migrants, {migrants_of(last), random.migrants()}),
-          target<Progress>("sample_progress", Topic::progress, {progress_of(last), random.progress()}),
-          target<Checkpoint>("sample_checkpoint", Topic::checkpoint, {told_after(1), random.checkpoint()}),
-          target<Outcome>("sample_outcome", Topic::outcome, {outcome_of(last), random.outcome()}),
-          target<WorkerStatus>("sample_worker", Topic::worker, {random.status()}),
-          target<Control>("sample_control", Topic::control, {random.control()}),
-          target<LoopNews>("sample_loop", Topic::loop, {random.news()})};
+  return {parts_target(),
+          target<CalibrationData>("message_data", {the_run(), sharing, random.data()}),
+          target<IslandTask>("message_task", {task_after(0), task_after(1), random.task()}),
+          target<Migrants>("message_migrants", {migrants_of(last), random.migrants()}),
+          target<Progress>("message_progress", {progress_of(last), random.progress()}),
+          target<Checkpoint>("message_checkpoint", {told_after(1), random.checkpoint()}),
+          target<Outcome>("message_outcome", {outcome_of(last), random.outcome()}),
+          sample_target("sample_worker", Topic::worker, random.status()),
+          sample_target("sample_control", Topic::control, random.control()),
+          sample_target("sample_loop", Topic::loop, random.news())};
 }
 
 }  // namespace demecal::fuzz

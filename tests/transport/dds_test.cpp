@@ -16,7 +16,8 @@
 #include "network.hpp"
 #include "random_messages.hpp"
 #include "transport/dds_participant.hpp"
-#include "transport/wire_form.hpp"
+#include "transport/message_bytes.hpp"
+#include "transport/parts.hpp"
 
 namespace demecal {
 namespace {
@@ -50,24 +51,31 @@ TEST(Dds, MalformedSamplesAreCountedAndDropped) {
   worker->follow_migrants(kJoint);
   DdsParticipant stranger(local_options(), Role::worker, "stranger");
   const auto writer = stranger.make_writer(Topic::migrants, kJoint);
-  const Migrants sound{1, {kJoint, 0}, 1, {{variable_tree(0), 0.5}}, "stranger"};
-  wire::Migrants unknown_code = encode(sound), no_deme = encode(sound), sample = encode(sound);
-  unknown_code.individuals()[0].formula().primitives({77});
-  no_deme.deme(0);
-  for (wire::Migrants* one : {&unknown_code, &no_deme, &sample}) ASSERT_TRUE(writer->write(one));
+  const std::string sound = to_bytes(Migrants{1, {kJoint, 0}, 1, {{variable_tree(0), 0.5}}, "stranger"});
+  std::string no_run = sound;
+  no_run.replace(0, sizeof(RunId), sizeof(RunId), '\0');
+  std::uint32_t place = 0;
+  for (const std::string& bytes : {no_run, sound.substr(1), sound})
+    for (wire::Part& part : parts_of(bytes, place++, 1)) ASSERT_TRUE(writer->write(&part));
+  wire::Part beyond = parts_of(sound, place, 1).front();
+  beyond.index(7);
+  ASSERT_TRUE(writer->write(&beyond));
   receive_until(*worker, [](const auto& messages) { return !messages.empty(); });
-  receive_until(*worker, [&](const auto&) { return worker->dropped() == 2; });
+  receive_until(*worker, [&](const auto&) { return worker->dropped() == 3; });
 }
 
 /// Hears of checkpoints, but keeps Fast DDS's thread, and with it the acknowledgment, until it is let go.
 class Dawdler final : public eprosima::fastdds::dds::DataReaderListener {
  public:
   void on_data_available(eprosima::fastdds::dds::DataReader* reader) override {
-    wire::Checkpoint sample;
+    wire::Part sample;
     eprosima::fastdds::dds::SampleInfo info;
     while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
       const std::lock_guard lock(mutex_);
-      if (info.valid_data) epochs_.push_back(sample.state().epoch());
+      if (!info.valid_data) continue;
+      const auto result = assembly_.take({}, std::move(sample));
+      if (result.verdict == Assembly::Verdict::whole)
+        epochs_.push_back(message_of<Checkpoint>(result.bytes)->state.epoch);
     }
     arrived_ = true;
     arrived_.notify_all();
@@ -86,6 +94,7 @@ class Dawdler final : public eprosima::fastdds::dds::DataReaderListener {
  private:
   std::atomic<bool> arrived_{false}, let_go_{false};
   std::mutex mutex_;
+  Assembly assembly_;
   std::vector<std::uint32_t> epochs_;
 };
 

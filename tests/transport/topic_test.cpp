@@ -48,14 +48,6 @@ TEST(Topics, OnlyMigrantsAreReadByTheRoleThatWritesThem) {
   EXPECT_FALSE(reads(Role::coordinator, Topic::migrants));
 }
 
-TEST(Topics, AnEmptyMessageHasTheKeyItWasMadeFor) {
-  RandomMessages random(29);
-  const std::vector<Message> messages{random.data(),     random.task(),       random.migrants(),
-                                      random.progress(), random.checkpoint(), random.outcome(),
-                                      random.status(),   random.control(),    random.news()};
-  for (const Message& message : messages) EXPECT_EQ(key_of(empty_message(key_of(message))), key_of(message));
-}
-
 TEST(Topics, OnlyAControlThatIsNotRunningEndsItsRun) {
   EXPECT_EQ(ended_run(Control{4, Control::State::finished, ""}), 4u);
   EXPECT_EQ(ended_run(Control{4, Control::State::cancelled, ""}), 4u);

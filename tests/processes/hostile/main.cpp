@@ -1,5 +1,7 @@
 // A participant that means harm: it floods every topic of a domain with bytes that are no samples and with samples that
 // are not its own to send, until it is killed. One argument: the domain.
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -8,6 +10,7 @@
 #include "forger.hpp"
 #include "raw_writers.hpp"
 #include "transport/message_bytes.hpp"
+#include "transport/parts.hpp"
 
 namespace {
 
@@ -22,12 +25,26 @@ std::string little_endian(const std::string& content) {
   return std::string("\0\1\0\0", 4) + content;
 }
 
-std::string bytes_of(const Message& message) {
+std::string serialized(const wire::Part& part) {
+  std::string bytes(part.getCdrSerializedSize(part), '\0');
+  eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
+  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+  part.serialize(cdr);
+  bytes.resize(cdr.getSerializedDataLength());
+  return bytes;
+}
+
+/// The message as a sample, or the first of its parts, whichever travels.
+std::string bytes_of(const Message& message, std::uint32_t place) {
   return std::visit(
-      [](const auto& plain) {
+      [&](const auto& plain) {
         using Plain = std::decay_t<decltype(plain)>;
         constexpr bool travels = !std::is_same_v<Plain, WorkerLost> && !std::is_same_v<Plain, CalibrationLost>;
-        if constexpr (travels) return little_endian(to_bytes(plain));
+        if constexpr (travels) {
+          if (!ends_with_run(topic_of(message))) return little_endian(to_bytes(plain));
+          static std::uint64_t number = 0;
+          return little_endian(serialized(parts_of(to_bytes(plain), place, ++number).front()));
+        }
         return std::string();
       },
       message);
@@ -68,7 +85,7 @@ int main(int, char** arguments) {
       const Topic topic = random.chance(0.3) ? kTopics[random.index(kTopics.size())] : topic_of(forged);
       const auto joint = static_cast<std::uint32_t>(random.index(kJoints));
       const auto* migrants = std::get_if<Migrants>(&forged);
-      const std::string bytes = bytes_of(forged);
+      const std::string bytes = bytes_of(forged, key);
       writers.write(topic, migrants != nullptr ? migrants->island.joint : joint,
                     random.chance(0.2)   ? garbage(random)
                     : random.chance(0.3) ? spoilt(random, bytes)

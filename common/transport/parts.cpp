@@ -1,0 +1,102 @@
+#include "transport/parts.hpp"
+
+#include <algorithm>
+
+#include "transport/wire_shape.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kMostParts = kMostSample_bytes / kPart_bytes + 1;
+/// What an unfinished message takes beside its bytes.
+constexpr std::size_t kUnfinished_bytes = 256;
+
+std::string_view bytes_of(const wire::Part& part) {
+  return {reinterpret_cast<const char*>(part.bytes().data()), part.bytes().size()};
+}
+
+/// Whether it can be a part of a message as parts_of() makes them.
+bool is_sound(const wire::Part& part) {
+  if (part.count() > kMostParts || part.index() >= part.count()) return false;
+  const bool is_last = part.index() + 1 == part.count();
+  return is_last ? part.bytes().size() <= kPart_bytes : part.bytes().size() == kPart_bytes;
+}
+
+}  // namespace
+
+std::vector<wire::Part> parts_of(std::string_view bytes, std::uint32_t place, std::uint64_t number) {
+  const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(1, (bytes.size() + kPart_bytes - 1) / kPart_bytes));
+  std::vector<wire::Part> parts(count);
+  for (std::uint32_t index = 0; index < count; ++index) {
+    wire::Part& part = parts[index];
+    const std::string_view own = bytes.substr(index * kPart_bytes, kPart_bytes);
+    part.place(place);
+    part.index(index);
+    part.count(count);
+    part.message(number);
+    part.bytes().assign(own.begin(), own.end());
+  }
+  return parts;
+}
+
+wire::Part vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t number) {
+  wire::Part part;
+  part.place(place);
+  part.index(index);
+  part.message(number);
+  return part;
+}
+
+Assembly::Result Assembly::take(const WriterId& writer, wire::Part part) {
+  const Place place{writer, part.place()};
+  const auto known = unfinished_.find(place);
+  if (known != unfinished_.end() && known->second.message < part.message()) forget(known);
+  if (part.count() == 0) return {part.bytes().empty() && part.message() > 0 ? Verdict::waits : Verdict::malformed, {}};
+  if (!is_sound(part)) return {Verdict::malformed, {}};
+  if (part.count() == 1) return {Verdict::whole, std::string(bytes_of(part))};
+  return add(place, std::move(part));
+}
+
+Assembly::Result Assembly::add(const Place& place, wire::Part part) {
+  const auto [known, is_new] = unfinished_.try_emplace(place);
+  Unfinished& message = known->second;
+  std::size_t& kept = bytes_[participant_of(place.first)];
+  if (is_new) {
+    message = {part.message(), {}, part.count(), kUnfinished_bytes};
+    message.parts.resize(part.count());
+    message.bytes += part.count() * sizeof message.parts.front();
+    kept += message.bytes;
+  }
+  if (part.message() < message.message) return {};
+  if (part.count() != message.parts.size()) return {Verdict::malformed, {}};
+  if (message.parts[part.index()]) return {};
+  if (kept + part.bytes().size() > most_bytes_) {
+    forget(known);
+    return {Verdict::too_much, {}};
+  }
+  message.bytes += part.bytes().size();
+  kept += part.bytes().size();
+  message.parts[part.index()] = std::string(bytes_of(part));
+  if (--message.missing > 0) return {};
+  Result whole{Verdict::whole, {}};
+  for (const std::optional<std::string>& one : message.parts) whole.bytes += *one;
+  forget(known);
+  return whole;
+}
+
+void Assembly::forget(Places::iterator unfinished) {
+  const auto kept = bytes_.find(participant_of(unfinished->first.first));
+  kept->second -= unfinished->second.bytes;
+  if (kept->second == 0) bytes_.erase(kept);
+  unfinished_.erase(unfinished);
+}
+
+void Assembly::departed(const WriterId& writer) {
+  while (true) {
+    const auto first = unfinished_.lower_bound({writer, 0});
+    if (first == unfinished_.end() || first->first.first != writer) return;
+    forget(first);
+  }
+}
+
+}  // namespace demecal
