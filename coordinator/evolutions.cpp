@@ -133,13 +133,15 @@ RunResult Evolutions::evolve(RunState state, bool shown) {
 RunResult Evolutions::attempt(RunState& state, bool shown) {
   if (!fleet_) fleet_ = make_fleet_();
   Transport& transport = fleet_->transport();
-  const RunId left = state.data().run;
   state.rename(transport.new_run());
   ProgressDisplay display(stderr, state.data(), options_.quiet || !shown);
   for (const Progress& progress : state.progress()) display.on_progress(progress);
   Recorded observer(display, options_.chronicle, options_.journal);
-  if (options_.journal != nullptr) options_.journal->begin(state.data());
-  if (left != 0) transport.publish(Control{left, Control::State::cancelled, state.data().job});
+  if (options_.journal != nullptr) {
+    options_.journal->begin(state.data());
+    for (const RunId left : options_.journal->take_left())
+      transport.publish(Control{left, Control::State::cancelled, state.data().job});
+  }
   if (options_.chronicle != nullptr) options_.chronicle->run_begins(state.data(), state.progress());
   fleet_->launch(state.data().run);
   RunResult result = EvolutionRun(transport, state, observer, present_).run(interrupt_, options_.patience);

@@ -67,6 +67,7 @@ class Reading {
     if (!data || find_fault(*data) || evolution > job_.evolutions.size()) return false;
     if (evolution == job_.evolutions.size()) job_.evolutions.emplace_back(*data);
     job_.evolutions[evolution].rename(data->run);
+    job_.runs.push_back(data->run);
     return same_evolution(*data, job_.evolutions[evolution].data());
   }
 

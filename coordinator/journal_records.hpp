@@ -38,6 +38,7 @@ std::string snapshot_record(std::uint32_t evolution, const std::vector<Checkpoin
 struct RecordedJob {
   std::optional<JobIdentity> identity;  ///< nothing where not even that was written whole
   std::vector<RunState> evolutions;
+  std::vector<RunId> runs;      ///< under which they began or went on; the first of them may have ended
   std::size_t sound_bytes = 0;  ///< of the journal, up to the first record that is torn, corrupt or makes no sense
   JournalEnd end = JournalEnd::clean;
 };

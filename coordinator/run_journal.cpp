@@ -59,6 +59,7 @@ void RunJournal::take_up() {
   }
   file_.cut(job.sound_bytes);
   evolutions_ = std::move(job.evolutions);
+  left_ = std::move(job.runs);
   found_ = fmt::format("going on from {}: {}{}", file_.path(), how_far(evolutions_),
                        job.end == JournalEnd::clean ? "" : "; what follows a damaged record is left out");
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coordinator/evolution_run.hpp"
@@ -33,6 +34,8 @@ class RunJournal : public RunObserver {
 
   /// How far an evolution of these data was, under the number it last ran under; nothing where none is recorded.
   std::optional<RunState> recorded(const CalibrationData& data) const;
+  /// The runs that were recorded when this began and may still be worked at; each is told once.
+  std::vector<RunId> take_left() { return std::exchange(left_, {}); }
   /// What is observed from now on is of this evolution, until the next begins.
   void begin(const CalibrationData& data);
   /// Writes what has not been written yet.
@@ -58,6 +61,7 @@ class RunJournal : public RunObserver {
   JobIdentity identity_;
   std::string found_;
   std::vector<RunState> evolutions_;  ///< as recorded when this began; of those begun since, their beginnings
+  std::vector<RunId> left_;
   std::uint32_t present_ = 0;
   std::string unwritten_;                    ///< records
   std::map<IslandKey, Checkpoint> reached_;  ///< since the last snapshot

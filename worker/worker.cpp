@@ -219,6 +219,7 @@ void Worker::forget_run(RunId run) {
   for (const auto& [worker, count] : unproven_.forget(run)) {
     for (std::size_t i = 0; i < count && !named.contains(worker); ++i) transport_.drop("", kNotGiven);
   }
+  if (options_.after_run) options_.after_run();
 }
 
 void Worker::keep_alive() {

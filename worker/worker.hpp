@@ -30,6 +30,7 @@ struct WorkerOptions {
   std::chrono::milliseconds progress_interval{250};     ///< at least, between two words of an island's progress
   std::chrono::milliseconds checkpoint_interval{1000};  ///< at least, but for islands of many epochs a second
   std::chrono::milliseconds spell{20};       ///< about so long, islands that need nobody else breed without a word
+  std::function<void()> after_run{};         ///< called when what was kept of a run has been dropped
   std::function<void()> after_generation{};  ///< called by the slot that bred it: for work that is only simulated
 };
 

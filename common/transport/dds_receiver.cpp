@@ -141,15 +141,16 @@ class PartsReceiver : public Delivery {
   Assembly assembly_;
 };
 
-/// Hears also of those whose writer of data goes.
+/// Hears also of those whose writer of data comes and goes.
 class DataReceiver final : public PartsReceiver<CalibrationData> {
  public:
   using PartsReceiver::PartsReceiver;
 
   void on_subscription_matched(dds::DataReader* reader, const dds::SubscriptionMatchedStatus& status) override {
     PartsReceiver::on_subscription_matched(reader, status);
-    if (status.current_count_change < 0)
-      inbox_.owners.departed(participant_of(writer_id(status.last_publication_handle)));
+    const ParticipantId owner = participant_of(writer_id(status.last_publication_handle));
+    if (status.current_count_change < 0) inbox_.owners.departed(owner, std::chrono::steady_clock::now());
+    if (status.current_count_change > 0) inbox_.owners.arrived(owner);
   }
 };
 

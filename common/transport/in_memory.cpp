@@ -69,7 +69,7 @@ class Exchange {
     kept_.erase(member);
     for (const std::uint64_t calibration : calibrations) tell(*member, Topic::loop, CalibrationLost{calibration});
     if (is_lost) tell(*member, Topic::worker, WorkerLost{member->name});
-    for (InMemoryMember* other : members_) other->owners.departed(member->id);
+    for (InMemoryMember* other : members_) other->owners.departed(member->id, std::chrono::steady_clock::now());
   }
 
   void follow(InMemoryMember* member, std::uint32_t joint) {

@@ -25,7 +25,8 @@ bool is_sound(const wire::Part& part) {
 }  // namespace
 
 std::vector<wire::Part> parts_of(std::string_view bytes, std::uint32_t place, std::uint64_t number) {
-  const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(1, (bytes.size() + kPart_bytes - 1) / kPart_bytes));
+  const auto count =
+      static_cast<std::uint32_t>(std::max<std::size_t>(1, (bytes.size() + kPart_bytes - 1) / kPart_bytes));
   std::vector<wire::Part> parts(count);
   for (std::uint32_t index = 0; index < count; ++index) {
     wire::Part& part = parts[index];

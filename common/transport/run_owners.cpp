@@ -29,8 +29,8 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cali
   const bool may_own = known == runs_.end() ? may_publish(source, run) : known->second.owner == source;
   if (!may_own) return dropped_.note(name, "data of a run that is another's");
   if (known == runs_.end() && !has_room(source)) return dropped_.note(name, "more runs than one may have at a time");
-  Run& owned = runs_.try_emplace(run, Run{source, false, false, ++order_, {}}).first->second;
-  owned.owner_gone = false;
+  Run& owned = runs_.try_emplace(run, Run{.owner = source, .order = ++order_}).first->second;
+  owned.owner_gone.reset();
   put(source, name, std::move(data));
   give_early(run, source, name);
   forget_first_of_many();
@@ -113,11 +113,17 @@ void RunOwners::give_early(RunId run, const ParticipantId& owner, const std::str
   std::erase_if(early_, [](const auto& entry) { return entry.second.last.empty(); });
 }
 
-void RunOwners::departed(const ParticipantId& source) {
+void RunOwners::arrived(const ParticipantId& source) {
+  const std::lock_guard lock(mutex_);
+  for (auto& [number, run] : runs_)
+    if (run.owner == source) run.owner_gone.reset();
+}
+
+void RunOwners::departed(const ParticipantId& source, Time now) {
   const std::lock_guard lock(mutex_);
   for (auto& [number, run] : runs_) {
     if (run.owner != source) continue;
-    run.owner_gone = true;
+    run.owner_gone = now;
     if (auto end = std::exchange(run.end_from_elsewhere, std::nullopt)) put(source, "nobody", std::move(*end));
   }
   const auto early = early_.find(source);
@@ -130,8 +136,17 @@ void RunOwners::departed(const ParticipantId& source) {
   }
 }
 
+void RunOwners::end_abandoned(Time now) {
+  for (auto& [number, run] : runs_) {
+    if (run.is_over || !run.owner_gone || now - *run.owner_gone < kLongestAbsence) continue;
+    run.is_over = true;
+    put(run.owner, "nobody", Control{number, Control::State::cancelled, ""});
+  }
+}
+
 void RunOwners::release(Time now) {
   const std::lock_guard lock(mutex_);
+  if (waits_) end_abandoned(now);
   for (auto& [source, early] : early_) {
     for (auto said = early.last.begin(); said != early.last.end();) {
       const auto next = std::next(said);

@@ -17,13 +17,16 @@ namespace demecal {
 /// Puts data, tasks and control into a mailbox. A run belongs to the participant that its number shows, or else to the
 /// one whose data come first; whatever others say of it is dropped. Tasks and control that come before the data wait
 /// for them. An end from elsewhere waits until the owner is gone: a coordinator that resumes a job ends the run that
-/// its dead forerunner left. A run that ends without data is over: its data were withdrawn. Any thread may call.
+/// its dead forerunner left. A run that ends without data is over: its data were withdrawn. A run whose owner has been
+/// gone for long is over too, for those that wait. Any thread may call.
 ///
 /// Numbers that show nobody serve tests alone: whoever is quick could take such a run.
 class RunOwners {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::milliseconds kBelated{2000};
+  /// So long its workers wait for an owner that is gone.
+  static constexpr std::chrono::seconds kLongestAbsence{60};
 
   /// `waits`: whether what comes before its run's data waits for them; otherwise it is put at once.
   RunOwners(Mailbox& mailbox, DroppedSamples& dropped, bool waits)
@@ -34,17 +37,20 @@ class RunOwners {
   void heard(const ParticipantId& source, const std::string& name, IslandTask task, Time now);
   void heard(const ParticipantId& source, const std::string& name, Control control, Time now);
   /// The participant is gone, as far as the network tells.
-  void departed(const ParticipantId& source);
-  /// Puts the ends that have waited long enough for data; to be called now and then.
+  void departed(const ParticipantId& source, Time now);
+  /// It is there, for the first time or again.
+  void arrived(const ParticipantId& source);
+  /// Puts the ends that have waited long enough for data, and those of runs whose owner has been gone for too long; to
+  /// be called now and then.
   void release(Time now);
 
  private:
   struct Run {
     ParticipantId owner;
-    bool owner_gone = false;
+    std::optional<Time> owner_gone{};  ///< since when
     bool is_over = false;
     std::uint64_t order = 0;  ///< of appearance
-    std::optional<Control> end_from_elsewhere;
+    std::optional<Control> end_from_elsewhere{};
   };
   /// What one source said of runs without data.
   struct Early {
@@ -63,6 +69,7 @@ class RunOwners {
   Message take_back(Early& early, std::map<TopicKey, Early::Said>::iterator said);
   bool has_room(const ParticipantId& owner) const;
   void forget_first_of_many();
+  void end_abandoned(Time now);
   void give_early(RunId run, const ParticipantId& owner, const std::string& name);
 
   Mailbox& mailbox_;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "../config/temporary_folder.hpp"
 #include "faulty_transport.hpp"
 #include "in_memory_fleet.hpp"
@@ -122,6 +125,59 @@ TEST(Evolutions, ThatTheJournalHoldsAreNotRunAgain) {
   options.journal = &journal;
   EXPECT_TRUE(same_candidates(first, evolve(options, fleets.sound)));
   EXPECT_EQ(fleets.made, 1);
+}
+
+/// A fleet in which another watches.
+class WatchedFleet : public Fleet {
+ public:
+  WatchedFleet(std::shared_ptr<Exchange> exchange, bool has_worker)
+      : exchange_(std::move(exchange)),
+        has_worker_(has_worker),
+        transport_(join(exchange_, Role::coordinator, "coordinator")) {}
+  Transport& transport() override { return *transport_; }
+  void launch(RunId) override {
+    if (has_worker_) worker_.emplace(exchange_, "worker");
+  }
+
+ private:
+  std::shared_ptr<Exchange> exchange_;
+  bool has_worker_;
+  std::unique_ptr<Transport> transport_;
+  std::optional<WorkerThread> worker_;
+};
+
+/// The runs of which it heard so far that they stand like this.
+std::set<RunId> runs_told(Transport& watcher, Control::State state) {
+  std::set<RunId> runs;
+  while (const auto message = watcher.receive(std::chrono::milliseconds(0)))
+    if (const auto* control = std::get_if<Control>(&*message); control != nullptr && control->state == state)
+      runs.insert(control->run);
+  return runs;
+}
+
+TEST(Evolutions, ThatAreResumedEndAllTheRunsThatTheyHadBefore) {
+  const TemporaryFolder folder;
+  const JobIdentity identity{.data_sha256 = "d", .job_sha256 = "j", .seed = 8, .version = "v"};
+  const auto exchange = make_exchange();
+  const auto watcher = join(exchange, Role::watcher, "watcher");
+  const Job job = small_job();
+  const std::atomic<bool> interrupt{false};
+  std::set<RunId> before;
+  for (int run = 0; run < 3; ++run) {
+    RunJournal journal(folder.path().string(), identity, RunJournal::Start::resume);
+    CalibrateOptions options = quiet_options();
+    options.journal = &journal;
+    options.patience.worker = std::chrono::milliseconds(run < 2 ? 50 : 60'000);
+    const std::function<std::unique_ptr<Fleet>()> make_fleet = [&] {
+      return std::make_unique<WatchedFleet>(exchange, run == 2);
+    };
+    Evolutions evolutions(job, make_fleet, interrupt, options);
+    evolutions.run(small_training());
+    if (run < 2) before.merge(runs_told(*watcher, Control::State::running));
+  }
+  EXPECT_EQ(before.size(), 2U);
+  const std::set<RunId> ended = runs_told(*watcher, Control::State::cancelled);
+  EXPECT_TRUE(std::ranges::includes(ended, before));
 }
 
 TEST(Evolutions, ThatDoNotWaitEndAsWell) {

@@ -70,7 +70,7 @@ TEST_F(Owners, AnEndFromElsewhereCountsWhenTheOwnerIsGone) {
     owners.heard(kOwner, "owner", data(run), kNow);
     arrived();
     if (before) owners.heard(kStranger, "stranger", end(run), kNow);
-    owners.departed(kOwner);
+    owners.departed(kOwner, kNow);
     if (!before) owners.heard(kStranger, "stranger", end(run), kNow);
     EXPECT_EQ(arrived(), Messages{end(run)});
   }
@@ -88,23 +88,47 @@ TEST_F(Owners, ARunWhoseNumberShowsItsPublisherIsNobodyElses) {
   owners.heard(kOwner, "owner", of_run, kNow);
   EXPECT_EQ(arrived(), Messages{of_run});
   owners.heard(kStranger, "a coordinator that resumes", end(run), kNow);
-  owners.departed(kOwner);
+  owners.departed(kOwner, kNow);
   EXPECT_EQ(arrived(), Messages{end(run)});
 }
 
 TEST_F(Owners, AnOwnerThatComesBackIsTheOwnerAgain) {
   const CalibrationData of_run = data(5);
   owners.heard(kOwner, "owner", of_run, kNow);
-  owners.departed(kOwner);
+  owners.departed(kOwner, kNow);
   owners.heard(kOwner, "owner", of_run, kNow);
   arrived();
   owners.heard(kStranger, "stranger", end(5), kNow);
   EXPECT_TRUE(arrived().empty());
 }
 
+TEST_F(Owners, ARunWhoseOwnerStaysAwayIsOverAfterAWhile) {
+  owners.heard(kOwner, "owner", data(5), kNow);
+  owners.heard(kOwner, "owner", data(6), kNow);
+  owners.heard(kOwner, "owner", end(6), kNow);
+  arrived();
+  owners.departed(kOwner, kNow);
+  owners.release(kNow + RunOwners::kLongestAbsence / 2);
+  EXPECT_TRUE(arrived().empty());
+  owners.release(kNow + RunOwners::kLongestAbsence);
+  EXPECT_EQ(arrived(), (Messages{Control{5, Control::State::cancelled, ""}}));
+  owners.release(kNow + 2 * RunOwners::kLongestAbsence);
+  EXPECT_TRUE(arrived().empty());
+}
+
+TEST_F(Owners, AnOwnerThatIsSeenAgainKeepsItsRunsThoughItSaysNothing) {
+  owners.heard(kOwner, "owner", data(5), kNow);
+  arrived();
+  owners.departed(kOwner, kNow);
+  owners.arrived(kOwner);
+  owners.release(kNow + 2 * RunOwners::kLongestAbsence);
+  owners.heard(kStranger, "stranger", end(5), kNow);
+  EXPECT_TRUE(arrived().empty());
+}
+
 TEST_F(Owners, AnEndWithoutDataIsBelievedAfterAWhile) {
   owners.heard(kOwner, "owner", end(5), kNow);
-  owners.departed(kOwner);
+  owners.departed(kOwner, kNow);
   owners.release(kNow + RunOwners::kBelated / 2);
   EXPECT_TRUE(arrived().empty());
   owners.release(kNow + RunOwners::kBelated);
