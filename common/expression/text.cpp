@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "errors/input_error.hpp"
 #include "expression/fold.hpp"
+#include "expression/syntax_error.hpp"
 
 namespace demecal {
 namespace {
@@ -62,12 +62,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& expected) const {
-    constexpr std::size_t kShown = 80;
-    std::string shown(text_.substr(0, kShown));
-    if (text_.size() > kShown) shown += "...";
-    throw InputError({}, shown, "column " + std::to_string(at_ + 1) + ": expected " + expected);
-  }
+  [[noreturn]] void fail(const std::string& expected) const { refuse_at(text_, at_, expected); }
 
   void skip_spaces() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;

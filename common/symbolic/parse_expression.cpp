@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "errors/input_error.hpp"
+#include "expression/syntax_error.hpp"
 #include "symbolic/values.hpp"
 
 namespace demecal {
@@ -33,12 +33,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& expected) const {
-    constexpr std::size_t kShown = 80;
-    std::string shown(text_.substr(0, kShown));
-    if (text_.size() > kShown) shown += "...";
-    throw InputError({}, shown, "column " + std::to_string(at_ + 1) + ": expected " + expected);
-  }
+  [[noreturn]] void fail(const std::string& expected) const { refuse_at(text_, at_, expected); }
 
   /// Numbers that no double holds, and powers of powers that no code can be written for.
   void refuse_excess(Expression expression) const {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
+#include "../errors/complaint.hpp"
 #include "config/files.hpp"
 #include "errors/check.hpp"
-#include "errors/input_error.hpp"
 
 namespace demecal {
 
@@ -35,16 +35,5 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
-
-/// The sentence of the InputError that `action` throws; empty where it throws none.
-template <typename Action>
-std::string complaint(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 }  // namespace demecal

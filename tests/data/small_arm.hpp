@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "../errors/complaint.hpp"
 #include "data/csv.hpp"
 #include "data/read_poses.hpp"
 #include "kinematics/forward.hpp"
@@ -61,17 +62,6 @@ inline std::string exact_table(int poses, double angle_scale, double length_scal
          << ',' << p.z() << '\n';
   }
   return text.str();
-}
-
-/// The sentence of the InputError that `action` throws; empty where it throws none.
-template <typename Action>
-std::string complaint(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace demecal

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "errors/input_error.hpp"
+#include "../errors/complaint.hpp"
 #include "measured_arm.hpp"
 #include "preparation/false_targets.hpp"
 #include "preparation/statistic.hpp"
@@ -12,16 +12,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
-
-template <typename Action>
-std::string complaint(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Prepared, GivesBackWhatTheArmDidInAllThreeFrames) {
   RandomStream stream{64, 1};
