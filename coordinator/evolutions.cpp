@@ -126,6 +126,7 @@ RunResult Evolutions::evolve(RunState state, bool shown) {
     RunResult result = attempt(state, shown);
     if (result.end != RunEnd::stuck) return result;
     state = RunState(state.data());
+    if (options_.journal != nullptr) options_.journal->forget();
   }
 }
 

@@ -11,7 +11,7 @@ namespace demecal {
 namespace {
 
 // What a record's content begins with; an evolution's number follows, but in the first.
-constexpr char kIdentity = 'I', kBegin = 'B', kProgress = 'P', kOutcome = 'O', kSnapshot = 'S';
+constexpr char kIdentity = 'I', kBegin = 'B', kForget = 'F', kProgress = 'P', kOutcome = 'O', kSnapshot = 'S';
 
 std::string record(char kind, std::uint32_t evolution, const std::string& content) {
   return record_of(kind + bytes_of(evolution) + content);
@@ -56,6 +56,7 @@ class Reading {
     if (kind->front() == kBegin) return begin(*evolution, content);
     if (*evolution >= job_.evolutions.size()) return false;
     RunState& state = job_.evolutions[*evolution];
+    if (kind->front() == kForget) return forget(state);
     if (kind->front() == kProgress) return grow<Progress>(state, content);
     if (kind->front() == kOutcome) return grow<Outcome>(state, content);
     return kind->front() == kSnapshot && snapshot(state, content);
@@ -69,6 +70,11 @@ class Reading {
     job_.evolutions[evolution].rename(data->run);
     job_.runs.push_back(data->run);
     return same_evolution(*data, job_.evolutions[evolution].data());
+  }
+
+  static bool forget(RunState& state) {
+    state = RunState(state.data());
+    return true;
   }
 
   template <class Plain>
@@ -111,6 +117,10 @@ std::string identity_record(const JobIdentity& identity) {
 
 std::string begin_record(std::uint32_t evolution, const CalibrationData& data) {
   return record(kBegin, evolution, to_bytes(data));
+}
+
+std::string forget_record(std::uint32_t evolution) {
+  return record(kForget, evolution, "");
 }
 
 std::string progress_record(std::uint32_t evolution, const Progress& progress) {

@@ -29,6 +29,8 @@ std::optional<std::string> difference(const JobIdentity& recorded, const JobIden
 std::string identity_record(const JobIdentity& identity);
 /// An evolution begins, or goes on under another run's number.
 std::string begin_record(std::uint32_t evolution, const CalibrationData& data);
+/// What was recorded of an evolution counts no longer: it begins again at its start.
+std::string forget_record(std::uint32_t evolution);
 std::string progress_record(std::uint32_t evolution, const Progress& progress);
 std::string outcome_record(std::uint32_t evolution, const Outcome& outcome);
 /// One record for many islands: either all of it is read back or nothing. Islands that were known at different moments

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "errors/input_error.hpp"
 
@@ -13,6 +14,8 @@ constexpr std::chrono::milliseconds kSnapshotInterval{250};
 /// A snapshot, or a disk, that took long is followed by as many times as long without one.
 constexpr int kRest = 20;
 constexpr std::size_t kShortenAtGrowth = 4;
+/// Runs before these have been ended by those who resumed in between.
+constexpr std::ptrdiff_t kMostLeft = 8;
 
 std::string journal_path(const std::string& folder) {
   return folder + "/run.journal";
@@ -59,7 +62,7 @@ void RunJournal::take_up() {
   }
   file_.cut(job.sound_bytes);
   evolutions_ = std::move(job.evolutions);
-  left_ = std::move(job.runs);
+  left_.assign(job.runs.end() - std::min(std::ssize(job.runs), kMostLeft), job.runs.end());
   found_ = fmt::format("going on from {}: {}{}", file_.path(), how_far(evolutions_),
                        job.end == JournalEnd::clean ? "" : "; what follows a damaged record is left out");
 }
@@ -78,6 +81,11 @@ void RunJournal::begin(const CalibrationData& data) {
   if (found == evolutions_.end()) evolutions_.emplace_back(data);
   reached_.clear();
   file_.append(begin_record(present_, data));
+  sync_where_due();
+}
+
+void RunJournal::forget() {
+  file_.append(forget_record(present_));
   sync_where_due();
 }
 

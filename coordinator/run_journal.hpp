@@ -34,10 +34,12 @@ class RunJournal : public RunObserver {
 
   /// How far an evolution of these data was, under the number it last ran under; nothing where none is recorded.
   std::optional<RunState> recorded(const CalibrationData& data) const;
-  /// The runs that were recorded when this began and may still be worked at; each is told once.
+  /// The last runs that were recorded when this began, which may still be worked at; told once.
   std::vector<RunId> take_left() { return std::exchange(left_, {}); }
   /// What is observed from now on is of this evolution, until the next begins.
   void begin(const CalibrationData& data);
+  /// What was recorded of the present evolution leads nowhere; it will begin again.
+  void forget();
   /// Writes what has not been written yet.
   void finish();
   /// The results are there: the file goes.

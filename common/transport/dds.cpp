@@ -54,7 +54,6 @@ class DdsTransport final : public Transport {
 
  private:
   void join_topic(DdsWriters::Channel channel);
-  bool wait_for_acknowledgments(steady_clock::time_point deadline);
   void note_status(const WorkerStatus& status);
   std::optional<WorkerStatus> status_due();
 
@@ -123,15 +122,9 @@ std::optional<WorkerStatus> DdsTransport::status_due() {
   return steady_clock::now() - status_published_ >= kLease ? status_ : std::nullopt;
 }
 
+/// A herald has nothing but news to wait for.
 bool DdsTransport::flush(milliseconds patience) {
   const auto deadline = steady_clock::now() + patience;
-  bool arrived = wait_for_acknowledgments(deadline);
-  while (arrived && writers_.catch_up()) arrived = wait_for_acknowledgments(deadline);
-  return arrived;
-}
-
-/// Of what is awaited; a herald has nothing but news to wait for.
-bool DdsTransport::wait_for_acknowledgments(steady_clock::time_point deadline) {
   bool arrived = true;
   for (const auto& [topic, writer] : writers_.all()) {
     if (!is_awaited(topic) && role_ != Role::herald) continue;

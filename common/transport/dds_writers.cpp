@@ -27,12 +27,6 @@ void publish(dds::DataWriter& writer, void* sample) {
   if (!writer.write(sample)) throw std::runtime_error("DDS: cannot write to " + writer.get_topic()->get_name());
 }
 
-/// Whether all that was said there has reached all who read it. To ask for one value alone would not do, since Fast DDS
-/// forgets those who came late there.
-bool have_arrived(dds::DataWriter& writer) {
-  return writer.wait_for_acknowledgments({0, 0}) == ReturnCode_t::RETCODE_OK;
-}
-
 }  // namespace
 
 void DdsWriters::add(Channel channel, Owned<dds::DataWriter> writer) {
@@ -58,32 +52,15 @@ std::vector<std::pair<Topic, dds::DataWriter*>> DdsWriters::all() {
   return all;
 }
 
-void DdsWriters::send(const Message& message) {
-  const std::lock_guard lock(mutex_);
-  const TopicKey key = key_of(message);
-  if (ends_with_run(key.topic) && are_last_words_said(key.run)) return;
-  held_.erase(key);
-  if (must_wait(message)) {
-    held_.emplace(key, message);
-  } else {
-    write(message);
-  }
-}
-
 bool DdsWriters::are_last_words_said(RunId run) const {
   const auto found = std::ranges::find(over_, run, &Ended::run);
   return found != over_.end() && std::chrono::steady_clock::now() - found->at >= kLastWords;
 }
 
-/// Checkpoints that replaced each other before all their parts have arrived would arrive never.
-bool DdsWriters::must_wait(const Message& message) {
-  if (!std::holds_alternative<Checkpoint>(message)) return false;
-  Writer& own = writer(channel_of(key_of(message)));
-  return own.in_parts && !have_arrived(*own.dds);
-}
-
-void DdsWriters::write(const Message& message) {
+void DdsWriters::send(const Message& message) {
+  const std::lock_guard lock(mutex_);
   const TopicKey key = key_of(message);
+  if (ends_with_run(key.topic) && are_last_words_said(key.run)) return;
   Writer& own = writer(channel_of(key));
   std::visit(
       [&](const auto& plain) {
@@ -100,7 +77,6 @@ void DdsWriters::write_parts(Writer& own, std::uint32_t place, std::string_view 
   std::vector<wire::Part> parts = parts_of(bytes, place, ++number_);
   std::uint32_t& used = own.parts[place];
   used = std::max(used, static_cast<std::uint32_t>(parts.size()));
-  own.in_parts = parts.size() > 1;
   for (wire::Part& part : parts) publish(*own.dds, &part);
 }
 
@@ -112,12 +88,10 @@ void DdsWriters::withdraw(RunId run) {
     over_.pop_front();
   }
   over_.push_back({run, std::chrono::steady_clock::now(), false});
-  std::erase_if(held_, [run](const auto& held) { return held.first.run == run; });
 }
 
 void DdsWriters::vacate(Ended& ended) {
   if (std::exchange(ended.vacated, true)) return;
-  std::erase_if(held_, [&](const auto& held) { return held.first.run == ended.run; });
   for (auto& [channel, own] : writers_)
     for (const std::uint32_t place : own.places.vacate(ended.run))
       for (std::uint32_t index = 0; index < own.parts[place]; ++index) {
@@ -126,17 +100,11 @@ void DdsWriters::vacate(Ended& ended) {
       }
 }
 
-bool DdsWriters::catch_up() {
+void DdsWriters::catch_up() {
   const std::lock_guard lock(mutex_);
   const Time now = std::chrono::steady_clock::now();
   for (Ended& ended : over_)
-    if (!ended.vacated && now - ended.at >= kLastWords) vacate(ended);
-  const std::size_t sent = std::erase_if(held_, [this](const auto& held) {
-    if (must_wait(held.second)) return false;
-    write(held.second);
-    return true;
-  });
-  return sent > 0;
+    if (now - ended.at >= kLastWords) vacate(ended);
 }
 
 }  // namespace demecal

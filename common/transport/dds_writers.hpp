@@ -28,14 +28,13 @@ class DdsWriters {
   eprosima::fastdds::dds::DataWriter* at(Channel channel);
   std::vector<std::pair<Topic, eprosima::fastdds::dds::DataWriter*>> all();
 
-  /// Publishes; or has a checkpoint wait for catch_up(), in place of an older one that does, while one of several parts
-  /// is on its way. Throws std::runtime_error where Fast DDS refuses.
+  /// Publishes. Throws std::runtime_error where Fast DDS refuses.
   void send(const Message& message);
   /// Has catch_up() vacate the places of this run a while later, when its last words have been said; what is said of it
   /// after that is not sent.
   void withdraw(RunId run);
-  /// Sends and vacates what had to wait and no longer has to; whether anything was sent. To be called now and then.
-  bool catch_up();
+  /// Vacates what had to wait and no longer has to. To be called now and then.
+  void catch_up();
 
  private:
   using Time = std::chrono::steady_clock::time_point;
@@ -43,7 +42,6 @@ class DdsWriters {
     Owned<eprosima::fastdds::dds::DataWriter> dds;
     Places places;
     std::map<std::uint32_t, std::uint32_t> parts;  ///< of each place, those that were ever used
-    bool in_parts = false;                         ///< whether its last message had several
   };
 
   struct Ended {
@@ -54,16 +52,13 @@ class DdsWriters {
 
   Writer& writer(Channel channel);
   bool are_last_words_said(RunId run) const;
-  bool must_wait(const Message& message);
-  void write(const Message& message);
   void write_parts(Writer& writer, std::uint32_t place, std::string_view bytes);
   void vacate(Ended& ended);
 
   std::mutex mutex_;
   std::map<Channel, Writer> writers_;
-  std::uint64_t number_ = 0;          ///< of the last message in parts
-  std::map<TopicKey, Message> held_;  ///< those that wait
-  std::deque<Ended> over_;            ///< the last runs that ended
+  std::uint64_t number_ = 0;  ///< of the last message in parts
+  std::deque<Ended> over_;    ///< the last runs that ended
 };
 
 }  // namespace demecal

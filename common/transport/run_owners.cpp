@@ -51,11 +51,10 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cont
   const auto known = runs_.find(control.run);
   const bool ends = control.state != Control::State::running;
   if (known == runs_.end() && may_publish(source, control.run)) return wait(source, name, std::move(control), now);
-  // A coordinator that resumes a job tells it also those who never heard of its forerunner: nobody is accused.
-  if (known == runs_.end()) return dropped_.note(ends ? "" : name, "control of a run that is another's");
-  if (!ends || known->second.end_from_elsewhere) {
-    return dropped_.note(name, "control of a run that is another's");
-  }
+  // A coordinator that resumes a job tells it also those who never heard of its forerunners, or have heard it from one
+  // between: nobody is accused.
+  if (known == runs_.end() || !ends || known->second.end_from_elsewhere)
+    return dropped_.note(ends ? "" : name, "control of a run that is another's");
   if (known->second.owner_gone) return put(source, name, std::move(control));
   known->second.end_from_elsewhere = std::move(control);
 }

@@ -81,6 +81,32 @@ TEST(RunJournal, OfAFinishedRunHoldsItsResult) {
   EXPECT_FALSE(journal.recorded(other).has_value());
 }
 
+TEST(RunJournal, HoldsNothingOfAnEvolutionThatItWasToldToForgetButWhatCameSince) {
+  const CalibrationData data = small_run(5);
+  const TemporaryFolder folder;
+  const auto epochs_recorded = [&] {
+    const auto recorded = RunJournal(folder.path().string(), kIdentity, Start::resume).recorded(data);
+    return recorded ? recorded->epoch(islands(data.archipelago).front()) : 0;
+  };
+  {
+    RunJournal journal(folder.path().string(), kIdentity, Start::anew);
+    run_recorded(data, RunState(data), journal);
+  }
+  const std::uint32_t whole = epochs_recorded();
+  EXPECT_GT(whole, 0U);
+  {
+    RunJournal journal(folder.path().string(), kIdentity, Start::resume);
+    journal.begin(data);
+    journal.forget();
+  }
+  EXPECT_EQ(epochs_recorded(), 0U);
+  {
+    RunJournal journal(folder.path().string(), kIdentity, Start::resume);
+    run_recorded(data, RunState(data), journal);
+  }
+  EXPECT_EQ(epochs_recorded(), whole);
+}
+
 TEST(RunJournal, TornAnywhereIsGoneOnFromWithTheSameResult) {
   const CalibrationData data = small_run(2);
   const RunResult undisturbed = run_in_memory(data, 1);

@@ -139,13 +139,13 @@ Target target(const std::string& name, const std::vector<Plain>& messages) {
 
 std::string stream_of(const std::vector<wire::Part>& parts) {
   std::string stream;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::string sample(parts[i].getCdrSerializedSize(parts[i]), '\0');
+  for (const wire::Part& part : parts) {
+    std::string sample(part.getCdrSerializedSize(part), '\0');
     eprosima::fastcdr::FastBuffer buffer(sample.data(), sample.size());
     eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
-    parts[i].serialize(cdr);
+    part.serialize(cdr);
     sample = encapsulated(sample.substr(0, cdr.getSerializedDataLength()));
-    stream += static_cast<char>(i % 2);
+    stream += '\0';
     stream += static_cast<char>(sample.size() % 256);
     stream += static_cast<char>(sample.size() / 256);
     stream += sample;

@@ -5,6 +5,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
@@ -109,7 +110,7 @@ Checkpoint checkpoint_of(std::uint32_t epoch) {
   return checkpoint;
 }
 
-TEST(Dds, ALargeCheckpointIsNotReplacedBeforeItHasArrivedAndTheLastOneGetsThere) {
+TEST(Dds, OfLargeCheckpointsThatReplaceEachOtherOnTheirWayTheLastOneGetsThere) {
   Dawdler dawdler;
   DdsParticipant slow(local_options(), Role::coordinator, "slow");
   const auto reader = slow.make_reader(Topic::checkpoint, 0, &dawdler);
@@ -120,9 +121,11 @@ TEST(Dds, ALargeCheckpointIsNotReplacedBeforeItHasArrivedAndTheLastOneGetsThere)
   for (const std::uint32_t epoch : {2, 3, 4}) worker->publish(checkpoint_of(epoch));
   dawdler.let_go();
   const auto deadline = std::chrono::steady_clock::now() + kDeadline;
-  while (dawdler.epochs().size() < 2 && std::chrono::steady_clock::now() < deadline)
+  const auto last_has_come = [&] { return !dawdler.epochs().empty() && dawdler.epochs().back() == 4; };
+  while (!last_has_come() && std::chrono::steady_clock::now() < deadline)
     worker->receive(std::chrono::milliseconds{10});
-  EXPECT_EQ(dawdler.epochs(), (std::vector<std::uint32_t>{1, 4}));
+  EXPECT_TRUE(last_has_come());
+  EXPECT_TRUE(std::ranges::is_sorted(dawdler.epochs()));
 }
 
 TEST(Dds, AddressesThatAreNoneAreTheUsersError) {
