@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calibration/distal_choice.hpp"
 #include "calibration/function_stages.hpp"
 #include "evolution/fitness.hpp"
 
@@ -41,7 +42,7 @@ class Rounds {
   const Job& job_;
   bool seeks_functions_;
   std::vector<SharedFunction> next_functions_;
-  std::vector<JointTraining> trainings_;  ///< of the present round; their scales stay
+  std::vector<JointTraining> trainings_;  ///< of the present round
   std::vector<std::vector<Tree>> trees_;  ///< by training: the fronts of the last round
   bool first_ = true;
   std::uint32_t generation_ = 0;
@@ -80,9 +81,10 @@ bool Rounds::round(const EvolveRound& evolve, RoundTerms terms) {
   generation_ += static_cast<std::uint32_t>(terms.generations);
   for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of((*candidates)[i].front);
   if (seeks_functions_) next_functions_ = shared_functions(*candidates, job_.corrections.sharing);
-  const std::size_t before = outcome_.steps.size();
-  take_candidates(index_, *candidates, generation_, outcome_);
-  return outcome_.steps.size() > before;
+  const bool has_gained =
+      take_candidates(index_, *candidates, amplitudes_of(job_.distal), generation_, outcome_);
+  follow_amplitudes(outcome_.robot, trainings_);
+  return has_gained;
 }
 
 DistalOutcome Rounds::run(const EvolveRound& evolve) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "calibration/distal_choice.hpp"
 #include "calibration/distal_rounds.hpp"
 #include "evolution/breeding.hpp"
 #include "evolution/selection.hpp"
@@ -38,6 +39,7 @@ class Sequence {
   std::vector<Tree> begun_anew(const Breeder& breeder, const SharedPopulation& population);
   double present_fitness(Breeder& breeder, const JointTraining& training) const;
   bool take_fittest(const Breeder& breeder, SharedPopulation& population, const JointTraining& training, double& best);
+  void fit_amplitudes();
   bool may_go_on() const {
     return outcome_.generations < static_cast<std::uint32_t>(job_.gp.number_generations) && may_go_on_();
   }
@@ -122,10 +124,19 @@ void Sequence::evolve(std::size_t i, std::span<const LinearisedPose> poses) {
   for (std::size_t k = 0; k < trees_[i].size(); ++k) trees_[i][k] = breeder.store().tree(population.roots[k]);
 }
 
+/// Those of all joints to one another.
+void Sequence::fit_amplitudes() {
+  std::vector<JointCandidates> none;
+  for (const JointTraining& training : trainings_) none.push_back({training, {}});
+  take_candidates(index_, none, Amplitudes::fitted, outcome_.generations, outcome_.learnt);
+  follow_amplitudes(outcome_.learnt.robot, trainings_);
+}
+
 SequenceOutcome Sequence::run() {
   while (!trainings_.empty() && may_go_on()) {
     const std::vector<LinearisedPose> poses = index_.linearised(outcome_.learnt.robot);
     evolve(select(poses), poses);
+    if (amplitudes_of(job_.distal) == Amplitudes::fitted) fit_amplitudes();
   }
   offer_for_choice(index_, trainings_, trees_, outcome_.learnt);
   return std::move(outcome_);

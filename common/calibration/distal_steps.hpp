@@ -1,4 +1,4 @@
-// Learning from the error of the whole model: what each joint learns from, and which candidate the model takes next.
+// Learning from the error of the whole model: what each joint learns from, and the steps in which the model gets better.
 #pragma once
 
 #include <cstdint>
@@ -35,10 +35,9 @@ struct DistalOutcome {
 JointTraining distal_training(const JointTraining& like, std::span<const LinearisedPose> poses,
                               std::optional<double> scale_rad = std::nullopt);
 
-/// Has the model take the candidate that lowers the linearised index most, of whichever joint, again and again,
-/// linearised anew each time: each only if it is bounded and the exact index falls. Adds a step for each.
-void take_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, std::uint32_t generation,
-                     DistalOutcome& outcome);
+/// Gives every training the scale of its joint's correction, where it has one, for the unit of its targets: formulas
+/// evolved for the joint change as what the model took was changed.
+void follow_amplitudes(const CorrectedRobot& robot, std::span<JointTraining> trainings);
 
 /// Has the model take one correction of the training's joint if the exact index falls, and adds a step. Whether it did.
 bool take_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,10 +45,21 @@ struct ClosedLoopOptions {
 /// what the others left in the round before, or one at a time as in Figure 4-6.
 enum class DistalForm { parallel, sequential };
 
+/// How large a correction becomes when the model takes it: as it evolved, or as it suits those of the other joints.
+enum class Amplitudes { as_evolved, fitted };
+
 struct DistalOptions {
   DistalForm form = DistalForm::parallel;
-  int rounds = 8;  ///< of the parallel form, into which the generations are divided
+  int rounds = 8;                          ///< of the parallel form, into which the generations are divided
+  std::optional<Amplitudes> amplitudes{};  ///< nothing: as amplitudes_of() says
 };
+
+/// What the options ask for or, where they do not say, fitted in the parallel form, in which joints learn side by side
+/// and must be brought together, and as evolved in the sequential, which is the thesis's.
+inline Amplitudes amplitudes_of(const DistalOptions& options) {
+  const bool is_parallel = options.form == DistalForm::parallel;
+  return options.amplitudes.value_or(is_parallel ? Amplitudes::fitted : Amplitudes::as_evolved);
+}
 
 struct Job {
   std::string name;       ///< the job file's stem

@@ -41,6 +41,15 @@ Tree divided(const Tree& formula, double divisor) {
   return factor == 1.0 ? rest : apply(Primitive::multiply, constant_tree(factor), rest);
 }
 
+/// Of the scale, one node, and the tree.
+const Tree& product_of(const JointCorrection& correction) {
+  const Tree& product = correction.formula();
+  DEMECAL_CHECK(
+      product.size() > 2 && product[0].primitive == Primitive::multiply && product[1].primitive == Primitive::constant,
+      "a formula of " << product.size() << " nodes");
+  return product;
+}
+
 }  // namespace
 
 double round_scale(double mean_absolute) {
@@ -82,11 +91,12 @@ JointCorrection correction_from(const JointTraining& training, const Tree& evolv
 }
 
 Tree evolved_tree(const JointCorrection& correction) {
-  const Tree& product = correction.formula();  // of the scale, one node, and the tree
-  DEMECAL_CHECK(
-      product.size() > 2 && product[0].primitive == Primitive::multiply && product[1].primitive == Primitive::constant,
-      "a formula of " << product.size() << " nodes");
+  const Tree& product = product_of(correction);
   return {product.begin() + 2, product.end()};
+}
+
+double evolved_scale_rad(const JointCorrection& correction) {
+  return product_of(correction)[1].value;
 }
 
 }  // namespace demecal

@@ -15,7 +15,9 @@ namespace demecal {
 struct JointTraining {
   std::uint32_t joint = 0;  ///< from 0
   TrainingTable table;
-  double scale_rad = 1.0;  ///< 1, 2 or 5 times a power of ten: the largest that the mean absolute target reaches
+  /// 1, 2 or 5 times a power of ten: the largest that the mean absolute target reaches. Where distal learning fitted
+  /// the amplitude of the joint's correction, that.
+  double scale_rad = 1.0;
   Interval range_rad;      ///< of theta in the table
   AngleBranch branch;
   double largest_rad = std::numeric_limits<double>::infinity();  ///< that the user allows the correction to become
@@ -37,5 +39,7 @@ double round_scale(double mean_absolute);
 JointCorrection correction_from(const JointTraining& training, const Tree& evolved);
 /// The tree that correction_from() made a correction of.
 Tree evolved_tree(const JointCorrection& correction);
+/// The scale that correction_from() made it with, rad.
+double evolved_scale_rad(const JointCorrection& correction);
 
 }  // namespace demecal

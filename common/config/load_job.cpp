@@ -42,7 +42,7 @@ IslandOptions read_islands(const YamlNode& node, int population_size) {
 }
 
 DistalOptions read_distal(const YamlNode& node) {
-  node.with_keys({"form", "rounds"});
+  node.with_keys({"form", "rounds", "amplitudes"});
   DistalOptions distal;
   if (const YamlNode* form = node.find("form")) {
     distal.form =
@@ -50,6 +50,10 @@ DistalOptions read_distal(const YamlNode& node) {
   }
   if (const YamlNode* rounds = node.find("rounds")) {
     distal.rounds = static_cast<int>(rounds->whole_number(1, kMostRounds));
+  }
+  if (const YamlNode* amplitudes = node.find("amplitudes")) {
+    distal.amplitudes = amplitudes->one_of<Amplitudes>(
+        {{"as_evolved", Amplitudes::as_evolved}, {"fitted", Amplitudes::fitted}});
   }
   return distal;
 }
