@@ -81,8 +81,8 @@ bool Rounds::round(const EvolveRound& evolve, RoundTerms terms) {
   generation_ += static_cast<std::uint32_t>(terms.generations);
   for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of((*candidates)[i].front);
   if (seeks_functions_) next_functions_ = shared_functions(*candidates, job_.corrections.sharing);
-  const bool has_gained =
-      take_candidates(index_, *candidates, amplitudes_of(job_.distal), generation_, outcome_);
+  const Amplitudes amplitudes = job_.distal.amplitudes.value_or(Amplitudes::fitted);
+  const bool has_gained = take_candidates(index_, *candidates, amplitudes, generation_, outcome_);
   follow_amplitudes(outcome_.robot, trainings_);
   return has_gained;
 }

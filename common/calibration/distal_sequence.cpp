@@ -136,7 +136,7 @@ SequenceOutcome Sequence::run() {
   while (!trainings_.empty() && may_go_on()) {
     const std::vector<LinearisedPose> poses = index_.linearised(outcome_.learnt.robot);
     evolve(select(poses), poses);
-    if (amplitudes_of(job_.distal) == Amplitudes::fitted) fit_amplitudes();
+    if (job_.distal.amplitudes == Amplitudes::fitted) fit_amplitudes();
   }
   offer_for_choice(index_, trainings_, trees_, outcome_.learnt);
   return std::move(outcome_);

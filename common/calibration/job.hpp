@@ -50,16 +50,11 @@ enum class Amplitudes { as_evolved, fitted };
 
 struct DistalOptions {
   DistalForm form = DistalForm::parallel;
-  int rounds = 8;                          ///< of the parallel form, into which the generations are divided
-  std::optional<Amplitudes> amplitudes{};  ///< nothing: as amplitudes_of() says
+  int rounds = 8;  ///< of the parallel form, into which the generations are divided
+  /// Nothing: fitted in the parallel form, whose joints learn side by side and have to be brought together, and as
+  /// evolved in the sequential, which is the thesis's.
+  std::optional<Amplitudes> amplitudes{};
 };
-
-/// What the options ask for or, where they do not say, fitted in the parallel form, in which joints learn side by side
-/// and must be brought together, and as evolved in the sequential, which is the thesis's.
-inline Amplitudes amplitudes_of(const DistalOptions& options) {
-  const bool is_parallel = options.form == DistalForm::parallel;
-  return options.amplitudes.value_or(is_parallel ? Amplitudes::fitted : Amplitudes::as_evolved);
-}
 
 struct Job {
   std::string name;       ///< the job file's stem

@@ -3,50 +3,12 @@
 
 #include "calibration/distal_rounds.hpp"
 #include "calibration/distal_sequence.hpp"
-#include "erring_arm.hpp"
+#include "distal_arm.hpp"
 #include "evolution/fitness.hpp"
 #include "island_evolution.hpp"
 
 namespace demecal {
 namespace {
-
-const std::vector<std::string> kDistalErrors{
-    "0.002 * SIN(theta)", "0.003 * COS(theta)", "-0.002 * SIN(theta)", "", "0.002 * theta", ""};
-
-enum class Measured { position, pose, distances };
-
-DataSet measured(Measured what, std::uint64_t seed) {
-  DataSet data = measure(true_puma(kDistalErrors), 45, 2e-5, seed, what == Measured::pose);
-  if (what != Measured::distances) return data;
-  data.anchors_m = {{2.0, 0.3, 0.1}, {-0.5, 1.8, 0.4}};
-  for (MeasuredPose& pose : data.poses) {
-    for (const Eigen::Vector3d& anchor : data.anchors_m) pose.distances_m.push_back((*pose.position_m - anchor).norm());
-    pose.position_m.reset();
-  }
-  return data;
-}
-
-Job distal_job() {
-  Job job;
-  job.method = Method::distal;
-  job.seed = 4;
-  job.declared = {.joint_corrections = true};
-  job.gp.population_size = 60;
-  job.gp.number_generations = 40;
-  job.distal.rounds = 4;
-  return job;
-}
-
-/// The PUMA with random smooth corrections of a size.
-CorrectedRobot corrected_puma(double size_rad, RandomStream& random) {
-  CorrectedRobot robot = true_puma(std::vector<std::string>(6));
-  for (JointCorrection& correction : robot.corrections) {
-    const Tree wave =
-        apply(Primitive::sine, apply(Primitive::add, variable_tree(0), constant_tree(random.real(-3, 3))));
-    correction = JointCorrection(apply(Primitive::multiply, constant_tree(size_rad), wave), {}, {-M_PI, M_PI});
-  }
-  return robot;
-}
 
 EvolveRound in_this_thread(const Job& job) {
   return [&job](const std::vector<JointTraining>& trainings, const RoundTerms& terms) {
@@ -122,9 +84,12 @@ TEST_P(DistalLearning, NeverRaisesTheIndexAndLowersIt) {
   const DistalOutcome outcome = learn_in_rounds(index, preparation, job, in_this_thread(job));
   const double before = index(preparation.declared.robot);
   double last = before;
+  std::uint32_t generation = 0;
   for (const DistalStep& step : outcome.steps) {
-    EXPECT_LT(step.index_mm2, last);
+    const bool is_of_the_same_round = step.generation == generation;
+    EXPECT_TRUE(is_of_the_same_round ? step.index_mm2 == last : step.index_mm2 < last);
     last = step.index_mm2;
+    generation = step.generation;
   }
   EXPECT_EQ(last, outcome.index_mm2);
   EXPECT_EQ(outcome.index_mm2, index(outcome.robot));
@@ -146,6 +111,20 @@ TEST_P(DistalLearning, InSequenceNeverRaisesTheIndexEither) {
   EXPECT_EQ(last, index(outcome.learnt.robot));
   EXPECT_LT(last, 0.8 * index(preparation.declared.robot));
   EXPECT_EQ(outcome.generations, 40U);
+}
+
+TEST_P(DistalLearning, InSequenceMayFitAmplitudesToo) {
+  Job fitting = job;
+  const SequenceOutcome thesis = learn_in_sequence(index, preparation, fitting, [] { return true; });
+  fitting.distal.amplitudes = Amplitudes::fitted;
+  const SequenceOutcome fitted = learn_in_sequence(index, preparation, fitting, [] { return true; });
+  double last = index(preparation.declared.robot);
+  for (const DistalStep& step : fitted.learnt.steps) {
+    EXPECT_LE(step.index_mm2, last);
+    last = step.index_mm2;
+  }
+  EXPECT_EQ(last, index(fitted.learnt.robot));
+  EXPECT_NE(last, thesis.learnt.index_mm2);
 }
 
 /// What the thesis's algorithm does at its first step.
@@ -173,11 +152,6 @@ TEST_P(DistalLearning, WeighsOrientationInWhereItIsMeasured) {
   } else {
     EXPECT_NEAR(whole, of_tool, 1e-9 * of_tool);
   }
-}
-
-std::string word_of_measured(const testing::TestParamInfo<Measured>& info) {
-  constexpr const char* kWords[] = {"Position", "FullPose", "Distances"};
-  return kWords[static_cast<std::size_t>(info.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, DistalLearning, testing::Values(Measured::position, Measured::pose, Measured::distances),

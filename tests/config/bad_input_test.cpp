@@ -214,6 +214,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "method must be one of: direct distal structural; the nearest is 'distal'"},
         BadInput{"UnknownDistalForm", "job.yaml", "form: sequential", "form: sequentiel", "job.yaml:35", "sequentiel",
                  "distal.form must be one of: parallel sequential; the nearest is 'sequential'"},
+        BadInput{"UnknownAmplitudes", "job.yaml", "amplitudes: fitted", "amplitudes: fit", "job.yaml:35", "fit",
+                 "distal.amplitudes must be one of: as_evolved fitted; the nearest is 'fitted'"},
         BadInput{"NoRounds", "job.yaml", "rounds: 3", "rounds: 0", "job.yaml:35", "0",
                  "distal.rounds must lie within 1 to 1000"},
         BadInput{"UnknownDeclaration", "job.yaml", "geometry", "geometri", "job.yaml:6", "geometri",

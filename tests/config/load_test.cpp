@@ -82,6 +82,7 @@ TEST(LoadJob, ReadsEveryKey) {
   EXPECT_EQ(job.seed, 7u);
   EXPECT_EQ(job.distal.form, DistalForm::sequential);
   EXPECT_EQ(job.distal.rounds, 3);
+  EXPECT_EQ(job.distal.amplitudes, Amplitudes::fitted);
   EXPECT_TRUE(job.declared.registration && job.declared.geometry && job.declared.joint_corrections);
   EXPECT_FALSE(job.declared.tool || job.declared.joint_offset);
   EXPECT_EQ(job.gp.population_size, 120);

@@ -80,7 +80,7 @@ closed_loop:
   candidates: [backlash, compliance]
   highest_ratio: 90
   ratios: [161, 211.5]
-distal: {form: sequential, rounds: 3}
+distal: {form: sequential, rounds: 3, amplitudes: fitted}
 )yaml";
 
 inline const std::string kScenarioText = R"yaml(# the arm of two joints, simulated
