@@ -25,8 +25,7 @@ Eigen::VectorXd all_left_mm(std::span<const LinearisedPose> poses) {
 
 CorrectionShape present(std::span<const LinearisedPose> poses, std::size_t joint) {
   CorrectionShape shape{joint, {}};
-  for (const LinearisedPose& pose : poses)
-    shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(joint)]);
+  for (const LinearisedPose& pose : poses) shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(joint)]);
   return shape;
 }
 
@@ -45,7 +44,8 @@ AmplitudeFit::AmplitudeFit(std::span<const LinearisedPose> poses, std::span<cons
   Eigen::VectorXd wanted = all_left_mm(poses);
   for (const std::size_t joint : joints) wanted += effect_mm(poses, present(poses, joint));
   Eigen::MatrixXd effects(wanted.size(), static_cast<Eigen::Index>(shapes.size()));
-  for (std::size_t i = 0; i < shapes.size(); ++i) effects.col(static_cast<Eigen::Index>(i)) = effect_mm(poses, shapes[i]);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    effects.col(static_cast<Eigen::Index>(i)) = effect_mm(poses, shapes[i]);
   products_ = effects.transpose() * effects;
   demanded_ = effects.transpose() * wanted;
   bare_index_mm2_ = wanted.squaredNorm();

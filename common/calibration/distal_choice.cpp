@@ -9,8 +9,7 @@
 namespace demecal {
 namespace {
 
-constexpr double kLeastGain = 1e-4;     ///< of the linearised index, by a choice that counts
-constexpr double kLeastFall = 1e-6;     ///< of the exact index, by all choices together
+constexpr double kLeastGain = 1e-4;  ///< of the linearised index, by a choice that counts
 constexpr double kLargestFactor = 10.0;
 constexpr double kScaleDigits = 3.0;  ///< that formulas show
 

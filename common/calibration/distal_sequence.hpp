@@ -21,7 +21,8 @@ struct SequenceOutcome {
 /// generations begins anew around its fittest (as in the thesis's program). Formulas are ranked by the index linearised
 /// about the present model, which differs from the exact one by parts in a thousand of what a correction changes. What
 /// would be the fittest but is not bounded (see is_bounded) loses its fitness. Ends after job.gp.number_generations in
-/// all, or when `may_go_on`, asked before every generation, says no. A function of data and job.
+/// all, or when `may_go_on`, asked before every generation, says no. Where the job has amplitudes fitted (the thesis
+/// does not), those of all joints are fitted to one another after every step. A function of data and job.
 SequenceOutcome learn_in_sequence(const DistalIndex& index, const Preparation& preparation, const Job& job,
                                   const std::function<bool()>& may_go_on);
 

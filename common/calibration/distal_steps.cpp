@@ -8,11 +8,6 @@
 #include "evolution/fitness.hpp"
 
 namespace demecal {
-namespace {
-
-constexpr double kLeastFall = 1e-6;  ///< of the index, by a step that counts
-
-}  // namespace
 
 JointTraining distal_training(const JointTraining& like, std::span<const LinearisedPose> poses,
                               std::optional<double> scale_rad) {

@@ -1,4 +1,5 @@
-// Learning from the error of the whole model: what each joint learns from, and the steps in which the model gets better.
+// Learning from the error of the whole model: what each joint learns from, and the steps in which the model gets
+// better.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +11,21 @@
 
 namespace demecal {
 
-/// The model took a correction: a row of the thesis's Table 4-1.
+inline constexpr double kLeastFall = 1e-6;  ///< of the index, by a step that counts
+
+/// The model took a correction, or another amplitude of one: a row of the thesis's Table 4-1.
 struct DistalStep {
   int joint = 0;                 ///< from 0
   std::uint32_t generation = 0;  ///< when it emerged, counted over the whole learning
   JointCorrection correction;
-  double index_mm2 = 0.0;  ///< of the model with it
+  double index_mm2 = 0.0;  ///< of the model with it, and with whatever was taken together with it
 };
 
 /// What distal learning made of a model.
 struct DistalOutcome {
   CorrectedRobot robot;
   double index_mm2 = 0.0;
-  std::vector<DistalStep> steps{};            ///< of falling index
+  std::vector<DistalStep> steps{};            ///< of falling index; those taken together have the same
   std::vector<JointCandidates> candidates{};  ///< for conclude(): the last fronts, and the model's own corrections
   std::vector<SharedFunction> functions{};    ///< that joints shared in the last round
 };

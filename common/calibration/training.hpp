@@ -18,7 +18,7 @@ struct JointTraining {
   /// 1, 2 or 5 times a power of ten: the largest that the mean absolute target reaches. Where distal learning fitted
   /// the amplitude of the joint's correction, that.
   double scale_rad = 1.0;
-  Interval range_rad;      ///< of theta in the table
+  Interval range_rad;  ///< of theta in the table
   AngleBranch branch;
   double largest_rad = std::numeric_limits<double>::infinity();  ///< that the user allows the correction to become
 };

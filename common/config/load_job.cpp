@@ -52,8 +52,8 @@ DistalOptions read_distal(const YamlNode& node) {
     distal.rounds = static_cast<int>(rounds->whole_number(1, kMostRounds));
   }
   if (const YamlNode* amplitudes = node.find("amplitudes")) {
-    distal.amplitudes = amplitudes->one_of<Amplitudes>(
-        {{"as_evolved", Amplitudes::as_evolved}, {"fitted", Amplitudes::fitted}});
+    distal.amplitudes =
+        amplitudes->one_of<Amplitudes>({{"as_evolved", Amplitudes::as_evolved}, {"fitted", Amplitudes::fitted}});
   }
   return distal;
 }

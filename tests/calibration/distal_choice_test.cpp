@@ -88,8 +88,7 @@ TEST_P(DistalChoice, LeavesTheModelAloneWhereTheIndexWouldNotFall) {
       const std::string& error = kDistalErrors[training.joint];
       const Tree factor = constant_tree(1.0 / training.scale_rad);
       if (!error.empty())
-        robot.corrections[training.joint] =
-            correction_from(training, apply(Primitive::multiply, factor, parse(error)));
+        robot.corrections[training.joint] = correction_from(training, apply(Primitive::multiply, factor, parse(error)));
     }
     return robot;
   }();
