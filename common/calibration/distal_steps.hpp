@@ -1,5 +1,4 @@
-// Learning from the error of the whole model: what each joint learns from, and the steps in which the model gets
-// better.
+// Learning from the error of the whole model: what each joint learns from, and the steps that a model takes.
 #pragma once
 
 #include <cstdint>
