@@ -1,11 +1,12 @@
 #include "calibration/amplitude_fit.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace demecal {
 namespace {
 
-constexpr double kHold = 1e-3;
+constexpr double kHold = 1e-3, kFirmHold = 1e8;
 
 /// Rows of all poses one after the other.
 Eigen::VectorXd effect_mm(std::span<const LinearisedPose> poses, const CorrectionShape& shape) {
@@ -56,9 +57,11 @@ double AmplitudeFit::index_mm2(std::span<const std::size_t> chosen, const Eigen:
   return bare_index_mm2_ + factors.dot(of_chosen * factors - 2.0 * demanded_(chosen));
 }
 
-ChosenShapes AmplitudeFit::fitted(std::span<const std::size_t> chosen) const {
+ChosenShapes AmplitudeFit::fitted(std::span<const std::size_t> chosen, std::span<const std::size_t> held) const {
   Eigen::MatrixXd products = products_(chosen, chosen);
-  const Eigen::VectorXd hold = kHold * products.diagonal();
+  Eigen::VectorXd hold = kHold * products.diagonal();
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    if (std::ranges::count(held, chosen[i]) > 0) hold[static_cast<Eigen::Index>(i)] *= kFirmHold / kHold;
   products.diagonal() += hold;
   const Eigen::VectorXd factors = products.ldlt().solve(demanded_(chosen) + hold);
   return chosen_shapes(factors, index_mm2(chosen, factors));

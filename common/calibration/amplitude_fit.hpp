@@ -32,8 +32,9 @@ class AmplitudeFit {
   AmplitudeFit(std::span<const LinearisedPose> poses, std::span<const std::size_t> joints,
                std::span<const CorrectionShape> shapes);
 
-  /// With the factors of least index. At most one shape a joint is chosen.
-  ChosenShapes fitted(std::span<const std::size_t> chosen) const;
+  /// With the factors of least index; those of `held` shapes are 1 within a millionth. At most one shape a joint is
+  /// chosen.
+  ChosenShapes fitted(std::span<const std::size_t> chosen, std::span<const std::size_t> held = {}) const;
   /// With the factor 1 for each.
   ChosenShapes as_they_are(std::span<const std::size_t> chosen) const;
 

@@ -49,7 +49,9 @@ class Choice {
   bool choose_one();
   std::optional<ChosenShapes> worth(std::span<const std::size_t> chosen) const;
   std::vector<std::size_t> with(std::size_t place) const;
-  bool are_bounded(std::span<const std::size_t> chosen, const ChosenShapes& as) const;
+  std::optional<std::size_t> unbounded(std::span<const std::size_t> chosen, const ChosenShapes& as) const;
+  bool is_held(std::size_t place) const { return std::ranges::count(held_, place) > 0; }
+  void fit_present();
   JointCorrection correction(std::size_t place, double factor) const;
 
   std::span<const JointCandidates> candidates_;
@@ -59,6 +61,7 @@ class Choice {
   std::vector<CorrectionShape> shapes_;
   std::optional<AmplitudeFit> fit_;
   std::vector<std::size_t> chosen_;  ///< places of offers, at most one a joint
+  std::vector<std::size_t> held_;    ///< places of offers that are to keep their size: larger, they are not bounded
   ChosenShapes as_;
 };
 
@@ -99,23 +102,24 @@ std::vector<std::size_t> Choice::with(std::size_t place) const {
 /// Nothing where a factor is out of bounds.
 std::optional<ChosenShapes> Choice::worth(std::span<const std::size_t> chosen) const {
   if (amplitudes_ == Amplitudes::as_evolved) return fit_->as_they_are(chosen);
-  ChosenShapes fitted = fit_->fitted(chosen);
+  ChosenShapes fitted = fit_->fitted(chosen, held_);
   const auto is_sound = [](double factor) { return factor >= 1.0 / kLargestFactor && factor <= kLargestFactor; };
   if (!std::ranges::all_of(fitted.factor, is_sound)) return std::nullopt;
   return fitted;
 }
 
-/// Limits change with what is left: what the model has may stay, but not grow.
-bool Choice::are_bounded(std::span<const std::size_t> chosen, const ChosenShapes& as) const {
+/// The place of one that is not. Limits change with what is left: what the model has may stay, but not grow.
+std::optional<std::size_t> Choice::unbounded(std::span<const std::size_t> chosen, const ChosenShapes& as) const {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Offer& offer = offers_[chosen[i]];
-    if (offer.is_present && as.factor[i] <= 1.0) continue;
-    if (!is_bounded(correction(chosen[i], as.factor[i]), candidates_[offer.list].training)) return false;
+    if (is_held(chosen[i]) || (offer.is_present && as.factor[i] <= 1.0)) continue;
+    if (!is_bounded(correction(chosen[i], as.factor[i]), candidates_[offer.list].training)) return chosen[i];
   }
-  return true;
+  return std::nullopt;
 }
 
-/// Whether another choice lowers the index; what does but is not bounded is refused.
+/// Whether another choice lowers the index. What does but is not bounded is refused; what it would have grow too large
+/// is held.
 bool Choice::choose_one() {
   while (true) {
     std::optional<std::size_t> best;
@@ -130,18 +134,31 @@ bool Choice::choose_one() {
     }
     if (!best) return false;
     std::vector<std::size_t> chosen = with(*best);
-    offers_[*best].is_refused = !are_bounded(chosen, as);
-    if (offers_[*best].is_refused) continue;
+    const std::optional<std::size_t> large = unbounded(chosen, as);
+    if (large == best) offers_[*best].is_refused = true;
+    if (large && large != best) held_.push_back(*large);
+    if (large) continue;
     chosen_ = std::move(chosen);
     as_ = std::move(as);
     return true;
   }
 }
 
+/// What the model has, to one another.
+void Choice::fit_present() {
+  while (true) {
+    std::optional<ChosenShapes> fitted = worth(chosen_);
+    if (!fitted || !(fitted->index_mm2 < as_.index_mm2)) return;
+    const std::optional<std::size_t> large = unbounded(chosen_, *fitted);
+    if (!large) as_ = std::move(*fitted);
+    if (!large) return;
+    held_.push_back(*large);
+  }
+}
+
 void Choice::choose(double index_mm2) {
   as_ = {std::vector<double>(chosen_.size(), 1.0), index_mm2};
-  const auto fitted = worth(chosen_);
-  if (fitted && fitted->index_mm2 < as_.index_mm2 && are_bounded(chosen_, *fitted)) as_ = *fitted;
+  fit_present();
   while (choose_one()) {
   }
 }

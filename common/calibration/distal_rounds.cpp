@@ -71,7 +71,7 @@ void Rounds::prepare() {
   first_ = false;
 }
 
-/// Whether another may follow.
+/// Whether it was evolved to the end. Where no joint gains, one may in the next, whose populations are others.
 bool Rounds::round(const EvolveRound& evolve, RoundTerms terms) {
   prepare();
   if (seeks_functions_) outcome_.functions = next_functions_;
@@ -82,9 +82,9 @@ bool Rounds::round(const EvolveRound& evolve, RoundTerms terms) {
   for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of((*candidates)[i].front);
   if (seeks_functions_) next_functions_ = shared_functions(*candidates, job_.corrections.sharing);
   const Amplitudes amplitudes = job_.distal.amplitudes.value_or(Amplitudes::fitted);
-  const bool has_gained = take_candidates(index_, *candidates, amplitudes, generation_, outcome_);
+  take_candidates(index_, *candidates, amplitudes, generation_, outcome_);
   follow_amplitudes(outcome_.robot, trainings_);
-  return has_gained;
+  return true;
 }
 
 DistalOutcome Rounds::run(const EvolveRound& evolve) {

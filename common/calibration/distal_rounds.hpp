@@ -19,9 +19,8 @@ using EvolveRound =
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
 /// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
 /// of the round before; then the model takes candidates (see take_candidates), so that its exact index never rises.
-/// Ends with the rounds, with the first in which no joint gains, or where evolution is cut off. Where the job has
-/// joints share functions, these are the known ones or, without any such list, found anew after every round. A function
-/// of data, job and what `evolve` finds.
+/// Ends with the rounds, or where evolution is cut off. Where the job has joints share functions, these are the known
+/// ones or, without any such list, found anew after every round. A function of data, job and what `evolve` finds.
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
                               const EvolveRound& evolve, const KnownFunctions& known = std::nullopt);
 

@@ -116,6 +116,20 @@ TEST(AmplitudeFit, FindsTheFactorsThatLeaveNothing) {
   }
 }
 
+TEST(AmplitudeFit, LeavesWhatIsHeldAsItIs) {
+  RandomStream random{45};
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto poses = random_poses(random);
+    const auto shapes = random_shapes(random);
+    const AmplitudeFit fit(poses, kJoints, shapes);
+    const std::vector<std::size_t> chosen{5, 1, 2}, held{1};
+    const ChosenShapes fitted = fit.fitted(chosen, held);
+    EXPECT_NEAR(fitted.factor[1], 1.0, 1e-6);
+    EXPECT_LE(fitted.index_mm2, fit.as_they_are(chosen).index_mm2 * (1.0 + 1e-12));
+    EXPECT_GT(fitted.index_mm2, 0.99 * fit.fitted(chosen).index_mm2);
+  }
+}
+
 /// One joint's motion is the other's: only the sum of both corrections shows.
 TEST(AmplitudeFit, LetsNoneOfTwoJointsGrowThatAreNotToBeToldApart) {
   RandomStream random{44};

@@ -98,6 +98,20 @@ TEST_P(DistalLearning, NeverRaisesTheIndexAndLowersIt) {
   EXPECT_LT(calibration.index_after_mm2, 0.3 * calibration.index_before_mm2);
 }
 
+/// A round that brings nothing does not end the learning: the next may.
+TEST_P(DistalLearning, GoesOnToTheLastRound) {
+  int rounds = 0;
+  const EvolveRound often_nothing = [&](const std::vector<JointTraining>& trainings, const RoundTerms& terms) {
+    if (++rounds % 2 == 0) return in_this_thread(job)(trainings, terms);
+    std::vector<JointCandidates> nothing;
+    for (const JointTraining& training : trainings) nothing.push_back({training, {}});
+    return std::optional(nothing);
+  };
+  const DistalOutcome outcome = learn_in_rounds(index, preparation, job, often_nothing);
+  EXPECT_EQ(rounds, job.distal.rounds);
+  EXPECT_LT(outcome.index_mm2, 0.5 * index(preparation.declared.robot));
+}
+
 TEST_P(DistalLearning, InSequenceNeverRaisesTheIndexEither) {
   const SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [] { return true; });
   double last = index(preparation.declared.robot);
