@@ -24,7 +24,9 @@ constexpr std::uint32_t kSocketBuffer_bytes = 4 << 20;
 constexpr std::uint32_t kParticipantsPerHost = 100;
 constexpr milliseconds kParticipantLease{5000};
 constexpr milliseconds kAnnouncement{1000};
-constexpr milliseconds kFirstAnnouncements{100};
+constexpr milliseconds kFirstAnnouncements{30};
+/// So many of them, closer together: whoever starts beside another may miss the first.
+constexpr std::uint32_t kFirst = 8;
 constexpr milliseconds kServerSync{200};
 
 std::vector<std::string> bound_addresses(const DdsOptions& options) {
@@ -65,7 +67,7 @@ void set_discovery(rtps::BuiltinAttributes& builtin, const DdsOptions& options) 
   auto& discovery = builtin.discovery_config;
   discovery.leaseDuration = dds_duration(kParticipantLease);
   discovery.leaseDuration_announcementperiod = dds_duration(kAnnouncement);
-  discovery.initial_announcements = {5, dds_duration(kFirstAnnouncements)};
+  discovery.initial_announcements = {kFirst, dds_duration(kFirstAnnouncements)};
   if (!options.discovery_server.empty()) {
     discovery.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
     discovery.discoveryServer_client_syncperiod = dds_duration(kServerSync);

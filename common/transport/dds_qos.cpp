@@ -69,8 +69,9 @@ dds::DataWriterQos writer_qos(Topic topic) {
   set_both_ends(qos, topic);
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 1;
-  // Every sample fits into a datagram: a thread that sends them in pieces would only cost.
-  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  // A thread of its own puts what comes at once into one datagram; figures come one by one.
+  const bool comes_at_once = ends_with_run(topic) && topic != Topic::progress;
+  qos.publish_mode().kind = comes_at_once ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kHeartbeat);
   return qos;
 }

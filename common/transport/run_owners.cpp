@@ -6,7 +6,7 @@
 namespace demecal {
 namespace {
 
-constexpr std::ptrdiff_t kMostRuns = 16;  ///< of one owner at a time
+constexpr std::ptrdiff_t kMostRuns = 48;  ///< of one owner at a time
 constexpr std::size_t kMostOver = 64;     ///< runs that are over, or whose owner is gone
 constexpr std::size_t kMostEarly = 4096, kMostEarly_bytes = 256 << 20;
 
