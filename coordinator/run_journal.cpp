@@ -85,6 +85,7 @@ void RunJournal::begin(const CalibrationData& data) {
 }
 
 void RunJournal::forget() {
+  evolutions_.at(present_) = RunState(evolutions_.at(present_).data());
   file_.append(forget_record(present_));
   sync_where_due();
 }

@@ -50,7 +50,7 @@ class Waker {
   std::jthread thread_;
 };
 
-/// Gives back what the last runs left: what one thread claims and another frees stays claimed otherwise. Not after
+/// Gives back memory that runs left: what one thread claims and another frees stays claimed otherwise. Not after
 /// every one of many short runs.
 void trim_memory() {
   constexpr std::chrono::seconds kLeastInterval{5};

@@ -88,6 +88,7 @@ void DdsTransport::follow_migrants(std::uint32_t joint) {
 void DdsTransport::publish(const Message& message) {
   check_may_publish(role_, name_, key_of(message));
   if (const auto* status = std::get_if<WorkerStatus>(&message)) note_status(*status);
+  writers_.catch_up();
   writers_.send(message);
   if (const RunId ended = ended_run(message)) writers_.withdraw(ended);
 }

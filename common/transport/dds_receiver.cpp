@@ -121,7 +121,7 @@ class PartsReceiver : public Delivery {
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
     if (status.current_count_change >= 0) return;
     const std::lock_guard lock(mutex_);
-    assembly_.departed(writer_id(status.last_publication_handle));
+    assembly_.departed(writer_id(status.last_publication_handle), std::chrono::steady_clock::now());
   }
 
  private:

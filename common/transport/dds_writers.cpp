@@ -15,7 +15,7 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 
-constexpr std::size_t kMostOver = 64;
+constexpr std::size_t kMostOver = 1024;
 /// So long after a run's end its last words may still be said.
 constexpr std::chrono::milliseconds kLastWords{1000};
 

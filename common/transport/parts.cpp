@@ -49,6 +49,7 @@ wire::Part vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t n
 }
 
 Assembly::Result Assembly::take(const WriterId& writer, wire::Part part) {
+  gone_.erase(writer);
   const Place place{writer, part.place()};
   const auto known = unfinished_.find(place);
   if (known != unfinished_.end() && known->second.message < part.message()) forget(known);
@@ -92,7 +93,16 @@ void Assembly::forget(Places::iterator unfinished) {
   unfinished_.erase(unfinished);
 }
 
-void Assembly::departed(const WriterId& writer) {
+void Assembly::departed(const WriterId& writer, Time now) {
+  gone_[writer] = now;
+  std::erase_if(gone_, [&](const auto& gone) {
+    if (now - gone.second < kLongestAbsence) return false;
+    forget_all_of(gone.first);
+    return true;
+  });
+}
+
+void Assembly::forget_all_of(const WriterId& writer) {
   while (true) {
     const auto first = unfinished_.lower_bound({writer, 0});
     if (first == unfinished_.end() || first->first.first != writer) return;

@@ -1,6 +1,7 @@
 // Messages of any size in parts that each fit into a datagram, and messages put together of parts again.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,7 +27,11 @@ wire::Part vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t n
 /// which it wrote them.
 class Assembly {
  public:
-  /// What is kept of one participant's unfinished messages stays below so many bytes.
+  using Time = std::chrono::steady_clock::time_point;
+  /// A network that was cut may heal, and what had come by then is not said again: so long it is kept.
+  static constexpr std::chrono::seconds kLongestAbsence{60};
+
+  /// What is kept of one participant's unfinished messages stays below about so many bytes.
   explicit Assembly(std::size_t most_bytes = 128 << 20) : most_bytes_(most_bytes) {}
 
   enum class Verdict { waits, whole, malformed, too_much };
@@ -36,8 +41,8 @@ class Assembly {
   };
   /// A message is given up when a part of a newer one comes in its place; parts of older ones wait for nothing.
   Result take(const WriterId& writer, wire::Part part);
-  /// Forgets what this writer did not finish.
-  void departed(const WriterId& writer);
+  /// The writer is gone, as far as the network tells. Forgets what those did not finish that have been gone for long.
+  void departed(const WriterId& writer, Time now);
 
  private:
   using Place = std::pair<WriterId, std::uint32_t>;
@@ -51,10 +56,12 @@ class Assembly {
 
   Result add(const Place& place, wire::Part part);
   void forget(Places::iterator unfinished);
+  void forget_all_of(const WriterId& writer);
 
   std::size_t most_bytes_;
   Places unfinished_;
   std::map<ParticipantId, std::size_t> bytes_;  ///< kept of each participant's
+  std::map<WriterId, Time> gone_;               ///< since when
 };
 
 }  // namespace demecal

@@ -55,8 +55,12 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cont
   // between: nobody is accused.
   if (known == runs_.end() || !ends || known->second.end_from_elsewhere)
     return dropped_.note(ends ? "" : name, "control of a run that is another's");
-  if (known->second.owner_gone) return put(source, name, std::move(control));
-  known->second.end_from_elsewhere = std::move(control);
+  if (!known->second.owner_gone) {
+    known->second.end_from_elsewhere = std::move(control);
+    return;
+  }
+  known->second.is_over = true;
+  put(source, name, std::move(control));
 }
 
 bool RunOwners::is_settled(const ParticipantId& source, const std::string& name, const Message& message, RunId run) {
@@ -123,7 +127,10 @@ void RunOwners::departed(const ParticipantId& source, Time now) {
   for (auto& [number, run] : runs_) {
     if (run.owner != source) continue;
     run.owner_gone = now;
-    if (auto end = std::exchange(run.end_from_elsewhere, std::nullopt)) put(source, "nobody", std::move(*end));
+    if (auto end = std::exchange(run.end_from_elsewhere, std::nullopt)) {
+      run.is_over = true;
+      put(source, "nobody", std::move(*end));
+    }
   }
   const auto early = early_.find(source);
   if (early == early_.end()) return;

@@ -156,6 +156,7 @@ std::string stream_of(const std::vector<wire::Part>& parts) {
 void put_together(std::string_view stream) {
   constexpr std::size_t kFew_bytes = 200'000, kHead_bytes = 3;
   Assembly assembly(kFew_bytes);
+  int departures = 0;
   while (stream.size() > kHead_bytes) {
     WriterId writer{};
     writer[0] = static_cast<std::uint8_t>(stream[0]) % 2;
@@ -165,7 +166,7 @@ void put_together(std::string_view stream) {
     const auto result = assembly.take(writer, sample_from<wire::Part>(Topic::task, sample));
     demand(result.bytes.empty() || result.verdict == Assembly::Verdict::whole, "only what is whole is handed over");
     demand(result.bytes.size() <= kFew_bytes, "no more than may be kept is put together");
-    if (sample.empty()) assembly.departed(writer);
+    if (sample.empty()) assembly.departed(writer, Assembly::Time{} + departures++ * std::chrono::seconds{30});
   }
 }
 

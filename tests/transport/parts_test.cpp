@@ -77,8 +77,19 @@ TEST(Parts, OfDifferentPlacesAndWritersDoNotMix) {
   EXPECT_EQ(assembly.take(writer(1), of_other[0]).verdict, waits);
   EXPECT_EQ(assembly.take(writer(1), of_one[1]).bytes, one);
   EXPECT_EQ(assembly.take(writer(1), of_other[1]).bytes, other);
-  assembly.departed(writer(2));
-  EXPECT_EQ(assembly.take(writer(2), of_one[1]).verdict, waits);
+}
+
+TEST(Parts, OfOneWhoIsGoneAreKeptForAWhileSinceTheyAreNotSaidAgain) {
+  Assembly assembly;
+  const Assembly::Time now{};
+  const std::string message(2 * kPart_bytes, 'x');
+  const auto parts = parts_of(message, kPlace, 1);
+  for (const std::uint8_t from : {1, 2}) EXPECT_EQ(assembly.take(writer(from), parts[0]).verdict, waits);
+  assembly.departed(writer(1), now);
+  assembly.departed(writer(2), now + Assembly::kLongestAbsence / 2);
+  EXPECT_EQ(assembly.take(writer(2), parts[1]).bytes, message) << "back in time";
+  assembly.departed(writer(3), now + Assembly::kLongestAbsence);
+  EXPECT_EQ(assembly.take(writer(1), parts[1]).verdict, waits) << "too late";
 }
 
 TEST(Parts, OfAVacatedPlaceAreForgotten) {
@@ -113,7 +124,8 @@ TEST(Parts, OfOneParticipantAreKeptUpToABoundAndOthersGoOn) {
     refused += assembly.take(writer(1), parts_of(message, place, 1)[0]).verdict == too_much;
   EXPECT_GT(refused, 90);
   EXPECT_EQ(messages_of(assembly, parts_of(message, 0, 2), writer(2)), std::vector{message});
-  assembly.departed(writer(1));
+  assembly.departed(writer(1), {});
+  assembly.departed(writer(2), Assembly::Time{} + Assembly::kLongestAbsence);
   EXPECT_EQ(messages_of(assembly, parts_of(message, 0, 2), writer(1)), std::vector{message});
 }
 
