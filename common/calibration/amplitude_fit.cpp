@@ -24,12 +24,6 @@ Eigen::VectorXd all_left_mm(std::span<const LinearisedPose> poses) {
   return Eigen::Map<Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
 }
 
-CorrectionShape present(std::span<const LinearisedPose> poses, std::size_t joint) {
-  CorrectionShape shape{joint, {}};
-  for (const LinearisedPose& pose : poses) shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(joint)]);
-  return shape;
-}
-
 Eigen::VectorXd ones(std::span<const std::size_t> chosen) {
   return Eigen::VectorXd::Ones(static_cast<Eigen::Index>(chosen.size()));
 }
@@ -40,10 +34,16 @@ ChosenShapes chosen_shapes(const Eigen::VectorXd& factors, double index_mm2) {
 
 }  // namespace
 
+CorrectionShape present_shape(std::span<const LinearisedPose> poses, std::size_t joint) {
+  CorrectionShape shape{joint, {}};
+  for (const LinearisedPose& pose : poses) shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(joint)]);
+  return shape;
+}
+
 AmplitudeFit::AmplitudeFit(std::span<const LinearisedPose> poses, std::span<const std::size_t> joints,
                            std::span<const CorrectionShape> shapes) {
   Eigen::VectorXd wanted = all_left_mm(poses);
-  for (const std::size_t joint : joints) wanted += effect_mm(poses, present(poses, joint));
+  for (const std::size_t joint : joints) wanted += effect_mm(poses, present_shape(poses, joint));
   Eigen::MatrixXd effects(wanted.size(), static_cast<Eigen::Index>(shapes.size()));
   for (std::size_t i = 0; i < shapes.size(); ++i)
     effects.col(static_cast<Eigen::Index>(i)) = effect_mm(poses, shapes[i]);

@@ -16,6 +16,9 @@ struct CorrectionShape {
   std::vector<double> value_rad;
 };
 
+/// What a joint has about which the poses are linearised.
+CorrectionShape present_shape(std::span<const LinearisedPose> poses, std::size_t joint);
+
 /// What choosing some shapes comes to.
 struct ChosenShapes {
   std::vector<double> factor;  ///< by which each is multiplied, in the order of choice

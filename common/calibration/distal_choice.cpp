@@ -75,12 +75,8 @@ void Choice::offer(Offer offer, CorrectionShape shape) {
 void Choice::offer_all(std::size_t list, std::span<const LinearisedPose> poses) {
   const JointTraining& training = candidates_[list].training;
   const JointCorrection& present = robot_.corrections[training.joint];
-  if (!present.is_neutral()) {
-    CorrectionShape shape{training.joint, {}};
-    for (const LinearisedPose& pose : poses)
-      shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(training.joint)]);
-    offer({list, evolved_tree(present), evolved_scale_rad(present), true}, std::move(shape));
-  }
+  if (!present.is_neutral())
+    offer({list, evolved_tree(present), evolved_scale_rad(present), true}, present_shape(poses, training.joint));
   ColumnEvaluator evaluate(training.table.variables);
   for (const Individual& individual : candidates_[list].front) {
     const std::span<const double> values = evaluate(individual.tree);

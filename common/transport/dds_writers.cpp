@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "transport/dds_qos.hpp"
 #include "transport/message_bytes.hpp"
 #include "transport/parts.hpp"
 #include "transport/wire_form.hpp"

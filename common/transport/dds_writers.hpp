@@ -6,7 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
-#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 

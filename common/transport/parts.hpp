@@ -28,8 +28,6 @@ wire::Part vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t n
 class Assembly {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  /// A network that was cut may heal, and what had come by then is not said again: so long it is kept.
-  static constexpr std::chrono::seconds kLongestAbsence{60};
 
   /// What is kept of one participant's unfinished messages stays below about so many bytes.
   explicit Assembly(std::size_t most_bytes = 128 << 20) : most_bytes_(most_bytes) {}
@@ -41,7 +39,8 @@ class Assembly {
   };
   /// A message is given up when a part of a newer one comes in its place; parts of older ones wait for nothing.
   Result take(const WriterId& writer, wire::Part part);
-  /// The writer is gone, as far as the network tells. Forgets what those did not finish that have been gone for long.
+  /// The writer is gone, as far as the network tells. What it said is not said again when it comes back: forgotten is
+  /// what those did not finish who have been gone for kLongestAbsence.
   void departed(const WriterId& writer, Time now);
 
  private:

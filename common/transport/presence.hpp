@@ -11,6 +11,9 @@
 namespace demecal {
 
 /// What DDS calls a publication handle: a participant's GUID prefix, and which of its writers.
+/// So long after a participant went it may come back: a network that was cut heals.
+inline constexpr std::chrono::seconds kLongestAbsence{60};
+
 using WriterId = std::array<std::uint8_t, 16>;
 ParticipantId participant_of(const WriterId& writer);
 

@@ -10,6 +10,7 @@
 
 #include "transport/dropped_samples.hpp"
 #include "transport/mailbox.hpp"
+#include "transport/presence.hpp"
 #include "transport/topic.hpp"
 
 namespace demecal {
@@ -25,8 +26,6 @@ class RunOwners {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::milliseconds kBelated{2000};
-  /// So long its workers wait for an owner that is gone.
-  static constexpr std::chrono::seconds kLongestAbsence{60};
 
   /// `waits`: whether what comes before its run's data waits for them; otherwise it is put at once.
   RunOwners(Mailbox& mailbox, DroppedSamples& dropped, bool waits)

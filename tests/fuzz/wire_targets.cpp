@@ -1,9 +1,8 @@
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
 #include <cstring>
 
 #include "../protocol/small_run.hpp"
 #include "../transport/random_messages.hpp"
+#include "../transport/serialized_part.hpp"
 #include "coordinator/run_state.hpp"
 #include "evolution/island.hpp"
 #include "monitor/event_line.hpp"
@@ -140,11 +139,7 @@ Target target(const std::string& name, const std::vector<Plain>& messages) {
 std::string stream_of(const std::vector<wire::Part>& parts) {
   std::string stream;
   for (const wire::Part& part : parts) {
-    std::string sample(part.getCdrSerializedSize(part), '\0');
-    eprosima::fastcdr::FastBuffer buffer(sample.data(), sample.size());
-    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
-    part.serialize(cdr);
-    sample = encapsulated(sample.substr(0, cdr.getSerializedDataLength()));
+    const std::string sample = encapsulated(serialized(part));
     stream += '\0';
     stream += static_cast<char>(sample.size() % 256);
     stream += static_cast<char>(sample.size() / 256);

@@ -30,10 +30,10 @@ TEST(LargeMessages, ArriveWholeHoweverOftenTheyAreReplacedOnTheirWay) {
   IslandTask first;
   first.run = coordinator->new_run();
   coordinator->publish(random.data_of(first));
-  std::vector<IslandTask> templates;
-  for (std::uint32_t deme = 0; deme < kDemes; ++deme) templates.push_back(large_task(first.run, deme, 0, random));
+  std::vector<IslandTask> tasks;
+  for (std::uint32_t deme = 0; deme < kDemes; ++deme) tasks.push_back(large_task(first.run, deme, 0, random));
   for (std::uint32_t attempt = 1; attempt <= kAttempts; ++attempt)
-    for (IslandTask& task : templates) {
+    for (IslandTask& task : tasks) {
       task.attempt = attempt;
       coordinator->publish(task);
     }
@@ -44,7 +44,7 @@ TEST(LargeMessages, ArriveWholeHoweverOftenTheyAreReplacedOnTheirWay) {
     const auto message = worker->receive(std::chrono::milliseconds(10));
     if (!message) continue;
     if (const auto* task = std::get_if<IslandTask>(&*message); task != nullptr && task->attempt == kAttempts) {
-      EXPECT_EQ(*task, templates[task->island.deme]);
+      EXPECT_EQ(*task, tasks[task->island.deme]);
       arrived.insert(task->island.deme);
     }
   }

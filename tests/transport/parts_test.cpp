@@ -86,9 +86,9 @@ TEST(Parts, OfOneWhoIsGoneAreKeptForAWhileSinceTheyAreNotSaidAgain) {
   const auto parts = parts_of(message, kPlace, 1);
   for (const std::uint8_t from : {1, 2}) EXPECT_EQ(assembly.take(writer(from), parts[0]).verdict, waits);
   assembly.departed(writer(1), now);
-  assembly.departed(writer(2), now + Assembly::kLongestAbsence / 2);
+  assembly.departed(writer(2), now + kLongestAbsence / 2);
   EXPECT_EQ(assembly.take(writer(2), parts[1]).bytes, message) << "back in time";
-  assembly.departed(writer(3), now + Assembly::kLongestAbsence);
+  assembly.departed(writer(3), now + kLongestAbsence);
   EXPECT_EQ(assembly.take(writer(1), parts[1]).verdict, waits) << "too late";
 }
 
@@ -125,7 +125,7 @@ TEST(Parts, OfOneParticipantAreKeptUpToABoundAndOthersGoOn) {
   EXPECT_GT(refused, 90);
   EXPECT_EQ(messages_of(assembly, parts_of(message, 0, 2), writer(2)), std::vector{message});
   assembly.departed(writer(1), {});
-  assembly.departed(writer(2), Assembly::Time{} + Assembly::kLongestAbsence);
+  assembly.departed(writer(2), Assembly::Time{} + kLongestAbsence);
   EXPECT_EQ(messages_of(assembly, parts_of(message, 0, 2), writer(1)), std::vector{message});
 }
 

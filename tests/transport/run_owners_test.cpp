@@ -108,11 +108,11 @@ TEST_F(Owners, ARunWhoseOwnerStaysAwayIsOverAfterAWhile) {
   owners.heard(kOwner, "owner", end(6), kNow);
   arrived();
   owners.departed(kOwner, kNow);
-  owners.release(kNow + RunOwners::kLongestAbsence / 2);
+  owners.release(kNow + kLongestAbsence / 2);
   EXPECT_TRUE(arrived().empty());
-  owners.release(kNow + RunOwners::kLongestAbsence);
+  owners.release(kNow + kLongestAbsence);
   EXPECT_EQ(arrived(), (Messages{Control{5, Control::State::cancelled, ""}}));
-  owners.release(kNow + 2 * RunOwners::kLongestAbsence);
+  owners.release(kNow + 2 * kLongestAbsence);
   EXPECT_TRUE(arrived().empty());
 }
 
@@ -121,7 +121,7 @@ TEST_F(Owners, AnOwnerThatIsSeenAgainKeepsItsRunsThoughItSaysNothing) {
   arrived();
   owners.departed(kOwner, kNow);
   owners.arrived(kOwner);
-  owners.release(kNow + 2 * RunOwners::kLongestAbsence);
+  owners.release(kNow + 2 * kLongestAbsence);
   owners.heard(kStranger, "stranger", end(5), kNow);
   EXPECT_TRUE(arrived().empty());
 }

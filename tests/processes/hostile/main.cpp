@@ -1,12 +1,11 @@
 // A participant that means harm: it floods every topic of a domain with bytes that are no samples and with samples that
 // are not its own to send, until it is killed. One argument: the domain.
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
 
+#include "../../transport/serialized_part.hpp"
 #include "forger.hpp"
 #include "raw_writers.hpp"
 #include "transport/message_bytes.hpp"
@@ -23,15 +22,6 @@ constexpr int kAtOnce = 40;
 
 std::string little_endian(const std::string& content) {
   return std::string("\0\1\0\0", 4) + content;
-}
-
-std::string serialized(const wire::Part& part) {
-  std::string bytes(part.getCdrSerializedSize(part), '\0');
-  eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
-  part.serialize(cdr);
-  bytes.resize(cdr.getSerializedDataLength());
-  return bytes;
 }
 
 /// The message as a sample, or the first of its parts, whichever travels.
