@@ -51,6 +51,7 @@ struct CalibrateResult {
   std::vector<FoundTransform> structure;   ///< of the structural method
   std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
   RunFacts facts;
+  DataCheck check;  ///< of the data, before anything was fitted
 };
 
 /// The model of a calibration, and where it came from.

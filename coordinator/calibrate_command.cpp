@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
+#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/dds_arguments.hpp"
 #include "coordinator/dds_fleet.hpp"
@@ -26,7 +26,7 @@ struct CalibrateRequest {
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
-  bool quiet = false, asynchronous = false;
+  bool quiet = false, asynchronous = false, force = false;
 };
 
 Job job_of(const CalibrateRequest& request) {
@@ -93,8 +93,13 @@ ExitCode run(CalibrateRequest request) {
     return ExitCode::wrong_arguments;
   }
   const Job job = job_of(request);
-  const DataSet data = load_data_set(job.data_file);
+  const CheckedData checked = load_checked(job.data_file);
+  const DataSet& data = checked.data;
   make_writable(request.out);
+  if (refuses(checked, request.force)) {
+    write_refusal(request.out, job.name, checked);
+    return ExitCode::contradiction;
+  }
   print_head(request, job, data);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
@@ -107,7 +112,9 @@ ExitCode run(CalibrateRequest request) {
   Chronicle chronicle(request.out, !request.resume.empty(), job.name,
                       join_dds(*request.fleet.dds, Role::herald, "chronicle"));
   options.chronicle = &chronicle;
-  const CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
+  CalibrateResult result = fit_or_report(request.out, job.name, checked,
+                                         [&] { return calibrate(data, job, make_fleet, interrupt, options); });
+  result.check = checked.check;
   const RunEnd end = result.end;
   if (end == RunEnd::no_worker) {
     chronicle.ends(LoopNews::Stage::failed, "failed: no worker came");
@@ -157,6 +164,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--asynchronous", request->asynchronous,
                     "islands wait for no neighbour: never idle, but another run gives another result");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
+  add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -11,14 +11,15 @@
 #include "baselines/baseline.hpp"
 #include "baselines/comparison.hpp"
 #include "config/files.hpp"
-#include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
+#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/dds_arguments.hpp"
 #include "coordinator/dds_fleet.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/result_folder.hpp"
 #include "expression/simplify.hpp"
+#include "report/data_check_text.hpp"
 
 namespace demecal {
 namespace {
@@ -30,7 +31,7 @@ struct CompareRequest {
   FleetArguments fleet;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
-  bool json = false, baselines_only = false;
+  bool json = false, baselines_only = false, force = false;
 };
 
 Job job_of(const CompareRequest& request) {
@@ -108,8 +109,14 @@ ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const 
 
 ExitCode run(const CompareRequest& request) {
   const Job job = job_of(request);
-  const DataSet data = load_data_set(job.data_file);
+  const CheckedData checked = load_checked(job.data_file);
+  const DataSet& data = checked.data;
   if (!request.out.empty()) make_writable(request.out);
+  if (refuses(checked, request.force)) {
+    if (!request.out.empty()) write_refusal(request.out, job.name, checked);
+    return ExitCode::contradiction;
+  }
+  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
   Comparison comparison{job.name, data.robot.name, data.name, data.sha256, {}, {}};
   for (const MeasuredPose& pose : data.poses) ++comparison.poses[static_cast<std::size_t>(pose.set)];
   compare_baselines(data, job, comparison);
@@ -132,6 +139,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--data", request->data_file, "data set in place of the job's");
   command->add_option("--out", request->out, "folder for comparison.json and this job's results");
   command->add_flag("--json", request->json, "one line of JSON");
+  add_force(*command, request->force);
   command->add_flag("--baselines-only", request->baselines_only, "leave out the job itself, which takes longest");
   add_fleet_arguments(*command, request->fleet);
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");

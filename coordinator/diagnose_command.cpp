@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "config/files.hpp"
-#include "config/load_data_set.hpp"
 #include "config/load_job.hpp"
 #include "config/model_text.hpp"
 #include "config/proposed_poses.hpp"
 #include "config/read_declared.hpp"
+#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/diagnose.hpp"
 #include "coordinator/interrupt.hpp"
@@ -35,7 +35,7 @@ struct DiagnoseRequest {
   std::uint64_t seed = 1;
   ClosedLoopOptions loop;
   int proposed = 0;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, force = false;
 };
 
 /// Each word of a list must be one of `words`.
@@ -86,12 +86,17 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
 }
 
 ExitCode run(const DiagnoseRequest& request) {
-  const DataSet data = load_data_set(request.data_file);
+  const CheckedData checked = load_checked(request.data_file);
+  const DataSet& data = checked.data;
   std::optional<CalibratedModel> known;
   if (!request.model_file.empty()) known = load_model(request.model_file);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   make_writable(request.out);
   const Job job = job_of(request, declared_by(request, known, data));
+  if (refuses(checked, request.force)) {
+    write_refusal(request.out, job.name, checked);
+    return ExitCode::contradiction;
+  }
   LoopDisplay display(stderr, data.robot, request.quiet);
   if (request.declared.empty() && !known && !job.declared.geometry) {
     fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",
@@ -99,10 +104,13 @@ ExitCode run(const DiagnoseRequest& request) {
   }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
                           words_of(job.declared)));
-  const Diagnosis diagnosis = diagnose(data, job, known, [&](const Round& round) {
-    display.on_round(round);
-    return !interrupt;
+  Diagnosis diagnosis = fit_or_report(request.out, job.name, checked, [&] {
+    return diagnose(data, job, known, [&](const Round& round) {
+      display.on_round(round);
+      return !interrupt;
+    });
   });
+  diagnosis.result.check = checked.check;
   const CalibrateResult& result = diagnosis.result;
   const CalibrationReport report = write_results(request.out, data, result);
   if (request.proposed > 0) write_proposed(request, data, diagnosis);
@@ -158,6 +166,7 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
   command->add_flag("--json", request->json, "print report.json in place of the report for people");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
+  add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

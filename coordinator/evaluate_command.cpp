@@ -3,12 +3,14 @@
 #include <memory>
 #include <string>
 
-#include "config/load_data_set.hpp"
 #include "config/model_text.hpp"
+#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/known_arm.hpp"
+#include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
+#include "report/data_check_text.hpp"
 #include "report/report_json.hpp"
 #include "report/terminal.hpp"
 
@@ -17,7 +19,7 @@ namespace {
 
 struct EvaluateRequest {
   std::string model_file, data_file;
-  bool json = false, refit_base = false;
+  bool json = false, refit_base = false, force = false;
 };
 
 /// The model in the data's own frame: base and tool fitted on the calibration poses, everything else as it is.
@@ -30,10 +32,15 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
 
 ExitCode run(const EvaluateRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
-  const DataSet data = load_data_set(request.data_file);
+  CheckedData checked = load_checked(request.data_file);
+  const DataSet& data = checked.data;
   require_same_arm(model, data);
-  const ErrorBySet errors = errors_by_set(request.refit_base ? registered(model, data) : model.robot, data);
-  fmt::print("{}", request.json ? errors_to_json(errors) : errors_to_terminal(errors));
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  const CorrectedRobot robot = request.refit_base ? registered(model, data) : model.robot;
+  check_fitted(data, robot, checked.check);
+  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
+  const ErrorBySet errors = errors_by_set(robot, data);
+  fmt::print("{}", request.json ? errors_to_json(errors, checked.check) : errors_to_terminal(errors));
   return ExitCode::done;
 }
 
@@ -45,6 +52,7 @@ void add_evaluate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
   command->add_option("data", request->data_file, "DATASET.yaml")->required();
   command->add_flag("--json", request->json, "one line of JSON");
+  add_force(*command, request->force);
   command->add_flag("--refit-base", request->refit_base,
                     "fit base and tool to the data first, where the instrument or the tool was moved");
   command->callback([request, &exit_code] { exit_code = run(*request); });

@@ -6,11 +6,14 @@
 #include "config/files.hpp"
 #include "config/load_preparation.hpp"
 #include "config/write_data_set.hpp"
+#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "preparation/false_targets.hpp"
 #include "preparation/statistic.hpp"
+#include "report/data_check_text.hpp"
 
 namespace demecal {
 namespace {
@@ -19,7 +22,7 @@ constexpr double kFar_mm = 1.0;  // between a programmed point and the nominal a
 
 struct PrepareRequest {
   std::string file, out, frame;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 /// The frame of the data set; empty: the instrument's own.
@@ -73,6 +76,9 @@ ExitCode run(const PrepareRequest& request) {
   const std::vector<WrittenFile> files = files_beside(raw, prepared, errors);
   const Statistic statistic = statistic_of(raw, prepared);
   warn(request, raw, prepared);
+  const CheckedData checked{data, check_data(data)};
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
 
   make_writable(request.out);
   write_data_set(data, request.out, "Prepared from raw measurements: " + raw.name);
@@ -106,6 +112,7 @@ void add_prepare(CLI::App& app, ExitCode& exit_code) {
                    "told otherwise), the base by the best fit of all points, or the instrument's own")
       ->check(CLI::IsMember({"three_points", "best_fit", "instrument"}));
   command->add_flag("--json", request->json, "the statistic as one line of JSON");
+  add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -8,6 +8,7 @@
 #include "calibration/loop_passes.hpp"
 #include "config/files.hpp"
 #include "config/model_text.hpp"
+#include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "report/history.hpp"
 #include "report/report_html.hpp"
@@ -46,6 +47,8 @@ CalibrationReport write_results(const std::string& folder, const DataSet& data, 
   const CorrectedRobot& before = added_any(result.loop) ? result.before : written.robot;
   CalibrationReport report =
       make_report(data, written, before, result.loop, result.preparation, result.calibration, result.facts);
+  report.check = result.check;
+  check_fitted(data, written.robot, report.check);
   const bool evolves = result.model.method != Method::diagnose && result.model.method != Method::structural;
   if (!evolves && !has_corrections(written.robot)) report.joints.clear();
   report.structure = result.structure;

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "config/files.hpp"
-#include "config/load_data_set.hpp"
 #include "config/study_grid.hpp"
+#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/dds_arguments.hpp"
 #include "coordinator/dds_fleet.hpp"
@@ -17,6 +17,7 @@
 #include "coordinator/result_folder.hpp"
 #include "coordinator/study.hpp"
 #include "errors/input_error.hpp"
+#include "report/data_check_text.hpp"
 
 namespace demecal {
 namespace {
@@ -30,7 +31,7 @@ struct StudyRequest {
   std::optional<std::uint64_t> seed;
   FleetArguments fleet;
   std::size_t blocks = 12;
-  bool closed_loop = false, json = false, quiet = false;
+  bool closed_loop = false, json = false, quiet = false, force = false;
 };
 
 /// The axes of the options and of the grid file.
@@ -106,7 +107,10 @@ ExitCode run(const StudyRequest& request) {
   const std::vector<GridAxis> axes = axes_of(request);
   const std::vector<GridCell> cells = grid_cells(request.job_file, axes);
   const std::string& data_file = request.data_file.empty() ? cells.front().job.data_file : request.data_file;
-  const DataSet data = load_data_set(data_file);
+  const CheckedData checked = load_checked(data_file);
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
+  const DataSet& data = checked.data;
   make_writable(request.out);
   Study study = study_of(request, axes, cells, data);
   const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
@@ -161,6 +165,7 @@ void add_study(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--blocks", request->blocks, "how many shared building blocks to print; 0: none")
       ->capture_default_str();
   command->add_flag("--json", request->json, "one line of JSON");
+  add_force(*command, request->force);
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_fleet_arguments(*command, request->fleet);
   command->callback([request, &exit_code] { exit_code = run_or_refuse(*request); });

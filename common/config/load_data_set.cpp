@@ -1,5 +1,7 @@
 #include "config/load_data_set.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "config/load_robot.hpp"
@@ -7,6 +9,7 @@
 #include "config/read_columns.hpp"
 #include "config/read_yaml.hpp"
 #include "config/sha256.hpp"
+#include "data/nearest_name.hpp"
 #include "data/read_poses.hpp"
 #include "data/split.hpp"
 #include "errors/input_error.hpp"
@@ -56,13 +59,30 @@ Split read_split(const YamlNode* node) {
   return split;
 }
 
+/// Takes the poses of these ids out of those that are used.
+void exclude(const YamlNode* ids, DataSet& data) {
+  if (!ids) return;
+  for (const YamlNode& id : ids->list()) {
+    const std::string name = id.text();
+    const auto named = [&name](const MeasuredPose& pose) { return pose.pose_id == name; };
+    if (std::ranges::none_of(data.poses, named)) {
+      std::vector<std::string> names;
+      for (const MeasuredPose& pose : data.poses) names.push_back(pose.pose_id);
+      id.fail(name,
+              "is the id of no pose" + (names.empty() ? "" : "; the nearest is '" + nearest_name(name, names) + "'"));
+    }
+    std::ranges::copy_if(data.poses, std::back_inserter(data.excluded), named);
+    std::erase_if(data.poses, named);
+  }
+}
+
 }  // namespace
 
 DataSet load_data_set(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
   root.of_version("dataset", 1)
       .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "units", "frame",
-                  "split"});
+                  "split", "exclude"});
   DataSet data;
   data.name = root.find("name") ? root.at("name").text() : path.stem().string();
   data.robot = read_named(root.at("robot"), load_robot);
@@ -85,6 +105,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
     RandomStream random{split.seed};
     split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
   }
+  exclude(root.find("exclude"), data);
   return data;
 }
 

@@ -32,6 +32,7 @@ struct DataSet {
   Robot robot;
   Frame frame = Frame::sensor;
   std::vector<MeasuredPose> poses;
+  std::vector<MeasuredPose> excluded;              ///< by name: no part of anything but the report's list of them
   std::map<std::string, Eigen::Vector3d> tools_m;  ///< nominal tool point of each target; empty: the robot's tool
   std::vector<Eigen::Vector3d> anchors_m;          ///< known fixed points of the distances
   bool anchors_unknown = false;

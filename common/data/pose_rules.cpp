@@ -32,16 +32,15 @@ std::string in_border_unit(double value, bool angle) {
   return angle ? number_text(value, degrees, radians) + " deg" : number_text(value, millimetres, metres) + " mm";
 }
 
-void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const ColumnMap& columns,
-                  const std::string& file) {
+void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const std::string& file) {
   const bool angle = joint.type == JointType::revolute;
   const double margin = angle ? kLimitMargin_rad : kLimitMargin_m;
   const double value = pose.joints[static_cast<Eigen::Index>(index)];
   if (value >= joint.lower - margin && value <= joint.upper + margin) return;
   throw InputError({file, pose.line}, in_border_unit(value, angle),
-                   "column " + columns.joints[index].name + " is far outside the limits of joint " +
-                       std::to_string(index + 1) + ", " + in_border_unit(joint.lower, angle) + " to " +
-                       in_border_unit(joint.upper, angle));
+                   "is far outside the limits of joint " + std::to_string(index + 1) + ", " +
+                       in_border_unit(joint.lower, angle) + " to " + in_border_unit(joint.upper, angle) +
+                       "; correct the data, or the limits in the robot file");
 }
 
 }  // namespace
@@ -74,10 +73,9 @@ void check_targets(std::span<const MeasuredPose> poses, const std::map<std::stri
   }
 }
 
-void check_joint_limits(std::span<const MeasuredPose> poses, const ColumnMap& columns, const Chain& chain,
-                        const std::string& file) {
+void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file) {
   for (const MeasuredPose& pose : poses) {
-    for (std::size_t i = 0; i < chain.joints.size(); ++i) check_limits(pose, chain.joints[i], i, columns, file);
+    for (std::size_t i = 0; i < chain.joints.size(); ++i) check_limits(pose, chain.joints[i], i, file);
   }
 }
 

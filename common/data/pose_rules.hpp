@@ -23,8 +23,7 @@ void check_targets(std::span<const MeasuredPose> poses, const std::map<std::stri
                    const std::string& file);
 
 /// No joint stands further outside its limits than a controller's tolerance explains.
-void check_joint_limits(std::span<const MeasuredPose> poses, const ColumnMap& columns, const Chain& chain,
-                        const std::string& file);
+void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file);
 
 /// Poses of one id have equal joints and serve one set: otherwise validation would judge what calibration has seen.
 void check_repeats(std::span<const MeasuredPose> poses, const std::string& file);

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "data/plausible_units.hpp"
 #include "data/pose_rules.hpp"
 #include "data/table_column.hpp"
 
@@ -139,9 +138,6 @@ std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& col
   poses.reserve(table.rows.size());
   for (const CsvRow& row : table.rows) poses.push_back(read_pose(found, row));
   check_targets(poses, tools_m, table.file);
-  check_joint_units(poses, columns, units, chain, tools_m, table);
-  check_position_units(poses, columns, units, chain, tools_m, table);
-  check_joint_limits(poses, columns, chain, table.file);
   check_repeats(poses, table.file);
   return poses;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "data/plausible_units.hpp"
 #include "data/pose_rules.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
@@ -36,31 +35,6 @@ MeasuredPose commanded(const Target& target, const RawSet& set) {
   return pose;
 }
 
-/// Columns as they would be called in a data set, for the rules that data sets are held to.
-ColumnMap columns_of(const Chain& chain) {
-  ColumnMap columns;
-  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
-    const bool revolute = chain.joints[i].type == JointType::revolute;
-    columns.joints.push_back({"q" + std::to_string(i + 1) + (revolute ? "_deg" : "_mm"), {}});
-  }
-  for (const char* name : {"x_mm", "y_mm", "z_mm"}) columns.position.push_back({name, {}});
-  return columns;
-}
-
-/// A set that breaks these rules would be written, but not load again.
-void check_set(const RawSet& set, const Robot& robot, const PreparedPose* poses, std::size_t count) {
-  std::vector<MeasuredPose> measured;
-  for (std::size_t i = 0; i < count; ++i) {
-    measured.push_back(poses[i].commanded);
-    measured.back().position_m = poses[i].measured.point_m;
-  }
-  const ColumnMap columns = columns_of(robot.chain);
-  const CsvTable joints{set.joints.program.file, 0, {}, {}}, readings{set.readings.file, 0, {}, {}};
-  check_joint_units(measured, columns, {}, robot.chain, {}, joints);
-  check_joint_limits(measured, columns, robot.chain, joints.file);
-  check_position_units(measured, columns, {}, robot.chain, {}, readings);
-}
-
 void add_set(const RawMeasurements& raw, std::size_t entry, Prepared& prepared) {
   const RawSet& set = raw.sets[entry];
   const std::vector<NamedPoint> points = named_points(set.joints.program, PointKind::joints, set.points);
@@ -80,7 +54,9 @@ void add_set(const RawMeasurements& raw, std::size_t entry, Prepared& prepared) 
         std::max(prepared.programmed_from_joints_m, (pose.nominal_m - at_joints_m).norm());
     prepared.poses.push_back(std::move(pose));
   }
-  check_set(set, raw.robot, &prepared.poses[first], points.size());
+  std::vector<MeasuredPose> commanded_poses;
+  for (std::size_t i = first; i < prepared.poses.size(); ++i) commanded_poses.push_back(prepared.poses[i].commanded);
+  check_joint_limits(commanded_poses, raw.robot.chain, set.joints.program.file);
 }
 
 /// Names that several sets use get the number of their set before them.

@@ -1,11 +1,13 @@
 #include "report/calibration_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "calibration/shared_calls.hpp"
+#include "effects/error_figures.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 
@@ -36,6 +38,15 @@ std::vector<JointLine> joint_lines(const CalibratedModel& model) {
     if (!calling.calls.empty()) lines.back().with_functions = to_text(calling);
   }
   return lines;
+}
+
+std::vector<ExcludedPose> excluded_poses(const DataSet& data, const CorrectedRobot& robot) {
+  constexpr std::array<const char*, 3> kSetNames{"calibration", "validation", "accept"};
+  std::vector<ExcludedPose> excluded;
+  for (const MeasuredPose& pose : data.excluded)
+    excluded.push_back(
+        {pose.pose_id, kSetNames.at(static_cast<std::size_t>(pose.set)), millimetres(tool_error_m(robot, data, pose))});
+  return excluded;
 }
 
 std::optional<std::vector<SharedFunctionLine>> function_lines(const CalibratedModel& model) {
@@ -95,6 +106,7 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   report.unseen = calibration.unseen;
   report.loop = loop;
   report.described = model.nominal;
+  report.excluded = excluded_poses(data, model.robot);
   report.index_before_mm2 = calibration.index_before_mm2;
   report.index_after_mm2 = calibration.index_after_mm2;
   report.joints = joint_lines(model);
@@ -104,6 +116,24 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
     report.unidentified.push_back(direction.sentence());
   }
   report.runtime = runtime;
+  return report;
+}
+
+CalibrationReport refusal_report(const DataSet& data, const std::string& job, const DataCheck& check) {
+  CalibrationReport report;
+  report.check = check;
+  report.job = job;
+  report.robot = data.robot.name;
+  report.method = "none";
+  report.data_sha256 = data.sha256;
+  report.version = DEMECAL_VERSION;
+  report.poses = {poses_of(data, PoseSet::calibration).size(), poses_of(data, PoseSet::validation).size(),
+                  poses_of(data, PoseSet::accept).size()};
+  report.nominal = errors_by_set(nominal_robot(data), data);
+  const ErrorFigures none = error_figures(std::vector<double>{});
+  report.registered = report.declared = report.before = report.after = {none, none, none};
+  report.index_before_mm2 = report.index_after_mm2 = none.mean_mm;
+  report.described = data.robot;
   return report;
 }
 

@@ -8,6 +8,7 @@
 
 #include "calibration/calibrated_model.hpp"
 #include "calibration/distal_steps.hpp"
+#include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effects/measurement.hpp"
 #include "structure/found_transform.hpp"
@@ -53,7 +54,15 @@ struct SharedFunctionLine {
   std::vector<int> joints;  ///< from 0: those whose corrections call it
 };
 
+/// A pose that the data set leaves out by name.
+struct ExcludedPose {
+  std::string id, set;
+  double error_mm = 0.0;  ///< of the final model at it
+};
+
 struct CalibrationReport {
+  DataCheck check;  ///< of the data, before and after the fit
+  std::vector<ExcludedPose> excluded;
   std::string job, robot, method, data_sha256, version;
   std::uint64_t seed = 0;
   PoseCounts poses;
@@ -86,5 +95,8 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
 
 /// The standard deviation per axis of position about the mean of its repeats, mm; nothing where no pose is repeated.
 std::optional<double> noise_floor_mm(const DataSet& data);
+
+/// The report of data that contradict the robot: what was found, the errors of the nominal robot, and nothing fitted.
+CalibrationReport refusal_report(const DataSet& data, const std::string& job, const DataCheck& check);
 
 }  // namespace demecal

@@ -94,6 +94,19 @@ std::string banner(const JsonValue& report) {
   return "<p class=\"banner\">The run was interrupted: all figures are of what it had reached.</p>\n";
 }
 
+/// What the check of the data found, above all figures.
+std::string data_check(const JsonValue& report) {
+  const JsonValue check = report["data_check"];
+  std::string lines;
+  for (const JsonValue& finding : check["findings"].elements())
+    lines += "<li>" + escaped(finding["sentence"].text()) + "</li>\n";
+  if (lines.empty()) return lines;
+  const bool contradiction = check["verdict"].text() == "contradiction";
+  return std::string("<div class=\"banner\" id=\"data-check\">") +
+         (contradiction ? "The data and the robot's description contradict each other:" : "Look at the data first:") +
+         "\n<ul class=\"plain\">\n" + lines + "</ul></div>\n";
+}
+
 }  // namespace
 
 std::optional<double> noise_mean_mm(const JsonValue& report) {
@@ -107,7 +120,8 @@ std::string opening(const JsonValue& report, const ErrorStages& errors) {
   const std::string robot = report["robot"].text();
   const std::optional<Judgement> judged = judgement(errors);
   return "<p class=\"soft\">Robot calibration</p>\n<h1>" + (robot.empty() ? "Unnamed robot" : escaped(robot)) +
-         "</h1>\n" + subject(report, errors) + banner(report) + headline(errors, judged) + tiles(report, judged);
+         "</h1>\n" + subject(report, errors) + banner(report) + data_check(report) + headline(errors, judged) +
+         tiles(report, judged);
 }
 
 }  // namespace demecal

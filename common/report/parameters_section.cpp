@@ -71,6 +71,13 @@ std::string named(const char* title, const char* meaning, const std::vector<std:
   return fmt::format("<h3>{} ({})</h3>\n<p class=\"note\">{}</p>\n", title, names.size(), meaning) + name_list(names);
 }
 
+std::vector<std::string> excluded_names(const JsonValue& excluded) {
+  std::vector<std::string> names;
+  for (const JsonValue& pose : excluded.elements())
+    names.push_back(pose["id"].text() + " (" + fixed(pose["error_mm"].number(), 2) + " mm)");
+  return names;
+}
+
 }  // namespace
 
 std::string parameters_section(const JsonValue& report) {
@@ -81,8 +88,9 @@ std::string poses_section(const JsonValue& report) {
   const JsonValue poses = report["poses"];
   return section(
       "poses", "Poses worth a look",
-      named("Far out", "Farther from the model than the others allow: weighed less in the fit, kept in every figure.",
-            poses["outliers"].texts()) +
+      named("Suspected outliers", "Down-weighted in the fit, included in all errors.", poses["outliers"].texts()) +
+          named("Excluded by name", "By the data set's `exclude`: no part of any figure; in brackets their own error.",
+                excluded_names(poses["excluded"])) +
           named("Near a singularity", "Joint errors are poorly defined there: weighed less in the evolution.",
                 poses["near_singular"].texts()));
 }

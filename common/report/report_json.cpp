@@ -5,6 +5,7 @@
 
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
+#include "report/data_check_text.hpp"
 #include "report/loop_json.hpp"
 
 namespace demecal {
@@ -98,6 +99,13 @@ Json runtime(const RunFacts& facts) {
           {"waited_share", waited_share(facts)}};
 }
 
+Json excluded(const std::vector<ExcludedPose>& poses) {
+  Json all = Json::array();
+  for (const ExcludedPose& pose : poses)
+    all.push_back({{"id", pose.id}, {"set", pose.set}, {"error_mm", number(pose.error_mm)}});
+  return all;
+}
+
 Json error_stages(const CalibrationReport& report) {
   return {{"nominal", by_set(report.nominal)},
           {"registered", by_set(report.registered)},
@@ -120,11 +128,10 @@ std::string to_json(const CalibrationReport& report) {
   Json json{{"demecal_report", 1},      {"job", report.job},   {"robot", report.robot},
             {"method", report.method},  {"seed", report.seed}, {"data_sha256", report.data_sha256},
             {"version", report.version}};
-  json["poses"] = {{"calibration", report.poses.calibration},
-                   {"validation", report.poses.validation},
-                   {"accept", report.poses.accept},
-                   {"outliers", report.outliers},
-                   {"near_singular", report.near_singular}};
+  json["data_check"] = data_check_to_json(report.check);
+  json["poses"] = {{"calibration", report.poses.calibration}, {"validation", report.poses.validation},
+                   {"accept", report.poses.accept},           {"outliers", report.outliers},
+                   {"excluded", excluded(report.excluded)},   {"near_singular", report.near_singular}};
   json["error_mm"] = error_stages(report);
   json["last_fit"] = last_fit(report);
   json["noise_floor_mm"] = report.noise_floor_mm ? number(*report.noise_floor_mm) : Json(nullptr);
@@ -152,8 +159,8 @@ std::string to_json(const CalibrationReport& report) {
   return text_of(json, 2);
 }
 
-std::string errors_to_json(const ErrorBySet& errors) {
-  return text_of(Json{{"error_mm", by_set(errors)}}, -1);
+std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check) {
+  return text_of(Json{{"error_mm", by_set(errors)}, {"data_check", data_check_to_json(check)}}, -1);
 }
 
 }  // namespace demecal

@@ -10,7 +10,8 @@ namespace demecal {
 /// Indented JSON with `demecal_report: 1`; figures that do not exist are null.
 std::string to_json(const CalibrationReport& report);
 
-/// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}} on one line.
-std::string errors_to_json(const ErrorBySet& errors);
+/// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "data_check": ...} on one
+/// line.
+std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check = {});
 
 }  // namespace demecal

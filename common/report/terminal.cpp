@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/data_check_text.hpp"
 #include "report/loop_terminal.hpp"
 #include "report/terminal_text.hpp"
 
@@ -117,6 +118,19 @@ std::string named(const std::string& title, const std::vector<std::string>& name
   return wrapped(fmt::format("  {} ({}):", title, names.size()), shown, 4);
 }
 
+/// What to look at before the figures.
+std::string data_check(const CalibrationReport& report) {
+  const std::string findings = data_check_to_terminal(report.check);
+  return findings.empty() ? findings : "  Look at the data first:\n" + findings + "\n";
+}
+
+std::string excluded(const CalibrationReport& report) {
+  std::vector<std::string> names;
+  for (const ExcludedPose& pose : report.excluded)
+    names.push_back(fmt::format("{} ({:.2f} mm)", pose.id, pose.error_mm));
+  return named("poses excluded by name, in no figure", names);
+}
+
 }  // namespace
 
 std::string errors_to_terminal(const ErrorBySet& errors) {
@@ -129,12 +143,13 @@ std::string errors_to_terminal(const ErrorBySet& errors) {
 }
 
 std::string to_terminal(const CalibrationReport& report) {
-  std::string text = stages(report);
+  std::string text = data_check(report) + stages(report);
   text += structure(report);
   if (!report.joints.empty()) text.append("\n").append(joints(report)).append(shared_functions(report));
   if (const std::string loop = loop_to_terminal(report.loop, report.described); !loop.empty())
     text.append("\n").append(loop).append("\n");
-  text += named("poses far out, kept in all figures", report.outliers);
+  text += named("suspected outliers (down-weighted in the fit, included in all errors)", report.outliers);
+  text += excluded(report);
   text += named("poses near a singularity, weighed less", report.near_singular);
   for (const std::string& sentence : report.unidentified) text += wrapped("  not seen by these poses:", sentence, 4);
   if (report.noise_floor_mm)

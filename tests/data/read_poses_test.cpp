@@ -87,11 +87,19 @@ TEST(ReadPoses, RefusesBadValuesWithTheirLineAndColumn) {
   EXPECT_EQ(with("40,0,0,\"1,5\",2,3"), "poses.csv:3: '1,5': column x_mm is not a number");
 }
 
-TEST(ReadPoses, AllowsAToleranceBeyondLimitsAndNoMore) {
-  EXPECT_EQ(refusal(kHeading + "\n184,-184.9,309,1,2,3\n"), "");
-  EXPECT_EQ(refusal(kHeading + "\n40,0,0,1,2,3\n10,-200,0,1,2,3\n"),
-            "poses.csv:3: '-200 deg': column q2_deg is far outside the limits of joint 2, -180 deg to 180 deg");
-  EXPECT_THAT(refusal(kHeading + "\n40,0,320,1,2,3\n"), HasSubstr("limits of joint 3, 0 mm to 300 mm"));
+std::string complaint_about_limits(const std::string& rows) {
+  return complaint([&] {
+    check_joint_limits(read_poses(table_of(rows), small_map(), {}, small_arm(), {}), small_arm(), "poses.csv");
+  });
+}
+
+TEST(JointLimits, AllowAToleranceAndNoMore) {
+  EXPECT_EQ(complaint_about_limits(kHeading + "\n184,-184.9,309,1,2,3\n"), "");
+  EXPECT_EQ(
+      complaint_about_limits(kHeading + "\n40,0,0,1,2,3\n10,-200,0,1,2,3\n"),
+      "poses.csv:3: '-200 deg': is far outside the limits of joint 2, -180 deg to 180 deg; correct the data, or the "
+      "limits in the robot file");
+  EXPECT_THAT(complaint_about_limits(kHeading + "\n40,0,320,1,2,3\n"), HasSubstr("limits of joint 3, 0 mm to 300 mm"));
 }
 
 TEST(ReadPoses, RefusesMapsThatDoNotFit) {
@@ -145,48 +153,6 @@ TEST(ReadPoses, HoldsRepeatsOfAPoseTogether) {
             "poses.csv:3: 'a': joints differ from those of line 2, which has the same pose id");
   EXPECT_EQ(refusal(first + "40,0,0,1.1,2,3,a,validation\n", map),
             "poses.csv:3: 'a': is in another set than line 2, which has the same pose id");
-}
-
-TEST(ReadPoses, DetectsRadiansUnderDegrees) {
-  EXPECT_EQ(refusal(exact_table(8, degrees(1.0), 1000.0, kHeading)), "");
-  EXPECT_THAT(refusal(exact_table(8, 1.0, 1000.0, kHeading)),
-              HasSubstr("poses.csv:1: 'q1_deg': this column and the other joints are in degrees, but their values look "
-                        "like radians"));
-}
-
-TEST(ReadPoses, DetectsRadiansUnderDegreesWithoutPositions) {
-  ColumnMap map = small_map({"q1_deg", "q2_deg", "q3_mm"}, {});
-  map.distances = columns_named({"l1_mm"});
-  const std::string heading = "q1_deg,q2_deg,q3_mm,l1_mm\n";
-  EXPECT_THAT(refusal(heading + "1.2,-0.4,0,500\n-0.3,0.9,0,400\n", map), HasSubstr("look like radians"));
-  EXPECT_EQ(refusal(heading + "70,-20,0,500\n-17,50,0,400\n", map), "");
-}
-
-TEST(ReadPoses, AcceptsRealDegreesNearZero) {
-  // Six degrees about zero: as small as radians, but the arm moved as little as that.
-  EXPECT_EQ(refusal(exact_table(8, degrees(1.0), 1000.0, kHeading)), "");
-  std::string rows = kHeading + "\n";
-  for (int k = 0; k < 6; ++k) {
-    JointVector q(3);
-    q << radians(k - 3.0), radians(2.0 - 0.7 * k), 0.0;
-    const Eigen::Vector3d p = 1000.0 * tool_position(small_arm(), q);
-    rows += number_text(k - 3.0) + "," + number_text(2.0 - 0.7 * k) + ",0," + number_text(p.x()) + "," +
-            number_text(p.y()) + "," + number_text(p.z()) + "\n";
-  }
-  EXPECT_EQ(refusal(rows), "");
-}
-
-TEST(ReadPoses, DetectsDegreesUnderRadians) {
-  const ColumnMap map = small_map({"q1_rad", "q2_rad", "q3_mm"});
-  EXPECT_EQ(refusal("q1_rad,q2_rad,q3_mm,x_mm,y_mm,z_mm\n1,0,0,1,2,3\n1,45,0,1,2,3\n", map),
-            "poses.csv:3: '45': column q2_rad is in radians, but this looks like degrees: it is more than two turns");
-}
-
-TEST(ReadPoses, DetectsLengthsOffByAThousand) {
-  EXPECT_THAT(refusal(exact_table(8, degrees(1.0), 1.0, kHeading)), HasSubstr("they look like metres"));
-  EXPECT_THAT(refusal(exact_table(8, degrees(1.0), 1000.0, "q1_deg,q2_deg,q3_mm,x_m,y_m,z_m"),
-                      small_map({"q1_deg", "q2_deg", "q3_mm"}, {"x_m", "y_m", "z_m"})),
-              HasSubstr("they look like millimetres"));
 }
 
 }  // namespace

@@ -1,0 +1,321 @@
+#include "data_check/explanations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "kinematics/rotation_vector.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kRefined = 6;         ///< explanations whose links are fitted too
+constexpr std::size_t kPairRows = 60;       ///< rows that pairs of explanations are tried on
+constexpr double kEqual = 1.1;              ///< ratio of medians up to which explanations are equals
+constexpr double kToolDifference_m = 5e-3;  ///< by which the tool nearer to its description decides between equals
+constexpr int kMostTogether = 4;
+
+bool is_revolute(const Chain& chain, int joint) {
+  return chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+}
+
+void scale_joint(Trial& trial, int joint, double factor) {
+  for (TrialRow& row : trial.rows) row.joints[joint] *= factor;
+}
+
+void shift_joint(Trial& trial, int joint, double by) {
+  for (TrialRow& row : trial.rows) row.joints[joint] += by;
+}
+
+Explanation sign(int joint) {
+  return {FindingKind::joint_sign, joint, fmt::format("joint {} is taken with the other sign", joint + 1),
+          [joint](Trial& trial) { scale_joint(trial, joint, -1.0); }};
+}
+
+Explanation offset(int joint, double offset_deg) {
+  return {FindingKind::joint_offset, joint, fmt::format("{:+g} deg are added to joint {}", offset_deg, joint + 1),
+          [=](Trial& trial) { shift_joint(trial, joint, radians(offset_deg)); }};
+}
+
+Explanation sign_and_offset(int joint, double offset_deg) {
+  return {FindingKind::joint_sign, joint,
+          fmt::format("joint {} is taken with the other sign, and {:+g} deg are added to it", joint + 1, offset_deg),
+          [=](Trial& trial) {
+            scale_joint(trial, joint, -1.0);
+            shift_joint(trial, joint, radians(offset_deg));
+          }};
+}
+
+Explanation exchanged(int one, int other) {
+  return {FindingKind::joints_exchanged, one,
+          fmt::format("the columns of joints {} and {} are exchanged", one + 1, other + 1), [=](Trial& trial) {
+            for (TrialRow& row : trial.rows) std::swap(row.joints[one], row.joints[other]);
+          }};
+}
+
+Explanation joint_unit(int joint, double factor, const std::string& unit) {
+  return {FindingKind::unit, joint, fmt::format("joint {} is in {}", joint + 1, unit),
+          [=](Trial& trial) { scale_joint(trial, joint, factor); }};
+}
+
+Explanation all_angles(double factor, const std::string& units) {
+  return {FindingKind::unit, -1, "joint angles are in " + units, [factor](Trial& trial) {
+            for (int joint = 0; joint < trial.chain.size(); ++joint)
+              if (is_revolute(trial.chain, joint)) scale_joint(trial, joint, factor);
+          }};
+}
+
+Explanation position_unit(double factor, const std::string& words) {
+  return {FindingKind::unit, -1, words, [factor](Trial& trial) {
+            for (TrialRow& row : trial.rows) row.point_m *= factor;
+          }};
+}
+
+Explanation other_convention(Convention given) {
+  const bool standard = given == Convention::standard_dh;
+  return {FindingKind::convention, -1,
+          fmt::format("the robot's table is read as {} (convention: {})",
+                      standard ? "modified Denavit-Hartenberg" : "standard Denavit-Hartenberg",
+                      standard ? "modified_dh" : "standard_dh"),
+          [standard](Trial& trial) {
+            trial.chain.convention = standard ? Convention::modified_dh : Convention::standard_dh;
+          }};
+}
+
+Explanation mirrored() {
+  return {FindingKind::mirrored, -1, "one axis of the positions is negated", [](Trial& trial) {
+            for (TrialRow& row : trial.rows) row.point_m.y() = -row.point_m.y();
+          }};
+}
+
+std::vector<Explanation> joint_explanations(const Chain& chain) {
+  std::vector<Explanation> all;
+  for (int joint = 0; joint < chain.size(); ++joint) all.push_back(sign(joint));
+  for (int joint = 0; joint < chain.size(); ++joint)
+    for (const double by_deg : {90.0, -90.0, 180.0})
+      if (is_revolute(chain, joint)) all.push_back(offset(joint, by_deg));
+  for (int one = 0; one < chain.size(); ++one)
+    for (int other = one + 1; other < chain.size(); ++other) all.push_back(exchanged(one, other));
+  return all;
+}
+
+std::vector<Explanation> unit_explanations(const Chain& chain) {
+  std::vector<Explanation> all{all_angles(degrees(1.0), "radians, not in degrees"),
+                               all_angles(radians(1.0), "degrees, not in radians")};
+  for (const auto& [factor, words] : std::initializer_list<std::pair<double, const char*>>{
+           {1e3,
+            "positions are in metres where millimetres are stated (or the robot's lengths are 1000 times too long)"},
+           {1e-3, "positions are in millimetres where metres are stated (or the robot's lengths are in metres)"},
+           {25.4, "positions are in inches where millimetres are stated"},
+           {0.0254, "positions are in inches where metres are stated"},
+           {1 / 25.4, "positions are in millimetres, and the robot's lengths in inches"},
+           {10.0, "positions are in centimetres where millimetres are stated"},
+           {0.01, "positions are in centimetres where metres are stated"},
+           {0.1, "positions are in millimetres, and the robot's lengths in centimetres"},
+           {304.8, "positions are in feet where millimetres are stated"},
+           {0.3048, "positions are in feet where metres are stated"}})
+    all.push_back(position_unit(factor, words));
+  for (int joint = 0; joint < chain.size(); ++joint) {
+    const bool angle = is_revolute(chain, joint);
+    all.push_back(joint_unit(joint, angle ? degrees(1.0) : 1e3, angle ? "radians" : "metres"));
+    all.push_back(joint_unit(joint, angle ? radians(1.0) : 1e-3, angle ? "degrees" : "millimetres"));
+  }
+  return all;
+}
+
+struct Tried {
+  std::vector<Explanation> explanations;
+  Trial trial;
+  TrialFit fit;
+};
+
+Tried attempt(Trial trial, const std::vector<Explanation>& explanations) {
+  for (const Explanation& one : explanations) one.apply(trial);
+  TrialFit fit = fit_base_and_tools(trial);
+  return {explanations, std::move(trial), std::move(fit)};
+}
+
+double tool_change_m(const Tried& tried) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < tried.fit.tools_m.size(); ++i)
+    largest = std::max(largest, (tried.fit.tools_m[i] - tried.trial.tools_m[i]).norm());
+  return largest;
+}
+
+/// The likeliest of those that fit alike: that whose tools are nearer to their description, then the first.
+std::size_t likeliest(const std::vector<Tried>& all) {
+  double least = all.front().fit.median_m;
+  for (const Tried& one : all) least = std::min(least, one.fit.median_m);
+  std::size_t chosen = all.size();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].fit.median_m > kEqual * least) continue;
+    if (chosen == all.size() || tool_change_m(all[i]) < tool_change_m(all[chosen]) - kToolDifference_m) chosen = i;
+  }
+  return chosen;
+}
+
+/// Those with the least medians, in their order, their links fitted.
+std::vector<Tried> refined(std::vector<Tried> all) {
+  std::vector<double> medians;
+  for (const Tried& one : all) medians.push_back(one.fit.median_m);
+  std::ranges::sort(medians);
+  const double limit = kEqual * medians[std::min(kRefined, medians.size()) - 1];
+  std::erase_if(all, [limit](const Tried& one) { return one.fit.median_m > limit; });
+  for (Tried& one : all) one.fit = fit_arm(one.trial, one.fit);
+  return all;
+}
+
+Trial fewer_rows(const Trial& trial, std::size_t count) {
+  Trial fewer{trial.chain, trial.tools_m, {}, trial.stations};
+  for (const std::size_t i : spread_indices(trial.rows.size(), count)) fewer.rows.push_back(trial.rows[i]);
+  return fewer;
+}
+
+/// The pair of explanations of two joints that fits best on few rows.
+std::vector<Explanation> best_pair(const Trial& trial) {
+  const Trial fewer = fewer_rows(trial, kPairRows);
+  const std::vector<Explanation> all = joint_explanations(trial.chain);
+  std::vector<Explanation> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t one = 0; one < all.size(); ++one) {
+    for (std::size_t other = one + 1; other < all.size(); ++other) {
+      if (all[one].joint == all[other].joint) continue;
+      const double median_m = attempt(fewer, {all[one], all[other]}).fit.median_m;
+      if (median_m >= least) continue;
+      least = median_m;
+      best = {all[one], all[other]};
+    }
+  }
+  return best;
+}
+
+/// Adds one explanation of a joint after the other while each takes a fifth of the median away.
+Tried greedily_extended(const Trial& trial, Tried best) {
+  const std::vector<Explanation> all = joint_explanations(trial.chain);
+  while (std::ssize(best.explanations) < kMostTogether) {
+    std::optional<Tried> next;
+    for (const Explanation& one : all) {
+      std::vector<Explanation> together = best.explanations;
+      together.push_back(one);
+      Tried tried = attempt(trial, together);
+      if (!next || tried.fit.median_m < next->fit.median_m) next = std::move(tried);
+    }
+    if (!next || next->fit.median_m > 0.8 * best.fit.median_m) break;
+    best = std::move(*next);
+  }
+  return best;
+}
+
+std::string axis_name(int axis) {
+  return std::string(1, "xyz"[axis]);
+}
+
+/// The signed permutation within a tenth of `map`, if there is one.
+std::optional<Eigen::Matrix3d> signed_permutation(const Eigen::Matrix3d& map) {
+  const Eigen::Matrix3d rounded = map.array().round().matrix();
+  if ((map - rounded).cwiseAbs().maxCoeff() > 0.1) return std::nullopt;
+  if ((rounded.cwiseAbs().rowwise().sum().array() != 1.0).any()) return std::nullopt;
+  return rounded;
+}
+
+Explanation named_axes(const Eigen::Matrix3d& permutation) {
+  std::string reading;
+  bool exchanged = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    int from = 0;
+    permutation.col(axis).cwiseAbs().maxCoeff(&from);
+    exchanged = exchanged || from != axis;
+    reading += fmt::format("{}{} is {}{}", axis == 0 ? "" : ", ", axis_name(axis),
+                           permutation(from, axis) < 0 ? "-" : "", axis_name(from));
+  }
+  const std::string clause = "the columns of the position are read so: " + reading;
+  return {exchanged ? FindingKind::axes_exchanged : FindingKind::mirrored, -1, clause, nullptr};
+}
+
+/// The cosine of the angle between the base's z axis and the instrument's where axes `one` and `other` are exchanged
+/// in place of y negated.
+double upright_if_exchanged(const Eigen::Matrix3d& base, int one, int other) {
+  Eigen::Vector3d z = base.col(2);
+  z.y() = -z.y();
+  std::swap(z[one], z[other]);
+  return std::abs(z.z());
+}
+
+}  // namespace
+
+std::vector<Explanation> whole_set_explanations(const Chain& chain) {
+  std::vector<Explanation> all = joint_explanations(chain);
+  for (Explanation& one : unit_explanations(chain)) all.push_back(std::move(one));
+  all.push_back(other_convention(chain.convention));
+  all.push_back(mirrored());
+  for (int joint = 0; joint < chain.size(); ++joint)
+    for (const double by_deg : {90.0, -90.0, 180.0})
+      if (is_revolute(chain, joint)) all.push_back(sign_and_offset(joint, by_deg));
+  return all;
+}
+
+std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& placed, double good_m) {
+  std::vector<Tried> all;
+  for (const Explanation& one : whole_set_explanations(trial.chain)) {
+    all.push_back(attempt(trial, {one}));
+    all.back().trial.rows.shrink_to_fit();
+  }
+  all = refined(std::move(all));
+  Tried best = all[likeliest(all)];
+  if (best.fit.median_m > good_m) {
+    for (const std::vector<Explanation>& start : {best.explanations, best_pair(trial)}) {
+      Tried tried = greedily_extended(trial, attempt(trial, start));
+      tried.fit = fit_arm(tried.trial, tried.fit);
+      if (tried.fit.median_m < 0.5 * best.fit.median_m) best = std::move(tried);
+    }
+  }
+  if (best.fit.median_m >= placed.median_m) return std::nullopt;
+  return Explained{std::move(best.explanations), std::move(best.fit)};
+}
+
+Explanation axes_explanation(const Eigen::Isometry3d& sensor_from_base, bool is_base) {
+  constexpr double kUpright = 0.87;
+  const Eigen::Matrix3d base = sensor_from_base.linear();
+  if (is_base) {
+    const Eigen::Matrix3d map = Eigen::Vector3d(1, -1, 1).asDiagonal() * base;
+    if (const auto permutation = signed_permutation(map)) return named_axes(*permutation);
+  }
+  if (std::abs(base(2, 2)) < kUpright) {
+    for (const auto& [one, other] : {std::pair(1, 2), std::pair(0, 2)}) {
+      if (upright_if_exchanged(base, one, other) < kUpright) continue;
+      return {FindingKind::axes_exchanged, -1,
+              fmt::format("the columns {} and {} of the position are exchanged: the base then stands upright",
+                          axis_name(one), axis_name(other)),
+              nullptr};
+    }
+  }
+  return {FindingKind::mirrored, -1,
+          "one axis of the positions is negated, or two are exchanged (the instrument's frame is left-handed as given)",
+          nullptr};
+}
+
+std::optional<Explanation> base_frame_explanation(const Eigen::Isometry3d& sensor_from_base) {
+  constexpr double kTurn_rad = radians(5.0), kShift_m = 0.05;
+  const Eigen::Vector3d turn = vector_of(sensor_from_base.linear());
+  if (turn.norm() < kTurn_rad && sensor_from_base.translation().norm() < kShift_m) return std::nullopt;
+  const double quarters = turn.norm() / (std::numbers::pi / 2);
+  const bool about_z = std::abs(turn.normalized().z()) > 0.99 && std::abs(quarters - std::round(quarters)) < 0.06;
+  if (about_z && turn.norm() > 1.0 && sensor_from_base.translation().norm() < kShift_m)
+    return Explanation{
+        FindingKind::joint_offset, 0,
+        fmt::format("{:+g} deg are added to joint 1", 90.0 * std::round(turn.z() / (std::numbers::pi / 2))), nullptr};
+  const auto permutation = signed_permutation(sensor_from_base.linear());
+  if (permutation && turn.norm() > 1.0 && sensor_from_base.translation().norm() < kShift_m)
+    return named_axes(*permutation);
+  return Explanation{FindingKind::set_in_other_frame, -1,
+                     fmt::format("the base stands {:.0f} mm and {:.1f} deg from where `frame: base` puts it (if the "
+                                 "positions are in the instrument's frame, say `frame: sensor`)",
+                                 millimetres(sensor_from_base.translation().norm()), degrees(turn.norm())),
+                     nullptr};
+}
+
+}  // namespace demecal

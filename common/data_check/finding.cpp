@@ -1,0 +1,68 @@
+#include "data_check/finding.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+struct KindRow {
+  FindingKind kind;
+  std::string_view name;
+  bool contradicts;
+};
+
+constexpr std::array<KindRow, 19> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+                                          {FindingKind::joint_offset, "joint_offset", true},
+                                          {FindingKind::joints_exchanged, "joints_exchanged", true},
+                                          {FindingKind::axes_exchanged, "axes_exchanged", true},
+                                          {FindingKind::mirrored, "mirrored", true},
+                                          {FindingKind::unit, "unit", true},
+                                          {FindingKind::convention, "convention", true},
+                                          {FindingKind::rows_shifted, "rows_shifted", true},
+                                          {FindingKind::rows_shuffled, "rows_shuffled", true},
+                                          {FindingKind::rows_exchanged, "rows_exchanged", false},
+                                          {FindingKind::instrument_moved, "instrument_moved", false},
+                                          {FindingKind::set_in_other_frame, "set_in_other_frame", false},
+                                          {FindingKind::wrong_tool, "wrong_tool", false},
+                                          {FindingKind::constant_joint, "constant_joint", false},
+                                          {FindingKind::degenerate_points, "degenerate_points", false},
+                                          {FindingKind::copied_rows, "copied_rows", false},
+                                          {FindingKind::typing_error, "typing_error", false},
+                                          {FindingKind::outlier, "outlier", false},
+                                          {FindingKind::other_robot, "other_robot", true}}};
+
+const KindRow& row_of(FindingKind kind) {
+  const auto row = std::ranges::find(kKinds, kind, &KindRow::kind);
+  DEMECAL_CHECK(row != kKinds.end(), "finding kind " << static_cast<int>(kind));
+  return *row;
+}
+
+}  // namespace
+
+std::string_view to_string(FindingKind kind) {
+  return row_of(kind).name;
+}
+
+bool contradicts(FindingKind kind) {
+  return row_of(kind).contradicts;
+}
+
+std::string_view to_string(DataVerdict verdict) {
+  constexpr std::array<std::string_view, 3> kWords{"plausible", "suspicious", "contradiction"};
+  return kWords.at(static_cast<std::size_t>(verdict));
+}
+
+DataVerdict DataCheck::verdict() const {
+  if (findings.empty()) return DataVerdict::plausible;
+  const bool contradiction = std::ranges::any_of(findings, [](const Finding& one) { return contradicts(one.kind); });
+  return contradiction ? DataVerdict::contradiction : DataVerdict::suspicious;
+}
+
+bool DataCheck::has(FindingKind kind) const {
+  return std::ranges::any_of(findings, [kind](const Finding& one) { return one.kind == kind; });
+}
+
+}  // namespace demecal

@@ -1,0 +1,63 @@
+// What a check of measured data found: which mistake, where, how much it costs, and in words.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace demecal {
+
+/// The mistakes that the check knows. Reports write their names as they stand here.
+enum class FindingKind {
+  joint_sign,
+  joint_offset,
+  joints_exchanged,
+  axes_exchanged,
+  mirrored,
+  unit,
+  convention,
+  rows_shifted,
+  rows_shuffled,
+  rows_exchanged,
+  instrument_moved,
+  set_in_other_frame,
+  wrong_tool,
+  constant_joint,
+  degenerate_points,
+  copied_rows,
+  typing_error,
+  outlier,
+  other_robot
+};
+
+std::string_view to_string(FindingKind kind);
+
+/// Whether a finding of this kind is of the data set as a whole, so that no model of it means anything.
+bool contradicts(FindingKind kind);
+
+struct Finding {
+  FindingKind kind = FindingKind::outlier;
+  int joint = -1;                    ///< from 0; -1: of no joint
+  std::vector<std::string> poses{};  ///< ids; empty: all
+  /// The error as given, and that with the change the sentence proposes, mm: of single poses their own, otherwise the
+  /// median over the poses that were tried; NaN where there is none.
+  double as_given_mm = std::numeric_limits<double>::quiet_NaN();
+  double if_changed_mm = std::numeric_limits<double>::quiet_NaN();
+  std::string sentence{};
+};
+
+enum class DataVerdict { plausible, suspicious, contradiction };
+
+std::string_view to_string(DataVerdict verdict);
+
+struct DataCheck {
+  std::vector<Finding> findings{};
+
+  /// The worst of the findings'.
+  DataVerdict verdict() const;
+  /// Whether a finding of that kind is there.
+  bool has(FindingKind kind) const;
+};
+
+}  // namespace demecal

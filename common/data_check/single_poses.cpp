@@ -1,0 +1,219 @@
+#include "data_check/single_poses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "fitting/median.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kFarDeviations = 8.0;     ///< beyond which no noise goes
+constexpr double kFarOverMost = 3.5;       ///< over the error that four in five poses keep: 7.5 deviations if normal
+constexpr double kWithinNoise = 3.2;       ///< deviations within which a changed pose fits (95 % of poses do)
+constexpr double kMuchBetter = 0.1;        ///< ratio of errors that chance gives a wrong joint in few of 100 outliers
+constexpr std::size_t kMostSearched = 60;  ///< poses whose joints are searched for typing errors
+constexpr std::size_t kLongestCycle = 4;
+constexpr int kSamplesPerTurn = 360;
+
+struct Misfit {
+  std::size_t row;
+  double error_m;
+};
+
+double error_of(const TrialRow& row, const Eigen::Vector3d& predicted) {
+  return (row.point_m - predicted).norm();
+}
+
+double quantile_of(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+std::string amount_at(const Joint& joint, double value) {
+  return joint.type == JointType::revolute ? fmt::format("{:.3f} deg", degrees(value))
+                                           : fmt::format("{:.3f} mm", millimetres(value));
+}
+
+class Search {
+ public:
+  Search(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict)
+      : data_(data), rows_(rows), predict_(predict) {
+    std::vector<double> errors;
+    for (const TrialRow& row : rows) errors.push_back(error_of(row, predict(row, row.joints)));
+    deviation_m_ = std::max(median(errors) / 1.5382, 1e-6);
+    const double far_m = std::max(kFarDeviations * deviation_m_, kFarOverMost * quantile_of(errors, 0.8));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!(errors[i] <= far_m)) far_.push_back({i, errors[i]});
+  }
+
+  std::vector<Finding> findings() {
+    std::vector<Finding> found;
+    std::vector<bool> explained(far_.size(), false);
+    for (std::size_t i = 0; i < far_.size(); ++i)
+      if (!explained[i]) add_cycle(i, explained, found);
+    for (std::size_t i = 0; i < far_.size(); ++i)
+      if (!explained[i]) found.push_back(alone(far_[i], i < kMostSearched));
+    return found;
+  }
+
+ private:
+  const std::string& id(std::size_t row) const { return data_.poses[rows_[row].pose].pose_id; }
+  bool fits(double error_m, double before_m) const {
+    return error_m < kWithinNoise * deviation_m_ && error_m < kMuchBetter * before_m;
+  }
+
+  /// The far row at whose joints this row's point fits best, if one does.
+  std::optional<std::size_t> place_of(std::size_t i) const {
+    std::optional<std::size_t> place;
+    double least = 0.0;
+    for (std::size_t j = 0; j < far_.size(); ++j) {
+      if (j == i) continue;
+      TrialRow there = rows_[far_[j].row];
+      there.point_m = rows_[far_[i].row].point_m;
+      const double error_m = error_of(there, predict_(there, there.joints));
+      if (!fits(error_m, far_[i].error_m) || (place && error_m >= least)) continue;
+      place = j;
+      least = error_m;
+    }
+    return place;
+  }
+
+  /// Follows the rows' points to where they fit; a cycle is one finding.
+  void add_cycle(std::size_t first, std::vector<bool>& explained, std::vector<Finding>& found) const {
+    std::vector<std::size_t> cycle{first};
+    while (cycle.size() <= kLongestCycle) {
+      const auto next = place_of(cycle.back());
+      if (!next || explained[*next]) return;
+      if (*next == first) break;
+      cycle.push_back(*next);
+    }
+    if (cycle.size() < 2 || cycle.size() > kLongestCycle) return;
+    Finding finding{.kind = FindingKind::rows_exchanged, .as_given_mm = 0.0, .if_changed_mm = 0.0};
+    std::string names;
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+      const std::size_t i = cycle[k];
+      explained[i] = true;
+      finding.poses.push_back(id(far_[i].row));
+      finding.as_given_mm = std::max(finding.as_given_mm, millimetres(far_[i].error_m));
+      TrialRow there = rows_[far_[cycle[(k + 1) % cycle.size()]].row];
+      there.point_m = rows_[far_[i].row].point_m;
+      finding.if_changed_mm =
+          std::max(finding.if_changed_mm, millimetres(error_of(there, predict_(there, there.joints))));
+      names += (k == 0 ? "" : k + 1 == cycle.size() ? " and " : ", ") + id(far_[i].row);
+    }
+    finding.sentence =
+        fmt::format("{} fit if their measured points are exchanged: {:.2f} mm off as given, {:.2f} mm if exchanged.",
+                    names, finding.as_given_mm, finding.if_changed_mm);
+    found.push_back(std::move(finding));
+  }
+
+  /// A row whose measured point another row has too.
+  std::optional<std::size_t> same_point_as(std::size_t row) const {
+    for (std::size_t other = 0; other < rows_.size(); ++other)
+      if (other != row && rows_[other].point_m == rows_[row].point_m) return other;
+    return std::nullopt;
+  }
+
+  struct OtherJoints {
+    int joint = -1, exchanged_with = -1;
+    double value = 0.0, error_m = 0.0;
+  };
+
+  double error_at(const TrialRow& row, int joint, double value) const {
+    JointVector joints = row.joints;
+    joints[joint] = value;
+    return error_of(row, predict_(row, joints));
+  }
+
+  /// The value of one joint at which the row fits best: samples of its whole range, the best one refined.
+  OtherJoints best_value(const TrialRow& row, int joint) const {
+    const Joint& link = data_.robot.chain.joints[static_cast<std::size_t>(joint)];
+    const bool revolute = link.type == JointType::revolute;
+    const double lower = revolute ? row.joints[joint] - radians(180.0) : link.lower,
+                 upper = revolute ? row.joints[joint] + radians(180.0) : link.upper;
+    double step = (upper - lower) / kSamplesPerTurn;
+    OtherJoints best{joint, -1, row.joints[joint], error_of(row, predict_(row, row.joints))};
+    for (int i = 0; i <= kSamplesPerTurn; ++i) {
+      const double value = lower + i * step, error_m = error_at(row, joint, value);
+      if (error_m < best.error_m) best = {joint, -1, value, error_m};
+    }
+    for (; step > 1e-9; step *= 0.5) {
+      for (const double value : {best.value - step, best.value + step}) {
+        const double error_m = error_at(row, joint, value);
+        if (error_m < best.error_m) best = {joint, -1, value, error_m};
+      }
+    }
+    return best;
+  }
+
+  std::optional<OtherJoints> typing_error(const TrialRow& row, double before_m) const {
+    std::optional<OtherJoints> best;
+    const auto take = [&](const OtherJoints& one) {
+      if (fits(one.error_m, before_m) && (!best || one.error_m < best->error_m)) best = one;
+    };
+    for (int joint = 0; joint < data_.robot.chain.size(); ++joint) take(best_value(row, joint));
+    if (best) return best;
+    for (int one = 0; one < data_.robot.chain.size(); ++one) {
+      for (int other = one + 1; other < data_.robot.chain.size(); ++other) {
+        JointVector joints = row.joints;
+        std::swap(joints[one], joints[other]);
+        take({one, other, joints[one], error_of(row, predict_(row, joints))});
+      }
+    }
+    return best;
+  }
+
+  Finding alone(const Misfit& misfit, bool searched) const {
+    const TrialRow& row = rows_[misfit.row];
+    Finding finding{
+        .kind = FindingKind::outlier, .poses = {id(misfit.row)}, .as_given_mm = millimetres(misfit.error_m)};
+    if (const auto other = same_point_as(misfit.row)) {
+      finding.kind = FindingKind::copied_rows;
+      finding.poses.insert(finding.poses.begin(), id(*other));
+      finding.sentence = fmt::format("{} has the measured point of {} to the last digit, and is {:.2f} mm off with it.",
+                                     id(misfit.row), id(*other), finding.as_given_mm);
+      return finding;
+    }
+    const auto typed = searched ? typing_error(row, misfit.error_m) : std::nullopt;
+    if (!typed) {
+      finding.sentence = fmt::format("{} is {:.2f} mm off, far more than the others ({:.2f} mm at the median).",
+                                     id(misfit.row), finding.as_given_mm, millimetres(1.5382 * deviation_m_));
+      return finding;
+    }
+    finding.kind = FindingKind::typing_error;
+    finding.joint = typed->joint;
+    finding.if_changed_mm = millimetres(typed->error_m);
+    const Joint& joint = data_.robot.chain.joints[static_cast<std::size_t>(typed->joint)];
+    const std::string change =
+        typed->exchanged_with >= 0
+            ? fmt::format("joints {} and {} are exchanged", typed->joint + 1, typed->exchanged_with + 1)
+            : fmt::format("joint {} is {} in place of {}", typed->joint + 1, amount_at(joint, typed->value),
+                          amount_at(joint, row.joints[typed->joint]));
+    finding.sentence = fmt::format("{} fits if {}: {:.2f} mm off as given, {:.2f} mm if changed.", id(misfit.row),
+                                   change, finding.as_given_mm, finding.if_changed_mm);
+    return finding;
+  }
+
+  const DataSet& data_;
+  const std::vector<TrialRow>& rows_;
+  const PointPrediction& predict_;
+  double deviation_m_ = 0.0;
+  std::vector<Misfit> far_;
+};
+
+}  // namespace
+
+std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<TrialRow>& rows,
+                                       const PointPrediction& predict) {
+  constexpr std::size_t kFewest = 6;
+  if (rows.size() < kFewest) return {};
+  return Search(data, rows, predict).findings();
+}
+
+}  // namespace demecal

@@ -1,0 +1,23 @@
+// Poses that do not fit although the others do, and what would make each fit: outliers, typing errors, exchanged rows.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "data_check/trial_fit.hpp"
+
+namespace demecal {
+
+/// The tool point (m, instrument's frame) of a row of the data set at given joints.
+using PointPrediction = std::function<Eigen::Vector3d(const TrialRow&, const JointVector&)>;
+
+/// A finding for each pose among `rows` (of any sets) that lies farther out than 8 standard deviations and than 3.5
+/// times the error which four in five poses keep: rows whose points fit each other's joints (a cycle of up to four),
+/// points that stand beside other joints too, one joint with another value (or two exchanged) by which the pose fits to
+/// within the noise and ten times better, and what is left as outliers, each with its error.
+std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<TrialRow>& rows,
+                                       const PointPrediction& predict);
+
+}  // namespace demecal

@@ -1,0 +1,236 @@
+#include "data_check/trial_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fitting/median.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/rotation_vector.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kSmallestScale_m = 1e-6;
+constexpr double kMedianNorm = 1.5382;    ///< median length of a vector of three standard normals
+constexpr double kTukey = 6.0;            ///< deviations at which a row's weight is nothing
+constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
+constexpr int kRegistrations = 8, kPlacingSteps = 6, kArmSteps = 8;
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+double tukey_weight(double error_m, double deviation_m) {
+  const double share = error_m / (kTukey * deviation_m);
+  return share >= 1.0 ? 0.0 : (1 - share * share) * (1 - share * share);
+}
+
+double deviation_of(double median_m) {
+  return std::max(median_m / kMedianNorm, kSmallestScale_m);
+}
+
+/// Registers the rows of one station, rows far out counting less and less.
+void register_station(const Trial& trial, int station, TrialFit& fit) {
+  std::vector<const TrialRow*> rows;
+  for (const TrialRow& row : trial.rows)
+    if (row.station == station) rows.push_back(&row);
+  if (rows.empty()) return;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::Matrix3Xd from(3, n), to(3, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const TrialRow& row = *rows[static_cast<std::size_t>(i)];
+    from.col(i) = forward(trial.chain, row.joints) * trial.tools_m[static_cast<std::size_t>(row.target)];
+    to.col(i) = row.point_m;
+  }
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
+  Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(station)];
+  for (int repetition = 0; repetition < kRegistrations; ++repetition) {
+    base = weighted_registration(from, to, weights);
+    const Eigen::VectorXd errors = ((base.linear() * from).colwise() + base.translation() - to).colwise().norm();
+    weights = errors.cwiseMax(1e-4).cwiseInverse();
+  }
+}
+
+void measure_errors(const Trial& trial, TrialFit& fit) {
+  fit.error_m.resize(trial.rows.size());
+  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
+    fit.error_m[i] = (trial.rows[i].point_m - predicted_point(fit, trial.rows[i])).norm();
+    if (!std::isfinite(fit.error_m[i])) fit.error_m[i] = std::numeric_limits<double>::max();
+  }
+  fit.median_m = fit.error_m.empty() ? std::numeric_limits<double>::infinity() : median(fit.error_m);
+}
+
+/// Where the parameters of a trial stand in its normal equations: stations' bases, tools, links.
+struct Places {
+  int stations, tools, joints;
+  bool links;
+
+  int tool(int target) const { return 6 * stations + 3 * target; }
+  int link(int joint) const { return 6 * stations + 3 * tools + kLinkParameters * joint; }
+  int size() const { return link(links ? joints : 0); }
+};
+
+double link_deviation(LinkParameter parameter) {
+  return parameter == LinkParameter::d || parameter == LinkParameter::a ? kLinkDeviation_m : kLinkDeviation_rad;
+}
+
+struct NormalEquations {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+
+void add_row(const TrialFit& fit, const TrialRow& row, const Places& places, double weight, NormalEquations& normal) {
+  const Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(row.station)];
+  const Eigen::Vector3d& tool = fit.tools_m[static_cast<std::size_t>(row.target)];
+  const Kinematics kinematics = differential_kinematics(fit.chain, row.joints, tool);
+  const Eigen::Vector3d lever = base.linear() * (kinematics.flange * tool);
+  const Eigen::Vector3d error = row.point_m - base.translation() - lever;
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3, places.size());
+  jacobian.block<3, 3>(0, 6 * row.station).setIdentity();
+  jacobian.block<3, 3>(0, 6 * row.station + 3) = -cross_matrix(lever);
+  jacobian.block<3, 3>(0, places.tool(row.target)) = base.linear() * kinematics.flange.linear();
+  if (places.links) jacobian.rightCols(kinematics.links.cols()) = base.linear() * kinematics.links.topRows<3>();
+  normal.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose(), weight);
+  normal.gradient.noalias() += weight * jacobian.transpose() * error;
+}
+
+void add_priors(const Trial& trial, const TrialFit& fit, const Places& places, NormalEquations& normal) {
+  const auto pull = [&normal](int at, double deviation, double off) {
+    normal.information(at, at) += 1.0 / (deviation * deviation);
+    normal.gradient[at] -= off / (deviation * deviation);
+  };
+  for (int i = 0; i < 6 * places.stations; ++i) pull(i, 1e3, 0.0);
+  for (int target = 0; target < places.tools; ++target) {
+    const auto at = static_cast<std::size_t>(target);
+    for (int axis = 0; axis < 3; ++axis)
+      pull(places.tool(target) + axis, kToolDeviation_m, fit.tools_m[at][axis] - trial.tools_m[at][axis]);
+  }
+  for (int joint = 0; places.links && joint < places.joints; ++joint) {
+    const auto at = static_cast<std::size_t>(joint);
+    for (int i = 0; i < kLinkParameters; ++i) {
+      const auto parameter = static_cast<LinkParameter>(i);
+      pull(places.link(joint) + i, link_deviation(parameter),
+           fit.chain.joints[at].parameter(parameter) - trial.chain.joints[at].parameter(parameter));
+    }
+  }
+}
+
+void move(TrialFit& fit, const Places& places, const Eigen::VectorXd& step) {
+  for (int station = 0; station < places.stations; ++station) {
+    Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(station)];
+    base.translation() += step.segment<3>(6 * station);
+    base.linear() = rotation_of(step.segment<3>(6 * station + 3)) * base.linear();
+  }
+  for (int target = 0; target < places.tools; ++target)
+    fit.tools_m[static_cast<std::size_t>(target)] += step.segment<3>(places.tool(target));
+  for (int joint = 0; places.links && joint < places.joints; ++joint)
+    for (int i = 0; i < kLinkParameters; ++i)
+      fit.chain.joints[static_cast<std::size_t>(joint)].parameter(static_cast<LinkParameter>(i)) +=
+          step[places.link(joint) + i];
+}
+
+/// Takes a Gauss-Newton step with Tukey's weights; false where none can be taken.
+bool step_down(const Trial& trial, const Places& places, TrialFit& fit) {
+  const double deviation = deviation_of(fit.median_m);
+  NormalEquations normal{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
+  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
+    const double weight = tukey_weight(fit.error_m[i], deviation) / (deviation * deviation);
+    if (weight > 0.0) add_row(fit, trial.rows[i], places, weight, normal);
+  }
+  add_priors(trial, fit, places, normal);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(normal.information.selfadjointView<Eigen::Lower>());
+  const Eigen::VectorXd step = factor.solve(normal.gradient);
+  if (!step.allFinite()) return false;
+  move(fit, places, step);
+  measure_errors(trial, fit);
+  if (places.links) {
+    const Eigen::MatrixXd all = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
+    fit.tool_covariance = all.block(places.tool(0), places.tool(0), 3 * places.tools, 3 * places.tools);
+  }
+  return true;
+}
+
+double largest_change(const Chain& fitted, const Chain& nominal) {
+  double largest = 0.0;
+  for (std::size_t joint = 0; joint < fitted.joints.size(); ++joint) {
+    for (int i = 0; i < kLinkParameters; ++i) {
+      const auto parameter = static_cast<LinkParameter>(i);
+      const double change = fitted.joints[joint].parameter(parameter) - nominal.joints[joint].parameter(parameter);
+      largest = std::max(largest, std::abs(change) / link_deviation(parameter));
+    }
+  }
+  return largest;
+}
+
+/// Steps as long as they lower the median, twice over at most where they do not.
+TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
+  const Places places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), links};
+  TrialFit best = fit;
+  int worse = 0;
+  for (int i = 0; i < steps && worse < 2; ++i) {
+    const double before = fit.median_m;
+    if (!step_down(trial, places, fit)) break;
+    worse = fit.median_m < 0.999 * before ? 0 : worse + 1;
+    if (fit.median_m <= best.median_m) best = fit;
+  }
+  best.largest_change = largest_change(best.chain, trial.chain);
+  return best;
+}
+
+}  // namespace
+
+double TrialFit::deviation_m() const {
+  return deviation_of(median_m);
+}
+
+Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row) {
+  return fit.sensor_from_base[static_cast<std::size_t>(row.station)] *
+         (forward(fit.chain, row.joints) * fit.tools_m[static_cast<std::size_t>(row.target)]);
+}
+
+TrialFit fit_base_and_tools(const Trial& trial) {
+  TrialFit fit;
+  fit.chain = trial.chain;
+  fit.tools_m = trial.tools_m;
+  fit.sensor_from_base.assign(static_cast<std::size_t>(trial.stations), Eigen::Isometry3d::Identity());
+  for (int station = 0; station < trial.stations; ++station) register_station(trial, station, fit);
+  measure_errors(trial, fit);
+  return descend(trial, std::move(fit), false, kPlacingSteps);
+}
+
+TrialFit fit_arm(const Trial& trial, const TrialFit& placed) {
+  return descend(trial, placed, true, kArmSteps);
+}
+
+Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
+                                        const Eigen::VectorXd& weights) {
+  const double sum = weights.sum();
+  const Eigen::Vector3d from_mean = from * weights / sum, to_mean = to * weights / sum;
+  const Eigen::Matrix3d cross =
+      (to.colwise() - to_mean) * weights.asDiagonal() * (from.colwise() - from_mean).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = svd.matrixU() * Eigen::Vector3d(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
+  motion.translation() = to_mean - motion.linear() * from_mean;
+  return motion;
+}
+
+std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
+  std::vector<std::size_t> indices;
+  // Multiples of the golden ratio fall evenly and share no period with the order of targets.
+  const double share = static_cast<double>(count) / static_cast<double>(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    double whole = 0.0;
+    if (size <= count || std::modf(static_cast<double>(i) * std::numbers::phi, &whole) < share) indices.push_back(i);
+  }
+  return indices;
+}
+
+}  // namespace demecal

@@ -1,0 +1,51 @@
+#include "coordinator/checked_data.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "config/files.hpp"
+#include "config/load_data_set.hpp"
+#include "data_check/check_data.hpp"
+#include "data_check/coverage.hpp"
+#include "effects/measurement.hpp"
+#include "report/data_check_text.hpp"
+#include "report/report_html.hpp"
+#include "report/report_json.hpp"
+
+namespace demecal {
+
+CheckedData load_checked(const std::filesystem::path& path) {
+  CheckedData checked{load_data_set(path), {}};
+  std::vector<Finding> copies = take_out_copies(checked.data);
+  checked.check = check_data(checked.data);
+  std::vector<Finding>& findings = checked.check.findings;
+  findings.insert(findings.end(), std::make_move_iterator(copies.begin()), std::make_move_iterator(copies.end()));
+  if (checked.check.verdict() != DataVerdict::contradiction) require_joint_limits(checked.data, checked.check);
+  return checked;
+}
+
+bool refuses(const CheckedData& checked, bool force) {
+  if (force || checked.check.verdict() != DataVerdict::contradiction) return false;
+  fmt::print(
+      stderr,
+      "{}: the data and the robot's description contradict each other:\n{}Nothing was fitted. Mend the files, or "
+      "go on all the same with --force.\n",
+      checked.data.file, data_check_to_terminal(checked.check));
+  return true;
+}
+
+void add_force(CLI::App& command, bool& force) {
+  command.add_flag("--force", force, "go on although the data and the robot's description contradict each other");
+}
+
+void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked) {
+  if (checked.check.verdict() != DataVerdict::contradiction)
+    fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file, data_check_to_terminal(checked.check));
+  const CalibrationReport report = refusal_report(checked.data, job, checked.check);
+  const std::string json = to_json(report);
+  write_file(folder + "/report.json", json);
+  write_file(folder + "/report.html", report_html(json, ""));
+}
+
+}  // namespace demecal

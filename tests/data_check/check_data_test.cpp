@@ -1,0 +1,141 @@
+// Every mistake that the benchmark makes, on one arm, and data sets that lack nothing; then what the rules say.
+#include "data_check/check_data.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../errors/complaint.hpp"
+#include "data_check/coverage.hpp"
+#include "kinematics/units.hpp"
+#include "mistaken_case.hpp"
+
+namespace demecal {
+namespace {
+
+using bench::MistakenCase;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::vector<Robot>& arms() {
+  static const std::vector<Robot> arms = bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots");
+  return arms;
+}
+
+/// As commands check: copies first.
+DataCheck checked(DataSet data) {
+  std::vector<Finding> copies = take_out_copies(data);
+  DataCheck check = check_data(data);
+  for (Finding& copy : copies) check.findings.push_back(std::move(copy));
+  return check;
+}
+
+std::vector<FindingKind> kinds_of(const DataCheck& check) {
+  std::vector<FindingKind> kinds;
+  for (const Finding& finding : check.findings) kinds.push_back(finding.kind);
+  return kinds;
+}
+
+std::string sentences_of(const DataCheck& check) {
+  std::string all;
+  for (const Finding& finding : check.findings) all += finding.sentence + "\n";
+  return all;
+}
+
+const MistakenCase& case_of(const std::string& what) {
+  static const std::vector<MistakenCase> cases = bench::mistaken_cases({arms()[1]});
+  for (const MistakenCase& one : cases)
+    if (one.what == what) return one;
+  ADD_FAILURE() << "no mistake is called " << what;
+  return cases.front();
+}
+
+TEST(CheckData, NamesEveryMistakeOfTheBenchmark) {
+  for (const MistakenCase& one : bench::mistaken_cases({arms()[0]})) {
+    const DataCheck check = checked(one.data);
+    EXPECT_THAT(kinds_of(check), Contains(*one.kind)) << one.what << "\n" << sentences_of(check);
+    EXPECT_EQ(check.verdict(), contradicts(*one.kind) ? DataVerdict::contradiction : DataVerdict::suspicious)
+        << one.what;
+    for (const std::string& pose : one.poses) EXPECT_THAT(sentences_of(check), HasSubstr(pose)) << one.what;
+  }
+}
+
+TEST(CheckData, FindsNothingWhereNothingIsWrong) {
+  for (const MistakenCase& one : bench::unmistaken_cases(arms(), 24)) {
+    EXPECT_THAT(sentences_of(checked(one.data)), IsEmpty()) << one.arm << " " << one.number;
+  }
+}
+
+TEST(CheckData, SaysTheErrorAsGivenAndIfChanged) {
+  const DataCheck check = checked(case_of("sign of an inner joint").data);
+  ASSERT_FALSE(check.findings.empty());
+  EXPECT_GT(check.findings.front().as_given_mm, 50.0);
+  EXPECT_LT(check.findings.front().if_changed_mm, 1.0);
+  EXPECT_THAT(check.findings.front().sentence, HasSubstr("is taken with the other sign"));
+}
+
+TEST(CheckData, NamesTwoMistakesAtOnce) {
+  DataSet data = case_of("a joint that stands still").data;
+  data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  for (MeasuredPose& pose : data.poses) {
+    pose.joints[1] *= -1.0;
+    pose.joints[3] *= -1.0;
+  }
+  const DataCheck check = checked(data);
+  ASSERT_EQ(check.findings.size(), 2u) << sentences_of(check);
+  for (const Finding& finding : check.findings) {
+    EXPECT_EQ(finding.kind, FindingKind::joint_sign);
+    EXPECT_TRUE(finding.joint == 1 || finding.joint == 3);
+  }
+}
+
+TEST(CheckData, PutsExchangedRowsInOneSentence) {
+  const DataCheck check = checked(case_of("two pairs of rows exchanged").data);
+  EXPECT_EQ(check.findings.size(), 2u) << sentences_of(check);
+  EXPECT_THAT(sentences_of(check), HasSubstr("fit if their measured points are exchanged"));
+}
+
+TEST(CheckData, DoesNotDependOnTheOrderOfOtherFiles) {
+  const DataSet& data = case_of("five outliers").data;
+  EXPECT_EQ(sentences_of(checked(data)), sentences_of(checked(data)));
+}
+
+TEST(CheckData, TakesCopiesOutSoThatTheyAreNoRepeats) {
+  DataSet data = case_of("rows copied with their ids").data;
+  const std::size_t before = data.poses.size();
+  const std::vector<Finding> copies = take_out_copies(data);
+  EXPECT_EQ(copies.size(), 2u);
+  EXPECT_EQ(data.poses.size(), before - 2);
+}
+
+TEST(CheckData, LeavesRepeatsOfCoarseDigitsAlone) {
+  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  for (MeasuredPose& pose : data.poses)
+    for (double& value : *pose.position_m) value = 1e-4 * std::round(1e4 * value);
+  data.poses.push_back(data.poses.front());
+  EXPECT_THAT(take_out_copies(data), IsEmpty());
+}
+
+TEST(CheckData, RefusesJointsBeyondTheirLimitsUnlessAFindingSaysWhy) {
+  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  EXPECT_EQ(complaint([&] { require_joint_limits(data, {}); }), "");
+  data.poses[3].joints[1] = radians(300.0);
+  EXPECT_THAT(complaint([&] { require_joint_limits(data, {}); }), HasSubstr("far outside the limits of joint 2"));
+  const DataCheck named{{{.kind = FindingKind::typing_error, .poses = {data.poses[3].pose_id}}}};
+  EXPECT_EQ(complaint([&] { require_joint_limits(data, named); }), "");
+}
+
+TEST(CheckData, TakesSmallAnglesForRadiansWhereOnlyLengthsWereMeasured) {
+  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  for (MeasuredPose& pose : data.poses) {
+    pose.distances_m = {pose.position_m->norm()};
+    pose.position_m.reset();
+  }
+  data.anchors_m = {Eigen::Vector3d::Zero()};
+  EXPECT_THAT(checked(data).findings, IsEmpty());
+  for (MeasuredPose& pose : data.poses) pose.joints *= radians(1.0);
+  EXPECT_THAT(kinds_of(checked(data)), Contains(FindingKind::unit));
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,77 @@
+// The quick fit finds base, tool and links of a simulated arm, and a few wrong rows do not move it.
+#include "data_check/trial_fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "kinematics/forward.hpp"
+#include "mistaken_case.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+namespace {
+
+Trial exact_trial(std::uint64_t seed) {
+  RandomStream random{seed};
+  Trial trial;
+  trial.chain = bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots")[3].chain;
+  trial.tools_m = {trial.chain.tool_m};
+  Chain truth = trial.chain;
+  for (Joint& joint : truth.joints) {
+    joint.theta_rad += 2e-3 * random.normal();
+    joint.a_m += 5e-4 * random.normal();
+  }
+  const Eigen::Isometry3d base =
+      Eigen::Translation3d(1.0, -2.0, 0.5) * Eigen::AngleAxisd(2.2, Eigen::Vector3d(1, 2, 3).normalized());
+  const Eigen::Vector3d tool_m = trial.chain.tool_m + Eigen::Vector3d(0.15, -0.1, 0.05);
+  for (int i = 0; i < 60; ++i) {
+    JointVector joints(truth.size());
+    for (int j = 0; j < truth.size(); ++j) joints[j] = random.real(-1.5, 1.5);
+    trial.rows.push_back({joints, base * (forward(truth, joints) * tool_m), 0, 0, static_cast<std::size_t>(i)});
+  }
+  return trial;
+}
+
+TEST(TrialFit, FindsAnExactArmFromFarOff) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Trial trial = exact_trial(seed);
+    const TrialFit fit = fit_arm(trial, fit_base_and_tools(trial));
+    EXPECT_LT(fit.median_m, 2e-5) << seed;
+    EXPECT_LT(fit.largest_change, 3.0) << seed;
+  }
+}
+
+TEST(TrialFit, IsNotMovedByAFewWrongRows) {
+  for (const std::uint64_t seed : {4, 5, 6}) {
+    Trial trial = exact_trial(seed);
+    for (const std::size_t wrong : {3u, 17u, 20u, 41u, 55u, 59u})
+      trial.rows[wrong].point_m += Eigen::Vector3d(0.3, 1.0, -0.2);
+    const TrialFit fit = fit_arm(trial, fit_base_and_tools(trial));
+    EXPECT_LT(fit.median_m, 2e-5) << seed;
+    EXPECT_GT(fit.error_m[17], 1.0) << seed;
+  }
+}
+
+TEST(TrialFit, KeepsLinksNearTheirDescriptionWhereNothingFits) {
+  Trial trial = exact_trial(7);
+  for (TrialRow& row : trial.rows) row.joints[2] *= -1.0;
+  const TrialFit fit = fit_arm(trial, fit_base_and_tools(trial));
+  EXPECT_GT(fit.median_m, 0.02);
+  EXPECT_LT(fit.largest_change, 20.0);
+}
+
+TEST(TrialFit, SpreadsIndicesOverAllAndOverThoseThatRecur) {
+  const std::vector<std::size_t> chosen = spread_indices(300, 100);
+  EXPECT_NEAR(static_cast<double>(chosen.size()), 100.0, 2.0);
+  EXPECT_LT(chosen.front(), 6u);
+  EXPECT_GT(chosen.back(), 293u);
+  std::set<std::size_t> remainders;
+  for (const std::size_t i : chosen) remainders.insert(i % 3);
+  EXPECT_EQ(remainders.size(), 3u);
+  EXPECT_EQ(spread_indices(5, 100).size(), 5u);
+}
+
+}  // namespace
+}  // namespace demecal
