@@ -14,6 +14,7 @@
 #include "data_check/instrument.hpp"
 #include "data_check/row_order.hpp"
 #include "data_check/single_poses.hpp"
+#include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
@@ -21,12 +22,13 @@
 namespace demecal {
 namespace {
 
-constexpr std::size_t kTrialRows = 240;  ///< calibration rows that explanations are tried on
-constexpr std::size_t kFewestRows = 6;   ///< below which base and tool alone explain anything
-constexpr double kHalf = 0.5;            ///< of the error, which an explanation must take away
-constexpr double kOtherTool_m = 0.01;    ///< as CommandModel's: farther off another tool was measured
-constexpr double kSureDeviations = 5.0;  ///< by which the tool is known to be elsewhere
-constexpr double kTurnedTool_m = 3e-3;   ///< within which a tool stands where a turn of the last joint puts it
+constexpr std::size_t kTrialRows = 240;   ///< calibration rows that explanations are tried on
+constexpr std::size_t kFewestRows = 6;    ///< below which base and tool alone explain anything
+constexpr double kHalf = 0.5;             ///< of the error, which an explanation must take away
+constexpr double kOtherTool_m = 0.01;     ///< as CommandModel's: farther off another tool was measured
+constexpr double kSureDeviations = 5.0;   ///< by which the tool is known to be elsewhere
+constexpr double kMedianLength = 1.5382;  ///< median length of a vector of three standard normals
+constexpr double kTurnedTool_m = 3e-3;    ///< within which a tool stands where a turn of the last joint puts it
 
 const char* set_name(PoseSet set) {
   return set == PoseSet::calibration ? "calibration" : set == PoseSet::validation ? "validation" : "accept";
@@ -130,18 +132,22 @@ class Check {
   }
 
   void add_readings(const Explained& explained, double as_given_m) {
-    const double after_m = explained.fit.median_m;
-    for (const Explanation& one : explained.explanations) {
-      Explanation named = one;
-      if (one.kind == FindingKind::mirrored)
-        named = axes_explanation(explained.fit.sensor_from_base.front(), data_.frame == Frame::base);
-      add({.kind = named.kind,
-           .joint = named.joint,
-           .as_given_mm = millimetres(as_given_m),
-           .if_changed_mm = millimetres(after_m),
-           .sentence = "The data fit if " + named.clause + " " + before_and_after(as_given_m, after_m) +
-                       ". Correct the data or the robot file."});
-    }
+    for (const Explanation& one : explained.explanations)
+      add_reading(one, explained.fit, as_given_m, "The data fit if ");
+    for (const Explanation& one : explained.equals)
+      add_reading(one, explained.fit, as_given_m, "As well, and these data cannot tell which, the data fit if ");
+  }
+
+  void add_reading(const Explanation& one, const TrialFit& fit, double as_given_m, const std::string& lead) {
+    Explanation named = one;
+    if (one.kind == FindingKind::mirrored)
+      named = axes_explanation(fit.sensor_from_base.front(), data_.frame == Frame::base);
+    add({.kind = named.kind,
+         .joint = named.joint,
+         .as_given_mm = millimetres(as_given_m),
+         .if_changed_mm = millimetres(fit.median_m),
+         .sentence = lead + named.clause + " " + before_and_after(as_given_m, fit.median_m) +
+                     ". Correct the data or the robot file."});
   }
 
   void add_order(FindingKind kind, const Reordered& order, double as_given_m) {
@@ -240,9 +246,9 @@ class Check {
     for (const auto& [name, target] : target_of_) {
       const auto at = static_cast<std::size_t>(target);
       const Eigen::Vector3d nominal = whole_.tools_m[at], change = fit_.tools_m[at] - nominal;
-      if (nominal.norm() == 0.0 || change.norm() < kOtherTool_m || fit_.tool_covariance.size() == 0) continue;
-      const Eigen::Matrix3d covariance = fit_.tool_covariance.block<3, 3>(3 * target, 3 * target);
-      if (change.dot(covariance.ldlt().solve(change)) < kSureDeviations * kSureDeviations * 3.0) continue;
+      if (nominal.norm() == 0.0 || change.norm() < kOtherTool_m || !fit_.has_links()) continue;
+      if (change.dot(fit_.tool_covariance(target).ldlt().solve(change)) < kSureDeviations * kSureDeviations * 3.0)
+        continue;
       const std::string which = name.empty() ? "The tool point" : "The tool point of target " + name;
       if (const auto turn_deg = turn_of_last_joint(nominal, fit_.tools_m[at])) {
         add({.kind = FindingKind::joint_offset,
@@ -280,11 +286,8 @@ class Check {
   /// Sets that fit only by themselves, then single poses of all sets.
   void check_rows() {
     for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) check_set(set);
-    const PointPrediction predict = [this](const TrialRow& row, const JointVector& joints) {
-      TrialRow there = row;
-      there.joints = joints;
-      return predicted_point(fit_, there);
-    };
+    const PointPrediction predict{[this](const TrialRow& row) { return predicted_point(fit_, row); },
+                                  [this](const TrialRow& row) { return fit_.deviations_off(row); }};
     for (Finding& finding : find_single_poses(data_, whole_.rows, predict)) add(std::move(finding));
   }
 
@@ -333,10 +336,16 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
     const MeasuredPose& pose = data.poses[i];
     if (pose.position_m && !named.contains(pose.pose_id)) rows.push_back({pose.joints, *pose.position_m, 0, 0, i});
   }
-  const PointPrediction predict = [&](const TrialRow& row, const JointVector& joints) -> Eigen::Vector3d {
+  const auto point = [&](const TrialRow& row) -> Eigen::Vector3d {
     const MeasuredPose& pose = data.poses[row.pose];
-    return robot.predict(Stop(pose).with_joints(joints), pose.target).translation();
+    return robot.predict(Stop(pose).with_joints(row.joints), pose.target).translation();
   };
+  const auto error = [&](const TrialRow& row) { return (row.point_m - point(row)).norm(); };
+  std::vector<double> errors;
+  for (const TrialRow& row : rows) errors.push_back(error(row));
+  if (errors.empty()) return;
+  const double deviation_m = std::max(median(errors) / kMedianLength, 1e-6);
+  const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};
   for (Finding& finding : find_single_poses(data, rows, predict)) check.findings.push_back(std::move(finding));
 }
 

@@ -16,8 +16,9 @@ namespace demecal {
 namespace {
 
 constexpr double kHardlyMoving_rad = radians(2.0), kHardlyMoving_m = 5e-3;
-constexpr double kFlat = 0.005;          ///< ratio of a cloud's extents that makes it a line or plane
-constexpr int kFineDecimals_mm = 3;      ///< digits behind the point, mm, that repeats with noise do not share
+constexpr double kFlat = 0.005;      ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
+constexpr double kThin = 0.02;       ///< ratio of both to the third that makes it a line
+constexpr int kFineDecimals_mm = 3;  ///< digits behind the point, mm, that repeats with noise do not share
 constexpr std::size_t kFewestPoses = 4;  ///< below which nothing is said of spread
 
 Finding constant_joint(const DataSet& data, int joint, double range) {
@@ -49,8 +50,9 @@ std::vector<Finding> degenerate_points(const DataSet& data, const std::vector<st
     if (data.poses[pose].position_m) points.push_back(*data.poses[pose].position_m);
   if (points.size() < kFewestPoses) return {};
   const Eigen::Vector3d along = extents(points);
-  if (along[0] > kFlat * along[2]) return {};
-  const char* what = along[2] == 0.0 ? "in one place" : along[1] > kFlat * along[2] ? "on a plane" : "on a line";
+  const bool is_line = along[1] <= kThin * along[2];
+  if (!is_line && along[0] > kFlat * along[2]) return {};
+  const char* what = along[2] == 0.0 ? "in one place" : is_line ? "on a line" : "on a plane";
   return {{.kind = FindingKind::degenerate_points,
            .sentence = fmt::format("The measured points of the calibration poses lie {}: what moves the tool across it "
                                    "is seen badly or not at all. Measure poses that fill the workspace.",

@@ -158,6 +158,17 @@ std::size_t likeliest(const std::vector<Tried>& all) {
   return chosen;
 }
 
+/// Those that fit like the chosen one, their tools as near to their description.
+std::vector<Explanation> equals_of(const std::vector<Tried>& all, std::size_t chosen) {
+  std::vector<Explanation> equals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == chosen || all[i].fit.median_m > kEqual * all[chosen].fit.median_m) continue;
+    if (std::abs(tool_change_m(all[i]) - tool_change_m(all[chosen])) < kToolDifference_m)
+      equals.push_back(all[i].explanations.front());
+  }
+  return equals;
+}
+
 /// Those with the least medians, in their order, their links fitted.
 std::vector<Tried> refined(std::vector<Tried> all) {
   std::vector<double> medians;
@@ -265,16 +276,20 @@ std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& pl
     all.back().trial.rows.shrink_to_fit();
   }
   all = refined(std::move(all));
-  Tried best = all[likeliest(all)];
+  const std::size_t chosen = likeliest(all);
+  std::vector<Explanation> equals = equals_of(all, chosen);
+  Tried best = all[chosen];
   if (best.fit.median_m > good_m) {
     for (const std::vector<Explanation>& start : {best.explanations, best_pair(trial)}) {
       Tried tried = greedily_extended(trial, attempt(trial, start));
       tried.fit = fit_arm(tried.trial, tried.fit);
-      if (tried.fit.median_m < 0.5 * best.fit.median_m) best = std::move(tried);
+      if (tried.fit.median_m >= 0.5 * best.fit.median_m) continue;
+      best = std::move(tried);
+      equals.clear();
     }
   }
   if (best.fit.median_m >= placed.median_m) return std::nullopt;
-  return Explained{std::move(best.explanations), std::move(best.fit)};
+  return Explained{std::move(best.explanations), std::move(best.fit), std::move(equals)};
 }
 
 Explanation axes_explanation(const Eigen::Isometry3d& sensor_from_base, bool is_base) {

@@ -28,6 +28,7 @@ std::vector<Explanation> whole_set_explanations(const Chain& chain);
 struct Explained {
   std::vector<Explanation> explanations;
   TrialFit fit;
+  std::vector<Explanation> equals{};  ///< others, each by itself, that fit as well: the points cannot tell
 };
 
 /// The explanation by which the trial fits best; of equals the first. Of those that leave more than `good_m` at the

@@ -19,7 +19,7 @@ constexpr double kCap = 6.0;         ///< deviations beyond which an error says 
 constexpr double kLeastGain = 50.0;  ///< log likelihood that another place of the instrument must gain
 constexpr double kLeastShift = 5.0;  ///< deviations that points must jump by: drift within a run is smaller
 constexpr double kLeastFall = 0.4;   ///< ratio of median errors that is far better
-constexpr double kFarOff = 4.0;      ///< ratio of a set's median error to the others' that asks for a reason
+constexpr double kFarOff = 6.0;      ///< deviations at a set's median that ask for a reason; 1.5 are expected
 constexpr double kSmallestShift_m = 1e-4;
 
 /// Points of the arm in its base, and as they were measured.
@@ -105,7 +105,7 @@ Split best_split(const PointPairs& pairs, const Segment& segment, double cap_m) 
 /// The split of any segment that lowers the cost most.
 Split best_split(const Trial& trial, const TrialFit& fit) {
   const PointPairs pairs = pairs_of(trial, fit);
-  const double cap_m = kCap * fit.deviation_m();
+  const double cap_m = kCap * fit.deviation_m;
   Split best;
   double most = 0.0;
   for (const Segment& segment : segments_of(trial)) {
@@ -221,8 +221,8 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
     const InstrumentMove move{row, root_mean_square_shift(both, std::span(moved.rows).subspan(row, behind.end - row)),
                               std::max(median_of(fit.error_m, before), median_of(fit.error_m, behind)),
                               median_of(both.error_m, shorter)};
-    const double deviation_m = both.deviation_m();
-    const bool found = gain(fit.error_m, both.error_m, deviation_m) > kLeastGain &&
+    const double deviation_m = both.deviation_m;
+    const bool found = gain(fit.error_m, both.error_m, deviation_m) > kLeastGain * both.rows_per_pose &&
                        move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
                        move.if_changed_m < kLeastFall * move.as_given_m;
     if (!found) break;
@@ -239,7 +239,9 @@ std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow
   if (rows.size() < kFewest) return std::nullopt;
   const std::vector<Eigen::Vector3d> given = predictions(fit, rows);
   const double as_given_m = median_error(given, rows);
-  if (as_given_m < std::max(kFarOff * fit.median_m, kSmallestShift_m)) return std::nullopt;
+  std::vector<double> off;
+  for (const TrialRow& row : rows) off.push_back(fit.deviations_off(row));
+  if (median(off) < kFarOff || as_given_m < kSmallestShift_m) return std::nullopt;
 
   TrialFit with_tools = fit;
   with_tools.tools_m = own_tools(fit, rows);

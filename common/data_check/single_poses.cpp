@@ -12,10 +12,10 @@
 namespace demecal {
 namespace {
 
-constexpr double kFarDeviations = 8.0;     ///< beyond which no noise goes
-constexpr double kFarOverMost = 3.5;       ///< over the error that four in five poses keep: 7.5 deviations if normal
-constexpr double kWithinNoise = 3.2;       ///< deviations within which a changed pose fits (95 % of poses do)
-constexpr double kMuchBetter = 0.1;        ///< ratio of errors that chance gives a wrong joint in few of 100 outliers
+constexpr double kFarDeviations = 8.0;  ///< beyond which no noise goes
+constexpr double kFarOverMost = 3.5;    ///< over the deviations that four in five poses keep: 7.5 deviations if normal
+constexpr double kWithinNoise = 3.2;    ///< deviations within which a changed pose fits (95 % of poses do)
+constexpr double kMuchBetter = 0.1;     ///< ratio of errors that chance gives a wrong joint in few of 100 outliers
 constexpr std::size_t kMostSearched = 60;  ///< poses whose joints are searched for typing errors
 constexpr std::size_t kLongestCycle = 4;
 constexpr int kSamplesPerTurn = 360;
@@ -24,10 +24,6 @@ struct Misfit {
   std::size_t row;
   double error_m;
 };
-
-double error_of(const TrialRow& row, const Eigen::Vector3d& predicted) {
-  return (row.point_m - predicted).norm();
-}
 
 double quantile_of(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -44,12 +40,15 @@ class Search {
  public:
   Search(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict)
       : data_(data), rows_(rows), predict_(predict) {
-    std::vector<double> errors;
-    for (const TrialRow& row : rows) errors.push_back(error_of(row, predict(row, row.joints)));
-    deviation_m_ = std::max(median(errors) / 1.5382, 1e-6);
-    const double far_m = std::max(kFarDeviations * deviation_m_, kFarOverMost * quantile_of(errors, 0.8));
+    std::vector<double> errors, off;
+    for (const TrialRow& row : rows) {
+      errors.push_back(error(row));
+      off.push_back(predict.deviations_off(row));
+    }
+    median_m_ = median(errors);
+    const double far = std::max(kFarDeviations, kFarOverMost * quantile_of(off, 0.8));
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!(errors[i] <= far_m)) far_.push_back({i, errors[i]});
+      if (!(off[i] <= far)) far_.push_back({i, errors[i]});
   }
 
   std::vector<Finding> findings() {
@@ -64,8 +63,9 @@ class Search {
 
  private:
   const std::string& id(std::size_t row) const { return data_.poses[rows_[row].pose].pose_id; }
-  bool fits(double error_m, double before_m) const {
-    return error_m < kWithinNoise * deviation_m_ && error_m < kMuchBetter * before_m;
+  double error(const TrialRow& row) const { return (row.point_m - predict_.point(row)).norm(); }
+  bool fits(const TrialRow& row, double before_m) const {
+    return error(row) < kMuchBetter * before_m && predict_.deviations_off(row) < kWithinNoise;
   }
 
   /// The far row at whose joints this row's point fits best, if one does.
@@ -76,8 +76,8 @@ class Search {
       if (j == i) continue;
       TrialRow there = rows_[far_[j].row];
       there.point_m = rows_[far_[i].row].point_m;
-      const double error_m = error_of(there, predict_(there, there.joints));
-      if (!fits(error_m, far_[i].error_m) || (place && error_m >= least)) continue;
+      const double error_m = error(there);
+      if ((place && error_m >= least) || !fits(there, far_[i].error_m)) continue;
       place = j;
       least = error_m;
     }
@@ -103,8 +103,7 @@ class Search {
       finding.as_given_mm = std::max(finding.as_given_mm, millimetres(far_[i].error_m));
       TrialRow there = rows_[far_[cycle[(k + 1) % cycle.size()]].row];
       there.point_m = rows_[far_[i].row].point_m;
-      finding.if_changed_mm =
-          std::max(finding.if_changed_mm, millimetres(error_of(there, predict_(there, there.joints))));
+      finding.if_changed_mm = std::max(finding.if_changed_mm, millimetres(error(there)));
       names += (k == 0 ? "" : k + 1 == cycle.size() ? " and " : ", ") + id(far_[i].row);
     }
     finding.sentence =
@@ -126,9 +125,9 @@ class Search {
   };
 
   double error_at(const TrialRow& row, int joint, double value) const {
-    JointVector joints = row.joints;
-    joints[joint] = value;
-    return error_of(row, predict_(row, joints));
+    TrialRow there = row;
+    there.joints[joint] = value;
+    return error(there);
   }
 
   /// The value of one joint at which the row fits best: samples of its whole range, the best one refined.
@@ -138,7 +137,7 @@ class Search {
     const double lower = revolute ? row.joints[joint] - radians(180.0) : link.lower,
                  upper = revolute ? row.joints[joint] + radians(180.0) : link.upper;
     double step = (upper - lower) / kSamplesPerTurn;
-    OtherJoints best{joint, -1, row.joints[joint], error_of(row, predict_(row, row.joints))};
+    OtherJoints best{joint, -1, row.joints[joint], error(row)};
     for (int i = 0; i <= kSamplesPerTurn; ++i) {
       const double value = lower + i * step, error_m = error_at(row, joint, value);
       if (error_m < best.error_m) best = {joint, -1, value, error_m};
@@ -154,16 +153,25 @@ class Search {
 
   std::optional<OtherJoints> typing_error(const TrialRow& row, double before_m) const {
     std::optional<OtherJoints> best;
-    const auto take = [&](const OtherJoints& one) {
-      if (fits(one.error_m, before_m) && (!best || one.error_m < best->error_m)) best = one;
+    const auto take = [&](const OtherJoints& one, const JointVector& joints) {
+      TrialRow there = row;
+      there.joints = joints;
+      if ((!best || one.error_m < best->error_m) && fits(there, before_m)) best = one;
     };
-    for (int joint = 0; joint < data_.robot.chain.size(); ++joint) take(best_value(row, joint));
+    for (int joint = 0; joint < data_.robot.chain.size(); ++joint) {
+      const OtherJoints one = best_value(row, joint);
+      JointVector joints = row.joints;
+      joints[joint] = one.value;
+      take(one, joints);
+    }
     if (best) return best;
     for (int one = 0; one < data_.robot.chain.size(); ++one) {
       for (int other = one + 1; other < data_.robot.chain.size(); ++other) {
         JointVector joints = row.joints;
         std::swap(joints[one], joints[other]);
-        take({one, other, joints[one], error_of(row, predict_(row, joints))});
+        TrialRow there = row;
+        there.joints = joints;
+        take({one, other, joints[one], error(there)}, joints);
       }
     }
     return best;
@@ -183,7 +191,7 @@ class Search {
     const auto typed = searched ? typing_error(row, misfit.error_m) : std::nullopt;
     if (!typed) {
       finding.sentence = fmt::format("{} is {:.2f} mm off, far more than the others ({:.2f} mm at the median).",
-                                     id(misfit.row), finding.as_given_mm, millimetres(1.5382 * deviation_m_));
+                                     id(misfit.row), finding.as_given_mm, millimetres(median_m_));
       return finding;
     }
     finding.kind = FindingKind::typing_error;
@@ -203,7 +211,7 @@ class Search {
   const DataSet& data_;
   const std::vector<TrialRow>& rows_;
   const PointPrediction& predict_;
-  double deviation_m_ = 0.0;
+  double median_m_ = 0.0;
   std::vector<Misfit> far_;
 };
 

@@ -10,8 +10,11 @@
 
 namespace demecal {
 
-/// The tool point (m, instrument's frame) of a row of the data set at given joints.
-using PointPrediction = std::function<Eigen::Vector3d(const TrialRow&, const JointVector&)>;
+/// What is known of the rows of a data set by a fit.
+struct PointPrediction {
+  std::function<Eigen::Vector3d(const TrialRow&)> point;  ///< tool point at the row's joints, m, instrument's frame
+  std::function<double(const TrialRow&)> deviations_off;  ///< how far off the row is, in standard deviations
+};
 
 /// A finding for each pose among `rows` (of any sets) that lies farther out than 8 standard deviations and than 3.5
 /// times the error which four in five poses keep: rows whose points fit each other's joints (a cycle of up to four),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
@@ -15,7 +16,6 @@ namespace demecal {
 namespace {
 
 constexpr double kSmallestScale_m = 1e-6;
-constexpr double kMedianNorm = 1.5382;    ///< median length of a vector of three standard normals
 constexpr double kTukey = 6.0;            ///< deviations at which a row's weight is nothing
 constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
 constexpr int kRegistrations = 8, kPlacingSteps = 6, kArmSteps = 8;
@@ -31,8 +31,25 @@ double tukey_weight(double error_m, double deviation_m) {
   return share >= 1.0 ? 0.0 : (1 - share * share) * (1 - share * share);
 }
 
-double deviation_of(double median_m) {
-  return std::max(median_m / kMedianNorm, kSmallestScale_m);
+/// The length that a vector of three standard normals stays below with probability `share` (Maxwell's distribution).
+double length_quantile(double share) {
+  double lower = 0.0, upper = 8.0;
+  for (int i = 0; i < 50; ++i) {
+    const double x = 0.5 * (lower + upper);
+    const double below =
+        std::erf(x / std::numbers::sqrt2) - std::sqrt(2.0 / std::numbers::pi) * x * std::exp(-0.5 * x * x);
+    (below < share ? lower : upper) = x;
+  }
+  return 0.5 * (lower + upper);
+}
+
+/// The scale as fit_base_and_tools states it.
+double deviation_of(std::vector<double> errors, double fitted_rows) {
+  const auto n = static_cast<double>(errors.size());
+  const double fitted = std::min(fitted_rows, n - 1.0), rank = std::ceil(0.5 * (n + fitted));
+  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(std::min(rank, n) - 1.0);
+  std::nth_element(errors.begin(), at, errors.end());
+  return std::max(*at / length_quantile((rank - 0.5) / n) * std::sqrt(n / (n - fitted)), kSmallestScale_m);
 }
 
 /// Registers the rows of one station, rows far out counting less and less.
@@ -63,7 +80,12 @@ void measure_errors(const Trial& trial, TrialFit& fit) {
     fit.error_m[i] = (trial.rows[i].point_m - predicted_point(fit, trial.rows[i])).norm();
     if (!std::isfinite(fit.error_m[i])) fit.error_m[i] = std::numeric_limits<double>::max();
   }
-  fit.median_m = fit.error_m.empty() ? std::numeric_limits<double>::infinity() : median(fit.error_m);
+  if (fit.error_m.empty()) {
+    fit.median_m = fit.deviation_m = std::numeric_limits<double>::infinity();
+    return;
+  }
+  fit.median_m = median(fit.error_m);
+  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.parameters / 3.0);
 }
 
 /// Where the parameters of a trial stand in its normal equations: stations' bases, tools, links.
@@ -85,17 +107,23 @@ struct NormalEquations {
   Eigen::VectorXd gradient;
 };
 
-void add_row(const TrialFit& fit, const TrialRow& row, const Places& places, double weight, NormalEquations& normal) {
+/// The tool point's derivative with respect to all parameters, 3 x places.size().
+Eigen::MatrixXd jacobian_of(const TrialFit& fit, const TrialRow& row, const Places& places) {
   const Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(row.station)];
   const Eigen::Vector3d& tool = fit.tools_m[static_cast<std::size_t>(row.target)];
   const Kinematics kinematics = differential_kinematics(fit.chain, row.joints, tool);
   const Eigen::Vector3d lever = base.linear() * (kinematics.flange * tool);
-  const Eigen::Vector3d error = row.point_m - base.translation() - lever;
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3, places.size());
   jacobian.block<3, 3>(0, 6 * row.station).setIdentity();
   jacobian.block<3, 3>(0, 6 * row.station + 3) = -cross_matrix(lever);
   jacobian.block<3, 3>(0, places.tool(row.target)) = base.linear() * kinematics.flange.linear();
   if (places.links) jacobian.rightCols(kinematics.links.cols()) = base.linear() * kinematics.links.topRows<3>();
+  return jacobian;
+}
+
+void add_row(const TrialFit& fit, const TrialRow& row, const Places& places, double weight, NormalEquations& normal) {
+  const Eigen::MatrixXd jacobian = jacobian_of(fit, row, places);
+  const Eigen::Vector3d error = row.point_m - predicted_point(fit, row);
   normal.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose(), weight);
   normal.gradient.noalias() += weight * jacobian.transpose() * error;
 }
@@ -137,35 +165,21 @@ void move(TrialFit& fit, const Places& places, const Eigen::VectorXd& step) {
 
 /// Takes a Gauss-Newton step with Tukey's weights; false where none can be taken.
 bool step_down(const Trial& trial, const Places& places, TrialFit& fit) {
-  const double deviation = deviation_of(fit.median_m);
   NormalEquations normal{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    const double weight = tukey_weight(fit.error_m[i], deviation) / (deviation * deviation);
+    const double weight = tukey_weight(fit.error_m[i], fit.deviation_m) / (fit.deviation_m * fit.deviation_m);
     if (weight > 0.0) add_row(fit, trial.rows[i], places, weight, normal);
   }
+  const Eigen::MatrixXd by_points = normal.information.selfadjointView<Eigen::Lower>();
   add_priors(trial, fit, places, normal);
   const Eigen::LDLT<Eigen::MatrixXd> factor(normal.information.selfadjointView<Eigen::Lower>());
   const Eigen::VectorXd step = factor.solve(normal.gradient);
   if (!step.allFinite()) return false;
+  fit.covariance = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
+  fit.parameters = fit.covariance.cwiseProduct(by_points).sum();
   move(fit, places, step);
   measure_errors(trial, fit);
-  if (places.links) {
-    const Eigen::MatrixXd all = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
-    fit.tool_covariance = all.block(places.tool(0), places.tool(0), 3 * places.tools, 3 * places.tools);
-  }
   return true;
-}
-
-double largest_change(const Chain& fitted, const Chain& nominal) {
-  double largest = 0.0;
-  for (std::size_t joint = 0; joint < fitted.joints.size(); ++joint) {
-    for (int i = 0; i < kLinkParameters; ++i) {
-      const auto parameter = static_cast<LinkParameter>(i);
-      const double change = fitted.joints[joint].parameter(parameter) - nominal.joints[joint].parameter(parameter);
-      largest = std::max(largest, std::abs(change) / link_deviation(parameter));
-    }
-  }
-  return largest;
 }
 
 /// Steps as long as they lower the median, twice over at most where they do not.
@@ -179,14 +193,38 @@ TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
     worse = fit.median_m < 0.999 * before ? 0 : worse + 1;
     if (fit.median_m <= best.median_m) best = fit;
   }
-  best.largest_change = largest_change(best.chain, trial.chain);
   return best;
 }
 
 }  // namespace
 
-double TrialFit::deviation_m() const {
-  return deviation_of(median_m);
+double Trial::rows_per_pose() const {
+  std::set<std::vector<double>> poses;
+  for (const TrialRow& row : rows) poses.emplace(row.joints.begin(), row.joints.end());
+  return static_cast<double>(rows.size()) / static_cast<double>(std::max<std::size_t>(poses.size(), 1));
+}
+
+Eigen::Matrix3d TrialFit::prediction_covariance(const TrialRow& row) const {
+  if (covariance.size() == 0) return Eigen::Matrix3d::Zero();
+  const Places places{static_cast<int>(sensor_from_base.size()), static_cast<int>(tools_m.size()), chain.size(),
+                      has_links()};
+  const Eigen::MatrixXd jacobian = jacobian_of(*this, row, places);
+  return jacobian * covariance * jacobian.transpose();
+}
+
+double TrialFit::deviations_off(const TrialRow& row) const {
+  const Eigen::Vector3d error = row.point_m - predicted_point(*this, row);
+  const Eigen::Matrix3d expected = prediction_covariance(row) + deviation_m * deviation_m * Eigen::Matrix3d::Identity();
+  return std::sqrt(std::max(0.0, error.dot(expected.ldlt().solve(error))));
+}
+
+Eigen::Matrix3d TrialFit::tool_covariance(int tool) const {
+  return covariance.block<3, 3>(6 * std::ssize(sensor_from_base) + 3 * tool,
+                                6 * std::ssize(sensor_from_base) + 3 * tool);
+}
+
+bool TrialFit::has_links() const {
+  return covariance.rows() > 6 * std::ssize(sensor_from_base) + 3 * std::ssize(tools_m);
 }
 
 Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row) {
@@ -200,6 +238,7 @@ TrialFit fit_base_and_tools(const Trial& trial) {
   fit.tools_m = trial.tools_m;
   fit.sensor_from_base.assign(static_cast<std::size_t>(trial.stations), Eigen::Isometry3d::Identity());
   for (int station = 0; station < trial.stations; ++station) register_station(trial, station, fit);
+  fit.rows_per_pose = trial.rows_per_pose();
   measure_errors(trial, fit);
   return descend(trial, std::move(fit), false, kPlacingSteps);
 }

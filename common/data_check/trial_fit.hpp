@@ -23,26 +23,41 @@ struct Trial {
   std::vector<Eigen::Vector3d> tools_m;  ///< flange frame
   std::vector<TrialRow> rows;
   int stations = 1;
+
+  /// How often a pose (the same joints to the last digit) is measured, in the mean.
+  double rows_per_pose() const;
 };
 
 struct TrialFit {
   Chain chain;                                      ///< with fitted links
   std::vector<Eigen::Isometry3d> sensor_from_base;  ///< one per station
   std::vector<Eigen::Vector3d> tools_m;
-  Eigen::MatrixXd tool_covariance;  ///< 3 T x 3 T, m^2; empty where links were not fitted
-  std::vector<double> error_m;      ///< of each row
-  double median_m = 0.0;            ///< of error_m; infinite without rows
-  double largest_change = 0.0;      ///< of a link parameter, over its standard deviation as made
+  /// Of all parameters, m and rad: six of each station, three of each tool, four of each link; those of the links
+  /// are missing where they were not fitted. Empty before the first step.
+  Eigen::MatrixXd covariance;
+  std::vector<double> error_m;  ///< of each row
+  double median_m = 0.0;        ///< of error_m; infinite without rows
+  double deviation_m = 0.0;     ///< standard deviation of a coordinate, as the errors show it; see fit_base_and_tools
+  double rows_per_pose = 1.0;   ///< of the trial
+  double parameters = 0.0;      ///< that the points determined, as a number: priors hold the others
 
-  /// Standard deviation of a coordinate that the median error stands for.
-  double deviation_m() const;
+  /// The covariance, m^2, of the tool point that this fit predicts for a row: wide where the rows it was fitted to say
+  /// nothing about it.
+  Eigen::Matrix3d prediction_covariance(const TrialRow& row) const;
+  /// How far off a row is, in standard deviations of noise and prediction together.
+  double deviations_off(const TrialRow& row) const;
+  /// The covariance, m^2, of a tool point in the flange's frame.
+  Eigen::Matrix3d tool_covariance(int tool) const;
+  bool has_links() const;
 };
 
 /// How far makers' figures are from the truth, as a standard deviation: that of FitOptions.
 inline constexpr double kLinkDeviation_m = 5e-3, kLinkDeviation_rad = 17.5e-3;
 
 /// Base and tools: closed-form registration of the nominal points (Horn 1987), weighted by 1 / error, then Gauss-Newton
-/// steps with Tukey's weights on a scale taken from the median error.
+/// steps with Tukey's weights. Their scale is the error at the rank (n + p / 3) / 2 of n rows, of which p parameters
+/// can fit p / 3 exactly, so that half of the others count (Rousseeuw and Leroy 1987), over what three normals of unit
+/// variance reach at that rank, times sqrt(n / (n - p / 3)).
 TrialFit fit_base_and_tools(const Trial& trial);
 
 /// The same with every link parameter beside them, held near nominal by kLinkDeviation over the scale of the errors:

@@ -1,6 +1,5 @@
 // Measured poses from tables, and the rules a table must keep.
 #include "data/read_poses.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

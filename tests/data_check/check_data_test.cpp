@@ -75,8 +75,7 @@ TEST(CheckData, SaysTheErrorAsGivenAndIfChanged) {
 }
 
 TEST(CheckData, NamesTwoMistakesAtOnce) {
-  DataSet data = case_of("a joint that stands still").data;
-  data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
   for (MeasuredPose& pose : data.poses) {
     pose.joints[1] *= -1.0;
     pose.joints[3] *= -1.0;
@@ -95,11 +94,6 @@ TEST(CheckData, PutsExchangedRowsInOneSentence) {
   EXPECT_THAT(sentences_of(check), HasSubstr("fit if their measured points are exchanged"));
 }
 
-TEST(CheckData, DoesNotDependOnTheOrderOfOtherFiles) {
-  const DataSet& data = case_of("five outliers").data;
-  EXPECT_EQ(sentences_of(checked(data)), sentences_of(checked(data)));
-}
-
 TEST(CheckData, TakesCopiesOutSoThatTheyAreNoRepeats) {
   DataSet data = case_of("rows copied with their ids").data;
   const std::size_t before = data.poses.size();
@@ -111,7 +105,7 @@ TEST(CheckData, TakesCopiesOutSoThatTheyAreNoRepeats) {
 TEST(CheckData, LeavesRepeatsOfCoarseDigitsAlone) {
   DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
   for (MeasuredPose& pose : data.poses)
-    for (double& value : *pose.position_m) value = 1e-4 * std::round(1e4 * value);
+    for (double& value : *pose.position_m) value = metres(std::round(1e4 * value) / 10.0);
   data.poses.push_back(data.poses.front());
   EXPECT_THAT(take_out_copies(data), IsEmpty());
 }

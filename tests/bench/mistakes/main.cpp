@@ -25,7 +25,7 @@ using namespace demecal::bench;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  int clean = 140, drawn = 10, threads = 2;
+  int clean = 160, drawn = 10, threads = 2;
   bool json = false;
   std::string kind;
   std::filesystem::path measured;

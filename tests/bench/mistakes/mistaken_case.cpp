@@ -324,6 +324,14 @@ void hold_a_joint(Scenario& scenario, RandomStream& random) {
   scenario.joint_ranges[joint] = {at, at + 1e-9};
 }
 
+bool within_limits(const Chain& chain, const JointVector& joints) {
+  for (int i = 0; i < chain.size(); ++i) {
+    const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
+    if (joints[i] < joint.lower || joints[i] > joint.upper) return false;
+  }
+  return true;
+}
+
 /// Measures poses whose nominal tool points lie on a line, the tool turned this way and that as in the poses there
 /// were.
 void measure_on_a_line(DataSet& data, const Scenario& scenario, RandomStream& random) {
@@ -343,7 +351,9 @@ void measure_on_a_line(DataSet& data, const Scenario& scenario, RandomStream& ra
     Eigen::Isometry3d target = Eigen::Isometry3d::Identity();
     target.translation() = middle + random.real(-0.2, 0.2) * way;
     const InverseSolution solution = inverse(at_point, target, pose.joints);
-    if (solution.position_residual_m > 1e-6 || (solution.q - pose.joints).cwiseAbs().maxCoeff() > 2.0) continue;
+    if (solution.position_residual_m > 1e-6 || (solution.q - pose.joints).cwiseAbs().maxCoeff() > 2.0 ||
+        !within_limits(chain, solution.q))
+      continue;
     MeasuredPose measured = robot.measure(solution.q, *pose.approach, 0.0, random);
     measured.set = pose.set;
     measured.pose_id = pose.pose_id;
@@ -436,14 +446,9 @@ std::vector<MistakenCase> drawn_cases(const DataSet& measured, int count) {
     RandomStream random{kMistakeSeed, kDraw, static_cast<std::uint64_t>(number)};
     MistakenCase one{.number = number, .arm = measured.robot.name, .what = measured.name, .kind = {}, .data = measured};
     const std::size_t size = std::min<std::size_t>(measured.poses.size(), 40 + random.index(160));
-    const std::size_t first = random.index(measured.poses.size() - size + 1);
     const double share = static_cast<double>(size) / static_cast<double>(measured.poses.size());
-    std::vector<MeasuredPose> drawn;
-    for (std::size_t i = 0; i < measured.poses.size(); ++i) {
-      const bool in_run = i >= first && i < first + size;
-      if (number % 2 == 0 ? in_run : random.chance(share)) drawn.push_back(measured.poses[i]);
-    }
-    one.data.poses = std::move(drawn);
+    // Poses in a row of a moving arm lie on a line or plane, and are no data set that somebody measured.
+    std::erase_if(one.data.poses, [&](const MeasuredPose&) { return !random.chance(share); });
     cases.push_back(std::move(one));
   }
   return cases;
