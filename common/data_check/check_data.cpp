@@ -67,7 +67,7 @@ class Check {
     if (trial_.rows.size() < kFewestRows) return std::move(check_);
     const TrialFit placed = fit_base_and_tools(trial_);
     fit_ = fit_arm(trial_, placed);
-    const double reach_m = reach();
+    const double reach_m = trial_.reach_m();
     if (fit_.median_m > kNotableShare * reach_m) explain(placed, reach_m);
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();
@@ -95,17 +95,6 @@ class Check {
       if (data_.poses[whole_.rows[i].pose].set == PoseSet::calibration) rows.push_back(i);
     for (const std::size_t i : spread_indices(rows.size(), kTrialRows)) trial.rows.push_back(whole_.rows[rows[i]]);
     return trial;
-  }
-
-  /// The farthest that the nominal tool point comes from the first axis' origin.
-  double reach() const {
-    double reach_m = 0.1;
-    for (const TrialRow& row : trial_.rows) {
-      const Eigen::Vector3d point =
-          forward(whole_.chain, row.joints) * whole_.tools_m[static_cast<std::size_t>(row.target)];
-      reach_m = std::max(reach_m, point.norm());
-    }
-    return reach_m;
   }
 
   /// What the notable error of the trial comes from, if that can be told.

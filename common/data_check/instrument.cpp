@@ -222,7 +222,11 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
                               std::max(median_of(fit.error_m, before), median_of(fit.error_m, behind)),
                               median_of(both.error_m, shorter)};
     const double deviation_m = both.deviation_m;
-    const bool found = gain(fit.error_m, both.error_m, deviation_m) > kLeastGain * both.rows_per_pose &&
+    // A robust fit may leave out all rows of a region where the arm errs otherwise: one that leaves out none must fail
+    // too.
+    const double gained = std::min(gain(fit.error_m, both.error_m, deviation_m),
+                                   gain(fit_arm_to_all(trial, fit).error_m, both.error_m, deviation_m));
+    const bool found = gained > kLeastGain * both.rows_per_pose &&
                        move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
                        move.if_changed_m < kLeastFall * move.as_given_m;
     if (!found) break;

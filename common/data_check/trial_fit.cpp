@@ -16,6 +16,7 @@ namespace demecal {
 namespace {
 
 constexpr double kSmallestScale_m = 1e-6;
+constexpr double kUsualShare = 2e-4;      ///< of the reach, which fitted links leave: 0.1 to 0.4 mm of medium arms
 constexpr double kTukey = 6.0;            ///< deviations at which a row's weight is nothing
 constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
 constexpr int kRegistrations = 8, kPlacingSteps = 6, kArmSteps = 8;
@@ -44,12 +45,14 @@ double length_quantile(double share) {
 }
 
 /// The scale as fit_base_and_tools states it.
-double deviation_of(std::vector<double> errors, double fitted_rows) {
+double deviation_of(std::vector<double> errors, double fitted_rows, double usual_m) {
   const auto n = static_cast<double>(errors.size());
-  const double fitted = std::min(fitted_rows, n - 1.0), rank = std::ceil(0.5 * (n + fitted));
-  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(std::min(rank, n) - 1.0);
+  const double fitted = std::min(fitted_rows, n), rank = std::min(std::ceil(0.5 * (n + fitted)), n);
+  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(rank - 1.0);
   std::nth_element(errors.begin(), at, errors.end());
-  return std::max(*at / length_quantile((rank - 0.5) / n) * std::sqrt(n / (n - fitted)), kSmallestScale_m);
+  const double raw_m = *at / length_quantile((rank - 0.5) / n);
+  const double deviation_m = std::sqrt((usual_m * usual_m + n * raw_m * raw_m) / (1.0 + n - fitted));
+  return std::max(deviation_m, kSmallestScale_m);
 }
 
 /// Registers the rows of one station, rows far out counting less and less.
@@ -85,7 +88,7 @@ void measure_errors(const Trial& trial, TrialFit& fit) {
     return;
   }
   fit.median_m = median(fit.error_m);
-  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.parameters / 3.0);
+  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.parameters / 3.0, fit.usual_m);
 }
 
 /// Where the parameters of a trial stand in its normal equations: stations' bases, tools, links.
@@ -163,12 +166,12 @@ void move(TrialFit& fit, const Places& places, const Eigen::VectorXd& step) {
           step[places.link(joint) + i];
 }
 
-/// Takes a Gauss-Newton step with Tukey's weights; false where none can be taken.
-bool step_down(const Trial& trial, const Places& places, TrialFit& fit) {
+/// Takes a Gauss-Newton step, with Tukey's weights if it is to be robust; false where none can be taken.
+bool step_down(const Trial& trial, const Places& places, bool robust, TrialFit& fit) {
   NormalEquations normal{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    const double weight = tukey_weight(fit.error_m[i], fit.deviation_m) / (fit.deviation_m * fit.deviation_m);
-    if (weight > 0.0) add_row(fit, trial.rows[i], places, weight, normal);
+    const double share = robust ? tukey_weight(fit.error_m[i], fit.deviation_m) : 1.0;
+    if (share > 0.0) add_row(fit, trial.rows[i], places, share / (fit.deviation_m * fit.deviation_m), normal);
   }
   const Eigen::MatrixXd by_points = normal.information.selfadjointView<Eigen::Lower>();
   add_priors(trial, fit, places, normal);
@@ -189,7 +192,7 @@ TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
   int worse = 0;
   for (int i = 0; i < steps && worse < 2; ++i) {
     const double before = fit.median_m;
-    if (!step_down(trial, places, fit)) break;
+    if (!step_down(trial, places, true, fit)) break;
     worse = fit.median_m < 0.999 * before ? 0 : worse + 1;
     if (fit.median_m <= best.median_m) best = fit;
   }
@@ -197,6 +200,13 @@ TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
 }
 
 }  // namespace
+
+double Trial::reach_m() const {
+  double reach_m = 0.1;
+  for (const TrialRow& row : rows)
+    reach_m = std::max(reach_m, (forward(chain, row.joints) * tools_m[static_cast<std::size_t>(row.target)]).norm());
+  return reach_m;
+}
 
 double Trial::rows_per_pose() const {
   std::set<std::vector<double>> poses;
@@ -239,12 +249,20 @@ TrialFit fit_base_and_tools(const Trial& trial) {
   fit.sensor_from_base.assign(static_cast<std::size_t>(trial.stations), Eigen::Isometry3d::Identity());
   for (int station = 0; station < trial.stations; ++station) register_station(trial, station, fit);
   fit.rows_per_pose = trial.rows_per_pose();
+  fit.usual_m = kUsualShare * trial.reach_m();
   measure_errors(trial, fit);
   return descend(trial, std::move(fit), false, kPlacingSteps);
 }
 
 TrialFit fit_arm(const Trial& trial, const TrialFit& placed) {
   return descend(trial, placed, true, kArmSteps);
+}
+
+TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed) {
+  const Places places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
+  TrialFit fit = placed;
+  for (int i = 0; i < kArmSteps && step_down(trial, places, false, fit); ++i) continue;
+  return fit;
 }
 
 Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,

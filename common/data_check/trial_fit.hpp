@@ -24,6 +24,8 @@ struct Trial {
   std::vector<TrialRow> rows;
   int stations = 1;
 
+  /// The farthest that the nominal tool points come from the first axis' origin, at least 0.1.
+  double reach_m() const;
   /// How often a pose (the same joints to the last digit) is measured, in the mean.
   double rows_per_pose() const;
 };
@@ -39,6 +41,7 @@ struct TrialFit {
   double median_m = 0.0;        ///< of error_m; infinite without rows
   double deviation_m = 0.0;     ///< standard deviation of a coordinate, as the errors show it; see fit_base_and_tools
   double rows_per_pose = 1.0;   ///< of the trial
+  double usual_m = 0.0;         ///< standard deviation that fitted links of an arm of this size usually leave
   double parameters = 0.0;      ///< that the points determined, as a number: priors hold the others
 
   /// The covariance, m^2, of the tool point that this fit predicts for a row: wide where the rows it was fitted to say
@@ -64,6 +67,9 @@ TrialFit fit_base_and_tools(const Trial& trial);
 /// where nothing fits, links stay as they are; where all fits, they take what the points show. Goes on from `placed`,
 /// a fit of base and tools.
 TrialFit fit_arm(const Trial& trial, const TrialFit& placed);
+
+/// The same by plain least squares: no row is left out, however far off.
+TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed);
 
 /// The tool point of a row by a fit, instrument's frame.
 Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row);
