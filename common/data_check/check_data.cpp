@@ -25,6 +25,8 @@ namespace {
 constexpr std::size_t kTrialRows = 240;   ///< calibration rows that explanations are tried on
 constexpr std::size_t kFewestRows = 6;    ///< below which base and tool alone explain anything
 constexpr double kHalf = 0.5;             ///< of the error, which an explanation must take away
+constexpr double kFar_m = 0.02;           ///< that no arm errs by
+constexpr double kManyRows = 0.15;        ///< share of rows that are no single ones
 constexpr double kOtherTool_m = 0.01;     ///< as CommandModel's: farther off another tool was measured
 constexpr double kSureDeviations = 5.0;   ///< by which the tool is known to be elsewhere
 constexpr double kMedianLength = 1.5382;  ///< median length of a vector of three standard normals
@@ -68,7 +70,11 @@ class Check {
     const TrialFit placed = fit_base_and_tools(trial_);
     fit_ = fit_arm(trial_, placed);
     const double reach_m = trial_.reach_m();
-    if (fit_.median_m > kNotableShare * reach_m) explain(placed, reach_m);
+    if (fit_.median_m > kNotableShare * reach_m) {
+      explain(placed, reach_m);
+    } else {
+      look_for_shifted_rows();
+    }
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();
     check_base_frame();
@@ -118,6 +124,18 @@ class Check {
     if (const auto shuffled = as_shuffled(whole_, 2.0 * plausible_m))
       return add_order(FindingKind::rows_shuffled, *shuffled, as_given_m);
     add_other_robot(as_given_m, reach_m);
+  }
+
+  /// Where most rows fit and many do not, these may stand beside the wrong joints.
+  void look_for_shifted_rows() {
+    const auto far = std::ranges::count_if(trial_.rows, [this](const TrialRow& row) { return error(row) > kFar_m; });
+    if (static_cast<double>(far) < kManyRows * static_cast<double>(trial_.rows.size())) return;
+    const auto shift = shift_of_rest(whole_);
+    if (!shift) return;
+    std::vector<double> errors;
+    for (const TrialRow& row : whole_.rows)
+      if (std::ranges::binary_search(shift->poses, row.pose)) errors.push_back(error(row));
+    add_order(FindingKind::rows_shifted, *shift, median(std::move(errors)));
   }
 
   void add_readings(const Explained& explained, double as_given_m) {

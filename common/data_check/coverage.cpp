@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kHardlyMoving_rad = radians(2.0), kHardlyMoving_m = 5e-3;
 constexpr double kFlat = 0.005;      ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
-constexpr double kThin = 0.02;       ///< ratio of both to the third that makes it a line
+constexpr double kThin = 0.05;       ///< ratio of both to the third that makes it a line
 constexpr int kFineDecimals_mm = 3;  ///< digits behind the point, mm, that repeats with noise do not share
 constexpr std::size_t kFewestPoses = 4;  ///< below which nothing is said of spread
 

@@ -15,6 +15,7 @@ namespace demecal {
 namespace {
 
 constexpr int kMostShift = 30;
+constexpr std::size_t kFewestShifted = 8;
 constexpr std::size_t kShiftRows = 200;  ///< rows that a shift is tried on
 constexpr std::size_t kCloudRows = 250;  ///< points of the clouds that are brought together
 constexpr double kShareOfRows = 0.35;    ///< at either end, by which a shift of the rest is looked for
@@ -69,7 +70,7 @@ std::optional<Reordered> shift_of_all(const Trial& whole) {
 }
 
 /// A fit to one end of the rows, and the shift of all behind (or before) a row that it then shows.
-std::optional<Reordered> shift_of_rest(const Trial& whole, bool from_begin) {
+std::optional<Reordered> shift_of_one_end(const Trial& whole, bool from_begin) {
   const std::size_t n = whole.rows.size(), kept = static_cast<std::size_t>(kShareOfRows * static_cast<double>(n));
   Trial end{whole.chain, whole.tools_m, {}, whole.stations};
   for (const std::size_t i : spread_indices(kept, kShiftRows))
@@ -163,15 +164,16 @@ double spacing(const Eigen::Matrix3Xd& points) {
 
 }  // namespace
 
+std::optional<Reordered> shift_of_rest(const Trial& whole) {
+  if (whole.rows.size() < kFewestShifted) return std::nullopt;
+  std::optional<Reordered> behind = shift_of_one_end(whole, true), before = shift_of_one_end(whole, false);
+  return behind && (!before || behind->median_m <= before->median_m) ? behind : before;
+}
+
 std::optional<Reordered> best_shift(const Trial& whole) {
-  constexpr std::size_t kFewest = 8;
-  if (whole.rows.size() < kFewest) return std::nullopt;
-  std::optional<Reordered> best = shift_of_all(whole);
-  for (const bool from_begin : {true, false}) {
-    std::optional<Reordered> rest = shift_of_rest(whole, from_begin);
-    if (rest && (!best || rest->median_m < 0.5 * best->median_m)) best = std::move(rest);
-  }
-  return best;
+  if (whole.rows.size() < kFewestShifted) return std::nullopt;
+  std::optional<Reordered> best = shift_of_all(whole), rest = shift_of_rest(whole);
+  return rest && (!best || rest->median_m < 0.5 * best->median_m) ? rest : best;
 }
 
 std::optional<Reordered> as_shuffled(const Trial& whole, double near_m) {

@@ -19,6 +19,9 @@ struct Reordered {
 /// rows in the file's order. Where only the rows behind or before a certain one are shifted it says so.
 std::optional<Reordered> best_shift(const Trial& whole);
 
+/// The shift, by up to 3 rows, of only the rows behind a certain one, or only of those before it.
+std::optional<Reordered> shift_of_rest(const Trial& whole);
+
 /// Whether the measured points are those of the arm in another order: the two clouds of points, brought together from
 /// many turns by nearest neighbours (iterative closest point, Besl and McKay 1992), lie within `near_m` of each other
 /// and closer by far than points of a cloud do.
