@@ -27,6 +27,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   int clean = 160, drawn = 10, threads = 2;
   bool json = false;
+  MistakeDraw draw;
   std::string kind;
   std::filesystem::path measured;
 };
@@ -205,15 +206,15 @@ std::vector<MistakenCase> measured_cases(const Options& options) {
     if (!std::filesystem::exists(options.measured / file)) continue;
     const DataSet data = load_data_set(options.measured / file);
     cases.push_back({.number = 0, .arm = data.robot.name, .what = data.name + ", whole", .kind = {}, .data = data});
-    for (MistakenCase& one : drawn_cases(data, options.drawn)) cases.push_back(std::move(one));
+    for (MistakenCase& one : drawn_cases(data, options.drawn, options.draw)) cases.push_back(std::move(one));
   }
   return cases;
 }
 
 std::vector<MistakenCase> all_cases(const Options& options) {
   const std::vector<Robot> arms = mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots");
-  std::vector<MistakenCase> cases = mistaken_cases(arms);
-  for (MistakenCase& one : unmistaken_cases(arms, options.clean)) cases.push_back(std::move(one));
+  std::vector<MistakenCase> cases = mistaken_cases(arms, options.draw);
+  for (MistakenCase& one : unmistaken_cases(arms, options.clean, options.draw)) cases.push_back(std::move(one));
   for (MistakenCase& one : measured_cases(options)) cases.push_back(std::move(one));
   if (options.kind.empty()) return cases;
   std::erase_if(cases, [&](const MistakenCase& one) {
@@ -236,6 +237,10 @@ int main(int argc, char** argv) {
   app.add_option("--drawn", options.drawn, "data sets drawn from each measured one")->capture_default_str();
   app.add_option("--measured", options.measured, "folder of measured robots; left out where it is not there");
   app.add_option("--threads", options.threads, "cases at a time")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.draw.seed, "another draw than the one that figures are stated of")
+      ->capture_default_str();
+  app.add_option("--poses", options.draw.poses, "calibration, validation and accept poses of mistaken data sets")
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

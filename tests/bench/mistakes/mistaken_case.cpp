@@ -398,7 +398,7 @@ std::vector<Robot> mistaken_arms(const std::string& robots_folder) {
   return arms;
 }
 
-std::vector<MistakenCase> mistaken_cases(const std::vector<Robot>& arms) {
+std::vector<MistakenCase> mistaken_cases(const std::vector<Robot>& arms, const MistakeDraw& draw) {
   std::vector<MistakenCase> cases;
   for (std::size_t arm = 0; arm < arms.size(); ++arm) {
     for (const Mistake& mistake : mistakes()) {
@@ -407,9 +407,11 @@ std::vector<MistakenCase> mistaken_cases(const std::vector<Robot>& arms) {
                        .what = mistake.what,
                        .kind = mistake.kind,
                        .data = {}};
-      RandomStream errors{kMistakeSeed, kArmErrors, static_cast<std::uint64_t>(one.number)};
-      RandomStream random{kMistakeSeed, kMistake, static_cast<std::uint64_t>(one.number)};
-      Scenario scenario = scenario_of(arms[arm], mistake.arm, errors);
+      RandomStream errors{draw.seed, kArmErrors, static_cast<std::uint64_t>(one.number)};
+      RandomStream random{draw.seed, kMistake, static_cast<std::uint64_t>(one.number)};
+      Make make = mistake.arm;
+      make.poses = draw.poses;
+      Scenario scenario = scenario_of(arms[arm], make, errors);
       if (mistake.kind == FindingKind::constant_joint) hold_a_joint(scenario, random);
       one.data = dealt(scenario);
       if (mistake.kind == FindingKind::degenerate_points) measure_on_a_line(one.data, scenario, random);
@@ -424,10 +426,10 @@ std::vector<MistakenCase> mistaken_cases(const std::vector<Robot>& arms) {
   return cases;
 }
 
-std::vector<MistakenCase> unmistaken_cases(const std::vector<Robot>& arms, int count) {
+std::vector<MistakenCase> unmistaken_cases(const std::vector<Robot>& arms, int count, const MistakeDraw& draw) {
   std::vector<MistakenCase> cases;
   for (int number = 0; number < count; ++number) {
-    RandomStream random{kMistakeSeed, kClean, static_cast<std::uint64_t>(number)};
+    RandomStream random{draw.seed, kClean, static_cast<std::uint64_t>(number)};
     const Robot& robot = arms[static_cast<std::size_t>(number) % arms.size()];
     const Scenario scenario = scenario_of(robot, make_of(static_cast<std::size_t>(number) / arms.size()), random);
     const bool targets = number % 5 == 4;
@@ -440,10 +442,10 @@ std::vector<MistakenCase> unmistaken_cases(const std::vector<Robot>& arms, int c
   return cases;
 }
 
-std::vector<MistakenCase> drawn_cases(const DataSet& measured, int count) {
+std::vector<MistakenCase> drawn_cases(const DataSet& measured, int count, const MistakeDraw& draw) {
   std::vector<MistakenCase> cases;
   for (int number = 0; number < count; ++number) {
-    RandomStream random{kMistakeSeed, kDraw, static_cast<std::uint64_t>(number)};
+    RandomStream random{draw.seed, kDraw, static_cast<std::uint64_t>(number)};
     MistakenCase one{.number = number, .arm = measured.robot.name, .what = measured.name, .kind = {}, .data = measured};
     const std::size_t size = std::min<std::size_t>(measured.poses.size(), 40 + random.index(160));
     const double share = static_cast<double>(size) / static_cast<double>(measured.poses.size());
