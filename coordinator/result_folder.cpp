@@ -8,7 +8,7 @@
 #include "calibration/loop_passes.hpp"
 #include "config/files.hpp"
 #include "config/model_text.hpp"
-#include "data_check/check_data.hpp"
+#include "data_check/fitted_model.hpp"
 #include "errors/input_error.hpp"
 #include "report/history.hpp"
 #include "report/report_html.hpp"

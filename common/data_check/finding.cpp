@@ -1,9 +1,12 @@
 #include "data_check/finding.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "errors/check.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
@@ -63,6 +66,16 @@ DataVerdict DataCheck::verdict() const {
 
 bool DataCheck::has(FindingKind kind) const {
   return std::ranges::any_of(findings, [kind](const Finding& one) { return one.kind == kind; });
+}
+
+std::string distance_text(double metres_value) {
+  const double mm = millimetres(metres_value);
+  return fmt::format("{:.{}f} mm", mm, mm < 10.0 ? 2 : mm < 100.0 ? 1 : 0);
+}
+
+std::string before_and_after(double as_given_m, double if_changed_m) {
+  return fmt::format("(median error {} as given, {} if changed)", distance_text(as_given_m),
+                     distance_text(if_changed_m));
 }
 
 }  // namespace demecal

@@ -60,4 +60,10 @@ struct DataCheck {
   bool has(FindingKind kind) const;
 };
 
+/// "0.21 mm", with as many digits as a reader needs.
+std::string distance_text(double metres_value);
+
+/// "(median error 412 mm as given, 0.21 mm if changed)"
+std::string before_and_after(double as_given_m, double if_changed_m);
+
 }  // namespace demecal

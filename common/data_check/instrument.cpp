@@ -15,11 +15,12 @@ namespace {
 constexpr std::size_t kFewestBehind = 5;  ///< rows on either side of a move: fewer could be outliers
 constexpr std::size_t kPlaces = 80;       ///< places that a move is first looked for at
 constexpr int kMostMoves = 3;
-constexpr double kCap = 6.0;         ///< deviations beyond which an error says no more
-constexpr double kLeastGain = 50.0;  ///< log likelihood that another place of the instrument must gain
-constexpr double kLeastShift = 5.0;  ///< deviations that points must jump by: drift within a run is smaller
-constexpr double kLeastFall = 0.4;   ///< ratio of median errors that is far better
-constexpr double kFarOff = 6.0;      ///< deviations at a set's median that ask for a reason; 1.5 are expected
+constexpr double kCap = 6.0;              ///< deviations beyond which an error says no more
+constexpr double kLeastGain = 50.0;       ///< log likelihood that another place of the instrument must gain
+constexpr double kLeastShift = 5.0;       ///< deviations that points must jump by: drift within a run is smaller
+constexpr double kLeastFall = 0.4;        ///< ratio of median errors that is far better
+constexpr double kFarOff = 6.0;           ///< deviations at a set's median that ask for a reason; 1.5 are expected
+constexpr double kOtherFrameFall = 0.25;  ///< the same where a fitted model must hold in another frame
 constexpr double kSmallestShift_m = 1e-4;
 
 /// Points of the arm in its base, and as they were measured.
@@ -267,6 +268,24 @@ std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow
   const OtherSet other{is_tool, root_mean_square(given, better), as_given_m, is_tool ? tool_m : frame_m};
   if (other.if_changed_m > kLeastFall * as_given_m) return std::nullopt;
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].point_m += given[i] - better[i];
+  return other;
+}
+
+std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& predicted,
+                                         const std::vector<Eigen::Vector3d>& measured) {
+  constexpr std::size_t kFewest = 6;
+  if (predicted.size() < kFewest) return std::nullopt;
+  const PointPairs pairs{predicted, measured};
+  const Eigen::Isometry3d motion = registration(pairs, 0, predicted.size());
+  std::vector<double> given, moved, shift;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    given.push_back((measured[i] - predicted[i]).norm());
+    moved.push_back((measured[i] - motion * predicted[i]).norm());
+    shift.push_back((motion * predicted[i] - predicted[i]).norm());
+  }
+  const OtherSet other{false, median(shift), median(given), median(moved)};
+  if (other.as_given_m < kSmallestShift_m || other.if_changed_m > kOtherFrameFall * other.as_given_m)
+    return std::nullopt;
   return other;
 }
 

@@ -33,4 +33,8 @@ struct OtherSet {
 /// the fit's frame (or its predicted points are): its rows come back with their points moved.
 std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow>& rows);
 
+/// Whether measured points fit predicted ones only after a rigid motion, as after the instrument was set up anew.
+std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& predicted,
+                                         const std::vector<Eigen::Vector3d>& measured);
+
 }  // namespace demecal

@@ -1,8 +1,10 @@
 // Measured poses from tables, and the rules a table must keep.
 #include "data/read_poses.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/pose_rules.hpp"
 #include "kinematics/units.hpp"
 #include "small_arm.hpp"
 

@@ -6,6 +6,8 @@
 
 #include "../errors/complaint.hpp"
 #include "data_check/coverage.hpp"
+#include "data_check/fitted_model.hpp"
+#include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
 #include "mistaken_case.hpp"
 
@@ -129,6 +131,18 @@ TEST(CheckData, TakesSmallAnglesForRadiansWhereOnlyLengthsWereMeasured) {
   EXPECT_THAT(checked(data).findings, IsEmpty());
   for (MeasuredPose& pose : data.poses) pose.joints *= radians(1.0);
   EXPECT_THAT(kinds_of(checked(data)), Contains(FindingKind::unit));
+}
+
+TEST(CheckFitted, SaysThatALaterMeasurementStandsInAnotherFrame) {
+  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},
+                                   nominal_robot(data));
+  DataCheck before, after;
+  check_fitted(data, fit.robot, before);
+  EXPECT_FALSE(before.has(FindingKind::set_in_other_frame)) << sentences_of(before);
+  for (MeasuredPose& pose : data.poses) *pose.position_m += Eigen::Vector3d(0.02, 0.01, -0.015);
+  check_fitted(data, fit.robot, after);
+  EXPECT_TRUE(after.has(FindingKind::set_in_other_frame)) << sentences_of(after);
 }
 
 }  // namespace

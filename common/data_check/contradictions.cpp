@@ -1,0 +1,144 @@
+#include "data_check/contradictions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "data_check/axes.hpp"
+#include "data_check/explanations.hpp"
+#include "data_check/instrument.hpp"
+#include "data_check/row_order.hpp"
+#include "fitting/median.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kHalf = 0.5;       ///< of the error, which an explanation must take away
+constexpr double kFar_m = 0.02;     ///< that no arm errs by
+constexpr double kManyRows = 0.15;  ///< share of rows that are no single ones
+
+class Contradictions {
+ public:
+  Contradictions(const DataSet& data, const CheckedRows& rows, const TrialFit& placed, const TrialFit& fit)
+      : data_(data), whole_(rows.whole), trial_(rows.trial), placed_(placed), fit_(fit) {}
+
+  std::vector<Finding> find() {
+    const double reach_m = trial_.reach_m();
+    if (fit_.median_m > kNotableShare * reach_m) {
+      explain(reach_m);
+    } else {
+      look_for_shifted_rows();
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(Finding finding) { found_.push_back(std::move(finding)); }
+
+  double error(const TrialRow& row) const { return (row.point_m - predicted_point(fit_, row)).norm(); }
+
+  /// What the notable error of the trial comes from, if that can be told.
+  void explain(double reach_m) {
+    const double as_given_m = fit_.median_m, plausible_m = kImplausibleShare * reach_m;
+    const auto explained = best_explanation(trial_, placed_, std::min(kHalf * as_given_m, plausible_m));
+    const auto shift = best_shift(whole_);
+    Trial moved = trial_;
+    TrialFit moved_fit = fit_;
+    const bool has_moved = !find_moves(moved, moved_fit).empty();
+    const double by_reading_m = explained ? explained->fit.median_m : as_given_m,
+                 by_shift_m = shift ? shift->median_m : as_given_m,
+                 by_move_m = has_moved ? moved_fit.median_m : as_given_m;
+    const double least_m = std::min({by_reading_m, by_shift_m, by_move_m});
+    if (least_m < std::min(kHalf * as_given_m, plausible_m)) {
+      if (least_m == by_move_m) return;  // named with what else the instrument did
+      if (least_m == by_reading_m) return add_readings(*explained, as_given_m);
+      return add_order(FindingKind::rows_shifted, *shift, as_given_m);
+    }
+    if (as_given_m < plausible_m) return;
+    if (const auto shuffled = as_shuffled(whole_, 2.0 * plausible_m))
+      return add_order(FindingKind::rows_shuffled, *shuffled, as_given_m);
+    add_other_robot(as_given_m, reach_m);
+  }
+
+  /// Where most rows fit and many do not, these may stand beside the wrong joints.
+  void look_for_shifted_rows() {
+    const auto far = std::ranges::count_if(trial_.rows, [this](const TrialRow& row) { return error(row) > kFar_m; });
+    if (static_cast<double>(far) < kManyRows * static_cast<double>(trial_.rows.size())) return;
+    const auto shift = shift_of_rest(whole_);
+    if (!shift) return;
+    std::vector<double> errors;
+    for (const TrialRow& row : whole_.rows)
+      if (std::ranges::binary_search(shift->poses, row.pose)) errors.push_back(error(row));
+    add_order(FindingKind::rows_shifted, *shift, median(std::move(errors)));
+  }
+
+  void add_readings(const Explained& explained, double as_given_m) {
+    for (const Explanation& one : explained.explanations)
+      add_reading(one, explained.fit, as_given_m, "The data fit if ");
+    for (const Explanation& one : explained.equals)
+      add_reading(one, explained.fit, as_given_m, "As well, and these data cannot tell which, the data fit if ");
+  }
+
+  void add_reading(const Explanation& one, const TrialFit& fit, double as_given_m, const std::string& lead) {
+    Explanation named = one;
+    if (one.kind == FindingKind::mirrored)
+      named = axes_explanation(fit.sensor_from_base.front(), data_.frame == Frame::base);
+    add({.kind = named.kind,
+         .joint = named.joint,
+         .as_given_mm = millimetres(as_given_m),
+         .if_changed_mm = millimetres(fit.median_m),
+         .sentence = lead + named.clause + " " + before_and_after(as_given_m, fit.median_m) +
+                     ". Correct the data or the robot file."});
+  }
+
+  void add_order(FindingKind kind, const Reordered& order, double as_given_m) {
+    std::string which;
+    if (!order.poses.empty()) {
+      const bool from_begin = order.poses.front() == whole_.rows.front().pose;
+      const MeasuredPose& pose = data_.poses[from_begin ? order.poses.back() : order.poses.front()];
+      which = fmt::format(" (line {}, {})", pose.line, pose.pose_id);
+    }
+    add({.kind = kind,
+         .poses = ids_of(order.poses),
+         .as_given_mm = millimetres(as_given_m),
+         .if_changed_mm = millimetres(order.median_m),
+         .sentence =
+             kind == FindingKind::rows_shuffled
+                 ? fmt::format("The rows are mixed up: {} (median error {} as given). Bring joints and measured "
+                               "points together by their ids.",
+                               order.clause, distance_text(as_given_m))
+                 : "The data fit if " + order.clause + which + " " + before_and_after(as_given_m, order.median_m) +
+                       ". Correct the file."});
+  }
+
+  void add_other_robot(double as_given_m, double reach_m) {
+    add({.kind = FindingKind::other_robot,
+         .as_given_mm = millimetres(as_given_m),
+         .sentence = fmt::format(
+             "The data are not of this robot: with base, tool and links fitted half of the poses are still {} off or "
+             "more ({:.2g} % of the reach; real arms stay below {:.1g} %), and no sign, offset, exchange, unit, "
+             "convention or order of rows explains it. Check the robot file against the arm.",
+             distance_text(as_given_m), 100.0 * as_given_m / reach_m, 100.0 * kImplausibleShare)});
+  }
+
+  std::vector<std::string> ids_of(const std::vector<std::size_t>& poses) const {
+    std::vector<std::string> ids;
+    for (const std::size_t pose : poses) ids.push_back(data_.poses[pose].pose_id);
+    return ids;
+  }
+
+  const DataSet& data_;
+  const Trial &whole_, &trial_;
+  const TrialFit &placed_, &fit_;
+  std::vector<Finding> found_;
+};
+
+}  // namespace
+
+std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows& rows, const TrialFit& placed,
+                                         const TrialFit& fit) {
+  return Contradictions(data, rows, placed, fit).find();
+}
+
+}  // namespace demecal
