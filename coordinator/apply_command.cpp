@@ -77,7 +77,10 @@ void require_writable(const ApplyRequest& request) {
                                request.out + " is the program itself, which is never overwritten; name another");
   }
   if (request.force || !std::filesystem::exists(request.out, none)) return;
-  if (std::filesystem::is_regular_file(request.out, none) && marked_line(read_file(request.out))) return;
+  if (std::filesystem::is_regular_file(request.out, none)) {
+    const std::string there = read_file(request.out);
+    if (marked_line(there) || there == read_file(request.program_file)) return;
+  }
   throw CLI::ValidationError("--out", request.out +
                                           " is there already, and not a program that demecal corrected; name "
                                           "another, or give --force to overwrite it");

@@ -19,7 +19,7 @@ std::string joint_amount(const Joint& joint, double value) {
   return fixed_text(degrees(value), 4) + " deg";
 }
 
-std::string joint_name(int joint) {
+std::string joint_label(int joint) {
   return "joint " + std::to_string(joint + 1);
 }
 

@@ -17,10 +17,10 @@ constexpr double kLargestUsual = 0.05;  ///< rad or m: errors of arms are a tent
 void check_limits(int joint, const Joint& link, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
   const std::string limits = joint_amount(link, link.lower) + " .. " + joint_amount(link, link.upper);
   if (beyond_limits(link, corrected.nominal[joint]) > kRounding) {
-    sentences.push_back(joint_name(joint) + " is sent to " + joint_amount(link, corrected.nominal[joint]) +
+    sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, corrected.nominal[joint]) +
                         ", outside its limits " + limits);
   } else if (beyond_limits(link, corrected.command[joint]) > kRounding) {
-    sentences.push_back("the correction takes " + joint_name(joint) + " to " +
+    sentences.push_back("the correction takes " + joint_label(joint) + " to " +
                         joint_amount(link, corrected.command[joint]) + ", outside its limits " + limits);
   }
 }
@@ -32,7 +32,7 @@ void check_range(int joint, const Joint& link, const CorrectedTarget& corrected,
   const std::optional<Interval> range =
       corrected_range ? calibrated_range(model.robot, joint) : beyond_measured(model, joint, value);
   if (!range) return;
-  sentences.push_back(joint_name(joint) + " is sent to " + joint_amount(link, value) +
+  sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, value) +
                       ", outside the calibrated range " + joint_amount(link, range->lower) + " .. " +
                       joint_amount(link, range->upper));
 }
@@ -55,13 +55,13 @@ void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, s
       if (!rest) rest = without_formulas(corrected, model);
       allowed += std::abs((*rest)[joint] - corrected.nominal[joint]);
       if (std::abs(change[joint]) > allowed) {
-        sentences.push_back("the correction of " + joint_name(joint) + ", " + joint_amount(link, change[joint]) +
+        sentences.push_back("the correction of " + joint_label(joint) + ", " + joint_amount(link, change[joint]) +
                             ", is larger than the bound that the model states, " + joint_amount(link, bound));
         continue;
       }
     }
     if (std::abs(change[joint]) <= kLargestUsual) continue;
-    sentences.push_back("the correction of " + joint_name(joint) + ", " + joint_amount(link, change[joint]) +
+    sentences.push_back("the correction of " + joint_label(joint) + ", " + joint_amount(link, change[joint]) +
                         ", is larger than errors of arms are; is the pose near a singularity?");
   }
 }

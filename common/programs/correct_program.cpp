@@ -21,7 +21,7 @@ std::string difference_of(const Chain& arm, const JointVector& one, const JointV
   Eigen::Index joint = 0;
   (one - other).cwiseAbs().maxCoeff(&joint);
   const Joint& link = arm.joints[static_cast<std::size_t>(joint)];
-  return joint_name(static_cast<int>(joint)) + " at " + joint_amount(link, one[joint]) + " or " +
+  return joint_label(static_cast<int>(joint)) + " at " + joint_amount(link, one[joint]) + " or " +
          joint_amount(link, other[joint]);
 }
 

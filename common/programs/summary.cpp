@@ -35,8 +35,9 @@ std::string block(const Target& target, const CorrectedTarget& corrected, const 
   const std::string names = heading(figures);
   if (names != last_heading) text += names;
   last_heading = names;
-  return text + row("nominal", figures.nominal) + row("corrected", figures.corrected) +
-         row("difference", figures.difference);
+  text += row("nominal", figures.nominal) + row("corrected", figures.corrected) + row("difference", figures.difference);
+  for (const std::string& note : corrected.notes) text += "    " + note + '\n';
+  return text;
 }
 
 Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
@@ -55,6 +56,7 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
   json["corrected"] = figures.corrected;
   json["difference"] = figures.difference;
   json["moved_mm"] = figures.moved_mm;
+  json["left_as_programmed"] = corrected.notes;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
   return json;
 }

@@ -64,7 +64,7 @@ Eigen::Isometry3d goal_of(const Target& target, const CommandModel& model, Corre
   }
   if (turn.deviation > 0.0 && !(target.is_pose() && keeps_orientation(target))) {
     const std::string deviation = fixed_text(degrees(turn.deviation), 3) + " deg";
-    corrected.remarks.push_back(left_sentence("orientation about ", turn, deviation, flange));
+    corrected.notes.push_back(left_sentence("orientation about ", turn, deviation, flange));
   }
   goal.translation() += position.applied;
   goal.linear() = (rotation_of(turn.applied) * goal.linear()).eval();

@@ -26,14 +26,16 @@ struct CorrectedTarget {
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
   double left_m = 0.0, left_rad = 0.0;           ///< of what was to be corrected, what the model predicts to be left
   std::vector<std::string> remarks{};            ///< what a user should know of how it was corrected
-  std::vector<std::string> texts{};              ///< of the cells, joints or position and then orientation; empty: kept
+  std::vector<std::string> notes{};  ///< orientations that are left as programmed: no worse than before, no warning
+  std::vector<std::string> texts{};  ///< of the cells, joints or position and then orientation; empty: kept
 
   bool is_left() const { return outcome == Correctedness::left || outcome == Correctedness::no_joints; }
 };
 
 /// Sends the target, whose nominal joints and circumstances are `stop`, to where model(command) = nominal: as far as
 /// the model's posterior determines the correction (see determined_part()), and without large joint motions near
-/// singular joints (see nearby_command()). Directions that are left are remarks. `texts` stay empty.
+/// singular joints (see nearby_command()). A direction of position that is left is a remark, one of orientation a note.
+/// `texts` stay empty.
 CorrectedTarget corrected_at(const Target& target, const CommandModel& model, const Stop& stop);
 
 /// The texts of a corrected target's cells.
