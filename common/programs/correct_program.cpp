@@ -43,7 +43,7 @@ class Corrector {
 
   CorrectedTarget correct(const Target& target) {
     const CommandModel& model = model_for(target);
-    CorrectedTarget corrected = target.frames.unknown.empty() ? with_known_frames(target, model) : refused(target);
+    CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
     if (!corrected.is_left() && corrected.from != JointsFrom::undetermined) {
       finder_.arrive(corrected.nominal);
     } else if (target.is_pose()) {
@@ -62,10 +62,16 @@ class Corrector {
     return joints;
   }
 
-  static CorrectedTarget refused(const Target& target) {
+  /// What of the target's frames is not known. A user's tool stands for one that the program does not tell.
+  std::string unknown(const Target& target) const {
+    if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
+    return circumstances_.tool_given ? "" : target.frames.unknown_tool;
+  }
+
+  CorrectedTarget refused(const Target& target) const {
     CorrectedTarget corrected;
     corrected.outcome = Correctedness::left;
-    corrected.remarks.push_back(target.frames.unknown + "; this line was not corrected");
+    corrected.remarks.push_back(unknown(target) + "; this line was not corrected");
     return corrected;
   }
 

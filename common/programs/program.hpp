@@ -43,7 +43,8 @@ struct StatedFrames {
   std::string frame{};                      ///< as the program names it; empty: the base frame
   std::optional<Eigen::Isometry3d> tool{};  ///< flange from tool; nothing where the program states none
   std::string tool_name{};                  ///< as the program names it
-  std::string unknown{};                    ///< why frame or tool cannot be known; empty: they are known
+  std::string unknown_frame{};              ///< why the frame cannot be known; empty: it is known
+  std::string unknown_tool{};               ///< the same of the tool
 };
 
 /// A target of joints or of a pose.
@@ -62,6 +63,8 @@ struct Target {
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 
   bool is_pose() const { return joints.empty(); }
+  /// The first byte of its numbers.
+  std::size_t begin() const { return (is_pose() ? position : joints).front().begin; }
 };
 
 /// The place of remarks about a program as a whole.

@@ -60,6 +60,11 @@ void run(const CalibratedCell& cell, const MeantProgram& program, Tally& tally) 
   ASSERT_EQ(read.targets.size(), program.joints.size()) << program.text;
   const CorrectedProgram corrected = correct_program(program.text, read, cell.model, {.near = program.near});
   const Program after = read_program(program.language, corrected.text, "p", cell.nominal.chain);
+  if (std::getenv("SHOW") != nullptr) {
+    for (const Remark& remark : corrected.warnings) {
+      if (remark.place.line == 0) std::printf("whole: %s\n", remark.sentence.c_str());
+    }
+  }
   ++tally.programs;
   for (std::size_t i = 0; i < program.joints.size(); ++i) {
     const auto on_line = [&](const Remark& remark) { return remark.place.line == read.targets[i].place.line; };
@@ -105,6 +110,7 @@ std::optional<JointVector> reached(const CalibratedCell& cell, const MeantProgra
                                    const std::optional<JointVector>& present, const JointVector& wanted, bool line,
                                    bool stated) {
   Chain arm = cell.nominal.chain;
+  arm.tool_m = program.tool.translation();
   const Eigen::Isometry3d tool = forward(arm, wanted) * Eigen::Translation3d(arm.tool_m);
   if (stated || !present) return wanted;
   if (line) {
@@ -112,7 +118,6 @@ std::optional<JointVector> reached(const CalibratedCell& cell, const MeantProgra
     return end;
   }
   std::vector<JointVector> all = joints_reaching(arm, tool, *present);
-  (void)program;
   std::sort(all.begin(), all.end(), [&](const JointVector& one, const JointVector& other) {
     return (one - *present).norm() < (other - *present).norm();
   });
@@ -128,6 +133,13 @@ MeantProgram random_program(RandomStream& stream, const CalibratedCell& cell, in
   const bool extends = stream.chance(0.1), singular = stream.chance(0.05);
   const double half_range = extends ? 2.0 : 0.5;
   const bool conf = language == Language::krl || language == Language::rapid;
+  writer.meant.states_tool = stream.chance(0.5) && language != Language::csv;
+  writer.meant.states_frame = stream.chance(0.5) && conf;
+  if (writer.meant.states_tool) {
+    if (stream.chance(0.5)) writer.meant.tool.translation() = random_change(stream, 3, 0.2);
+    writer.meant.tool.linear() = random_pose(stream).linear();
+  }
+  if (writer.meant.states_frame) writer.meant.frame = random_pose(stream);
   writer.open();
   std::optional<JointVector> present;
   const bool starts_known = !of_joints && language != Language::csv && stream.chance(0.6);
@@ -149,9 +161,10 @@ MeantProgram random_program(RandomStream& stream, const CalibratedCell& cell, in
     const bool line = stream.chance(0.6);
     // Where nothing tells, the arm may stand in any of its configurations.
     if (!conf && !present) {
-      const Eigen::Isometry3d tool =
-          forward(cell.nominal.chain, wanted) * Eigen::Translation3d(cell.nominal.chain.tool_m);
-      const std::vector<JointVector> all = joints_reaching(cell.nominal.chain, tool, wanted);
+      Chain arm = cell.nominal.chain;
+      arm.tool_m = writer.meant.tool.translation();
+      const Eigen::Isometry3d tool = forward(arm, wanted) * Eigen::Translation3d(arm.tool_m);
+      const std::vector<JointVector> all = joints_reaching(arm, tool, wanted);
       wanted = all[stream.index(all.size())];
     }
     const bool by_line = line && language == Language::urscript && (i > 0 || starts_known);
