@@ -17,11 +17,12 @@ PoseError in_angles(PoseError error) {
   return error;
 }
 
-/// The step of least norm in the directions that the arm has not lost.
-JointVector kept_step(Jacobian jacobian, const PoseError& error) {
-  jacobian.topRows<3>() /= kLength_m;
+/// The step of least norm in the directions that the arm has not lost, positions counting over `length_m`.
+JointVector kept_step(Jacobian jacobian, PoseError error, double length_m) {
+  jacobian.topRows<3>() /= length_m;
+  error.head<3>() /= length_m;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::VectorXd along = svd.matrixU().transpose() * in_angles(error);
+  Eigen::VectorXd along = svd.matrixU().transpose() * error;
   for (Eigen::Index i = 0; i < along.size(); ++i) {
     const double value = svd.singularValues()[i];
     along[i] = value > kLost ? along[i] / value : 0.0;
@@ -29,29 +30,39 @@ JointVector kept_step(Jacobian jacobian, const PoseError& error) {
   return svd.matrixV() * along;
 }
 
-bool exact_and_near(const InverseSolution& solution, const Stop& start, const PoseError& correction) {
-  const double moved = (solution.q - start.joints).cwiseAbs().maxCoeff();
-  return solution.status == InverseStatus::converged && moved <= kMostGain * in_angles(correction).norm() + kFreely;
+/// Whether joints move by no more than the correction (missing at the start) is worth.
+bool is_near(const JointVector& joints, const Stop& start, const PoseError& correction) {
+  const double moved = (joints - start.joints).cwiseAbs().maxCoeff();
+  return moved <= kMostGain * in_angles(correction).norm() + kFreely;
+}
+
+/// Newton's steps from the start in the directions that are not lost.
+JointVector kept_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start,
+                         double length_m) {
+  constexpr int kSteps = 12;
+  constexpr double kSettled = 1e-10;
+  JointVector joints = start.joints;
+  for (int step = 0; step < kSteps; ++step) {
+    const PoseAndJacobian at = robot.predict_with_jacobian(start.with_joints(joints), "");
+    const JointVector change = kept_step(at.jacobian, pose_error(at.pose, goal), length_m);
+    if (!change.allFinite()) break;
+    joints += change;
+    if (change.norm() < kSettled) break;
+  }
+  return joints;
 }
 
 }  // namespace
 
 InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start) {
-  constexpr int kSteps = 12;
-  constexpr double kSettled = 1e-10;
+  constexpr double kPositionFirst_m = 0.01;
   InverseSolution solution = command_reaching(robot, goal, start);
-  const auto missing = [&](const PoseAndJacobian& at) { return pose_error(at.pose, goal); };
-  PoseAndJacobian at = robot.predict_with_jacobian(start, "");
-  if (start.joints.size() < 6 || exact_and_near(solution, start, missing(at))) return solution;
-  solution.q = start.joints;
-  for (int step = 0; step < kSteps; ++step) {
-    const JointVector change = kept_step(at.jacobian, missing(at));
-    if (!change.allFinite()) break;
-    solution.q += change;
-    at = robot.predict_with_jacobian(start.with_joints(solution.q), "");
-    if (change.norm() < kSettled) break;
-  }
-  const PoseError left = missing(at);
+  const PoseError correction = pose_error(robot.predict(start, ""), goal);
+  const bool exact = solution.status == InverseStatus::converged && is_near(solution.q, start, correction);
+  if (start.joints.size() < 6 || exact) return solution;
+  solution.q = kept_command(robot, goal, start, kPositionFirst_m);
+  if (!is_near(solution.q, start, correction)) solution.q = kept_command(robot, goal, start, kLength_m);
+  const PoseError left = pose_error(robot.predict(start.with_joints(solution.q), ""), goal);
   solution.position_residual_m = left.head<3>().norm();
   solution.orientation_residual_rad = left.tail<3>().norm();
   const bool all = solution.position_residual_m < kLeft_m && solution.orientation_residual_rad < kLeft_rad;
