@@ -13,10 +13,11 @@ struct DeterminedPart {
   double deviation = 0.0;                          ///< standard deviation of the correction along `left`
 };
 
-/// Of `correction`, whose error has this covariance. Along every principal axis of the covariance the correction is
-/// made where its square is above twice its variance: below, leaving it is nearer to the truth on average. Then all of
-/// it is scaled down as far as needed for the error to be no larger than before by four standard deviations, in the
-/// normal approximation. Directions in which it is left, and could be larger than `worth_saying`, are said.
+/// Of `correction`, whose error has this covariance, along the covariance's principal axes. An axis may be corrected
+/// where the correction's square is above twice its variance: below, leaving it is nearer to the truth on average. Of
+/// all sets of such axes that one is corrected which lowers the squared error most, scaled down as far as needed for
+/// the error to be no larger than before by three standard deviations, in the normal approximation. Directions in which
+/// less than half is corrected, and whose deviation is above `worth_saying`, are said: the least known of them.
 DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::Matrix3d& covariance,
                                double worth_saying);
 
