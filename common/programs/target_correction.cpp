@@ -122,7 +122,7 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
   corrected.stop = stop;
   corrected.nominal = stop.joints;
   corrected.nominal_tool = model.nominal_tool(stop.joints);
-  const Eigen::Isometry3d goal = goal_of(target, model, corrected);
+  const Eigen::Isometry3d goal = corrected.goal = goal_of(target, model, corrected);
   const InverseSolution solution = nearby_command(model.robot, goal, stop);
   corrected.inverse = corrected.command = solution.q;
   corrected.outcome = solution.status == InverseStatus::converged ? Correctedness::corrected : Correctedness::nearest;

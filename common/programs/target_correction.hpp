@@ -24,10 +24,11 @@ struct CorrectedTarget {
   JointVector nominal, command;  ///< joints, rad or m: as the program means, and as it is to be sent
   JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
-  double left_m = 0.0, left_rad = 0.0;           ///< of what was to be corrected, what the model predicts to be left
-  std::vector<std::string> remarks{};            ///< what a user should know of how it was corrected
-  std::vector<std::string> notes{};  ///< orientations that are left as programmed: no worse than before, no warning
-  std::vector<std::string> texts{};  ///< of the cells, joints or position and then orientation; empty: kept
+  Eigen::Isometry3d goal;  ///< of the model's tool: the nominal pose, as far as the correction to it is determined
+  double left_m = 0.0, left_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
+  std::vector<std::string> remarks{};   ///< what a user should know of how it was corrected
+  std::vector<std::string> notes{};     ///< orientations that are left as programmed: no worse than before, no warning
+  std::vector<std::string> texts{};     ///< of the cells, joints or position and then orientation; empty: kept
 
   bool is_left() const { return outcome == Correctedness::left || outcome == Correctedness::no_joints; }
 };

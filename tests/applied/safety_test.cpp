@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <iostream>
 #include <set>
 
 #include "meant_program.hpp"
@@ -71,7 +72,8 @@ void run(const CalibratedCell& cell, const MeantProgram& program, Tally& tally) 
     const bool warned = std::any_of(corrected.warnings.begin(), corrected.warnings.end(), on_line);
     ++tally.lines;
     tally.warned += warned ? 1 : 0;
-    if (cell.ordinary && program.ordinary) {
+    const bool described_tool = (program.tool.translation() - cell.nominal.chain.tool_m).norm() < 1e-6;
+    if (cell.ordinary && program.ordinary && described_tool) {
       ++tally.ordinary;
       tally.ordinary_warned += warned ? 1 : 0;
       if (warned && std::getenv("SHOW") != nullptr) {
@@ -101,6 +103,8 @@ void run(const CalibratedCell& cell, const MeantProgram& program, Tally& tally) 
                   std::string(word_of(corrected.targets[i].from)).c_str(), 1e3 * before.position_m,
                   1e3 * now.position_m, 1e3 * before.orientation_rad, 1e3 * now.orientation_rad, i,
                   program.text.c_str());
+      std::cout << "moved " << (corrected.targets[i].command - corrected.targets[i].nominal).transpose() << " meant " << program.joints[i].transpose() << " solved " << joints->transpose() << " nominal " << corrected.targets[i].nominal.transpose() << std::endl;
+      for (const auto& note : corrected.targets[i].notes) std::cout << "note " << note << std::endl;
     }
   }
 }
@@ -142,15 +146,18 @@ MeantProgram random_program(RandomStream& stream, const CalibratedCell& cell, in
   if (writer.meant.states_frame) writer.meant.frame = random_pose(stream);
   writer.open();
   std::optional<JointVector> present;
+  bool far_start = false;
   const bool starts_known = !of_joints && language != Language::csv && stream.chance(0.6);
   if (starts_known) {
-    present = joints_about(stream, cell.middle, stream.chance(0.5) ? 0.3 : 1.2);
+    const bool far = stream.chance(0.5);
+    far_start = far;
+    present = joints_about(stream, cell.middle, far ? 1.2 : 0.3);
     writer.joint_move(*present);
   } else if (!of_joints && stream.chance(0.5)) {
     present = joints_about(stream, cell.middle, 0.2);
     writer.meant.near = *present;
   }
-  writer.meant.ordinary = !extends && !singular && (of_joints || conf || present);
+  writer.meant.ordinary = !extends && !singular && !far_start && (of_joints || conf || present);
   for (int i = 0; i < 3; ++i) {
     JointVector wanted = joints_about(stream, cell.middle, half_range);
     if (singular && kind == 0) wanted[4] = stream.real(-0.02, 0.02);
