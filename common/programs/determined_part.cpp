@@ -7,7 +7,7 @@
 namespace demecal {
 namespace {
 
-constexpr double kSure = 3.0;  ///< standard deviations
+constexpr double kSure = 4.0;  ///< standard deviations
 
 /// The largest share, up to 1, of `applied` with which the squared error |truth - share * applied|^2 stays below
 /// |truth|^2 by kSure standard deviations, the truth being `correction` give or take `covariance`.

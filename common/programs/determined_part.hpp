@@ -16,7 +16,7 @@ struct DeterminedPart {
 /// Of `correction`, whose error has this covariance, along the covariance's principal axes. An axis may be corrected
 /// where the correction's square is above twice its variance: below, leaving it is nearer to the truth on average. Of
 /// all sets of such axes that one is corrected which lowers the squared error most, scaled down as far as needed for
-/// the error to be no larger than before by three standard deviations, in the normal approximation. Directions in which
+/// the error to be no larger than before by four standard deviations, in the normal approximation. Directions in which
 /// less than half is corrected, and whose deviation is above `worth_saying`, are said: the least known of them.
 DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::Matrix3d& covariance,
                                double worth_saying);

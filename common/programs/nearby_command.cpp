@@ -6,10 +6,10 @@
 namespace demecal {
 namespace {
 
-constexpr double kLength_m = 0.3;        ///< that scales positions to angles
-constexpr double kMostGain = 3.0;        ///< joint motion, rad or m, over the correction
-constexpr double kFreely = 2e-4;         ///< rad or m that a joint may always move
-constexpr double kLost = 0.125;  ///< singular value below which a direction is lost
+constexpr double kLength_m = 0.3;  ///< that scales positions to angles
+constexpr double kMostGain = 3.0;  ///< joint motion, rad or m, over the correction
+constexpr double kFreely = 2e-4;   ///< rad or m that a joint may always move
+constexpr double kLost = 0.125;    ///< singular value below which a direction is lost
 constexpr double kLeft_m = 5e-6, kLeft_rad = 5e-5;
 
 PoseError in_angles(PoseError error) {
