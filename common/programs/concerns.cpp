@@ -75,6 +75,26 @@ void check_configuration(const Target& target, const CorrectedTarget& corrected,
   }
 }
 
+/// What should be known of a tool that the user names for this program.
+void judge_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std::vector<std::string>& sentences) {
+  constexpr double kAnother = 1e-4;  ///< m
+  const auto another = [&](const Target& target) {
+    return target.frames.tool && (target.frames.tool->translation() - tool_m).norm() > kAnother;
+  };
+  const auto stands_in = [](const Target& target) { return target.is_pose() && !target.frames.unknown_tool.empty(); };
+  if (std::any_of(program.targets.begin(), program.targets.end(), another)) {
+    sentences.emplace_back(
+        "the program states a tool that is not the one given with --tool-mm; where it states one, that one is "
+        "corrected");
+  }
+  if (std::any_of(program.targets.begin(), program.targets.end(), stands_in)) {
+    sentences.emplace_back(
+        "the tool given with --tool-mm stands in for one that the file does not give; its axes are taken to be those "
+        "of "
+        "the flange");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> concerns(const Target& target, const CorrectedTarget& corrected, const CommandModel& model) {
@@ -98,7 +118,7 @@ std::vector<std::string> concerns(const Target& target, const CorrectedTarget& c
   return sentences;
 }
 
-std::vector<std::string> concerns(const Program& program, const CommandModel& model) {
+std::vector<std::string> concerns(const Program& program, const CommandModel& model, bool tool_given) {
   std::vector<std::string> sentences = model.notes;
   if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
@@ -106,6 +126,7 @@ std::vector<std::string> concerns(const Program& program, const CommandModel& mo
     sentences.emplace_back(
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
+  if (tool_given) judge_given_tool(program, model.nominal.chain.tool_m, sentences);
   return sentences;
 }
 

@@ -156,14 +156,6 @@ class Corrector {
   std::vector<std::pair<Eigen::Vector3d, std::unique_ptr<CommandModel>>> with_tools_;
 };
 
-/// Whether the program states a tool that is not the user's.
-bool states_another_tool(const Program& program, const Eigen::Vector3d& tool_m) {
-  constexpr double kAnother = 1e-4;  ///< m
-  return std::any_of(program.targets.begin(), program.targets.end(), [&](const Target& target) {
-    return target.frames.tool && (target.frames.tool->translation() - tool_m).norm() > kAnother;
-  });
-}
-
 /// The order in which targets are visited.
 std::vector<std::size_t> visits(const Program& program) {
   std::vector<std::size_t> order(program.targets.size());
@@ -180,14 +172,8 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
   Corrector corrector(model, circumstances);
-  for (std::string& sentence : concerns(result.program, model)) {
+  for (std::string& sentence : concerns(result.program, model, circumstances.tool_given)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
-  }
-  if (circumstances.tool_given && states_another_tool(result.program, model.nominal.chain.tool_m)) {
-    result.warnings.push_back(
-        {kWholeProgram, "",
-         "the program states a tool that is not the one given with --tool-mm; where it states one, "
-         "that one is corrected"});
   }
   result.warnings.insert(result.warnings.end(), result.program.left.begin(), result.program.left.end());
   result.targets.resize(result.program.targets.size());

@@ -135,5 +135,19 @@ TEST(UnknownFrames, LeaveTheirLinesAndSaySo) {
               HasSubstr("$BASE is computed when the program runs; this line was not"));
 }
 
+TEST(GivenTool, StandsInForOneThatTheFileDoesNotGiveAndGivesWayToOneThatItStates) {
+  RandomStream stream{7512};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  const Circumstances given{.tool_given = true};
+  const std::string move = "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\nLIN {X 500,Y 200,Z 300,A 0,B 90,C 0}\n";
+  const auto first_warning = [&](const std::string& text) {
+    const CorrectedProgram corrected = correct_program(text, read_krl(text, "p", model.nominal.chain), model, given);
+    EXPECT_EQ(corrected.targets[0].outcome, Correctedness::corrected);
+    return corrected.warnings.empty() ? "" : corrected.warnings[0].sentence;
+  };
+  EXPECT_THAT(first_warning("BAS(#TOOL,3)\n" + move), HasSubstr("stands in for one"));
+  EXPECT_THAT(first_warning("$TOOL={X 0,Y 0,Z 300,A 0,B 0,C 0}\n" + move), HasSubstr("that one is corrected"));
+}
+
 }  // namespace
 }  // namespace demecal
