@@ -70,7 +70,7 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
   ASSERT_EQ(val2.code, 0) << val2.err;
   EXPECT_NE(val2.out.find("2 targets corrected"), std::string::npos) << val2.out;
   const std::string corrected = applied.result("a.v2");
-  EXPECT_NE(val2.err.find("a.v2:8: mcp[1]: the arm's configuration is not known"), std::string::npos) << val2.err;
+  EXPECT_NE(val2.err.find("a.v2:7: mcp[1]: the arm's configuration is not known"), std::string::npos) << val2.err;
   EXPECT_TRUE(corrected.starts_with(".PROGRAM t1\r\n; corrected by demecal ")) << corrected;
   const std::string kept(" MOVE #cp[1]\r\n.END\r\n.LOCATIONS\r\n#cp[1] ");
   EXPECT_NE(corrected.find(kept), std::string::npos) << corrected;
