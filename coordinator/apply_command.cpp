@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
@@ -8,6 +9,8 @@
 #include "config/model_text.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/units.hpp"
+#include "programs/mark.hpp"
 #include "programs/read_program.hpp"
 #include "programs/summary.hpp"
 
@@ -16,10 +19,11 @@ namespace {
 
 struct ApplyRequest {
   std::string model_file, program_file, out, language;
-  bool json = false, strict = false;
+  bool json = false, strict = false, force = false;
   double payload_kg = 0.0;
   std::optional<double> temperature_celsius;
   std::vector<double> tool_mm;
+  std::vector<double> near;
 };
 
 /// The bounds that the model states of its joint corrections.
@@ -31,13 +35,64 @@ std::vector<double> bounds_of(const CalibratedModel& model) {
   return bounds;
 }
 
-CommandModel model_of(const ApplyRequest& request) {
-  const CalibratedModel model = load_model(request.model_file);
+CommandModel command_model_of(const CalibratedModel& model, const ApplyRequest& request) {
   std::optional<Eigen::Vector3d> tool_m;
   if (!request.tool_mm.empty()) tool_m = 1e-3 * Eigen::Map<const Eigen::Vector3d>(request.tool_mm.data());
-  const CorrectedRobot robot =
-      model.declared.registration ? without_base(model.robot, model.nominal.chain) : model.robot;
-  return command_model(model.nominal, robot, bounds_of(model), tool_m);
+  const bool registration = model.declared.registration;
+  const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
+  CommandModel commands = with_certainty(command_model(model.nominal, robot, bounds_of(model), tool_m), robot,
+                                         model.posterior, model.measured, registration);
+  if (!model.posterior || model.measured.empty()) {
+    commands.notes.push_back(
+        request.model_file +
+        " states neither how sure its numbers are nor what its joints' ranges were: directions that "
+        "the calibration does not determine and targets outside its range cannot be told; calibrate "
+        "again to have them");
+  }
+  return commands;
+}
+
+/// The joints of --near, rad and m.
+JointVector near_joints(const ApplyRequest& request, const Chain& arm) {
+  if (request.near.empty()) return {};
+  if (std::ssize(request.near) != arm.size()) {
+    throw CLI::ValidationError("--near", std::to_string(request.near.size()) + " numbers; this arm has " +
+                                             std::to_string(arm.size()) + " joints");
+  }
+  JointVector joints(arm.size());
+  for (Eigen::Index i = 0; i < joints.size(); ++i) {
+    const double value = request.near[static_cast<std::size_t>(i)];
+    const bool revolute = arm.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
+    joints[i] = revolute ? radians(value) : metres(value);
+  }
+  return joints;
+}
+
+/// Throws unless `out` may be written: never the program itself, by whatever name; of other files those that this
+/// command wrote, or any with --force.
+void require_writable(const ApplyRequest& request) {
+  std::error_code none;
+  if (std::filesystem::equivalent(request.program_file, request.out, none) || request.program_file == request.out) {
+    throw CLI::ValidationError("--out",
+                               request.out + " is the program itself, which is never overwritten; name another");
+  }
+  if (request.force || !std::filesystem::exists(request.out, none)) return;
+  if (std::filesystem::is_regular_file(request.out, none)) {
+    const std::string there = read_file(request.out);
+    if (marked_line(there) || there == read_file(request.program_file)) return;
+  }
+  throw CLI::ValidationError("--out", request.out +
+                                          " is there already, and not a program that demecal corrected; name "
+                                          "another, or give --force to overwrite it");
+}
+
+/// Throws InputError where the program was corrected before.
+void refuse_corrected(const ApplyRequest& request, const std::string& text) {
+  const std::optional<std::size_t> line = marked_line(text);
+  if (!line) return;
+  throw InputError({request.program_file, *line}, "",
+                   "says that this program was corrected already; correcting it twice makes it worse: start from the "
+                   "original program");
 }
 
 Language language_asked(const ApplyRequest& request, const std::string& text) {
@@ -51,12 +106,17 @@ Language language_asked(const ApplyRequest& request, const std::string& text) {
 }
 
 ExitCode run(const ApplyRequest& request) {
-  const CommandModel model = model_of(request);
+  require_writable(request);
+  const CalibratedModel calibrated = load_model(request.model_file);
+  const CommandModel model = command_model_of(calibrated, request);
   const std::string text = read_file(request.program_file);
+  refuse_corrected(request, text);
   Program program = read_program(language_asked(request, text), text, request.program_file, model.nominal.chain);
-  const CorrectedProgram corrected =
-      correct_program(text, std::move(program), model,
-                      {.payload_kg = request.payload_kg, .temperature_celsius = request.temperature_celsius});
+  CorrectedProgram corrected = correct_program(text, std::move(program), model,
+                                               {.payload_kg = request.payload_kg,
+                                                .temperature_celsius = request.temperature_celsius,
+                                                .near = near_joints(request, model.nominal.chain),
+                                                .tool_given = !request.tool_mm.empty()});
   for (const Remark& warning : corrected.warnings) fmt::print(stderr, "{}", warning_text(corrected, warning));
   const std::size_t warnings = corrected.warnings.size();
   if (request.strict && warnings > 0) {
@@ -64,7 +124,9 @@ ExitCode run(const ApplyRequest& request) {
                warnings, warnings == 1 ? "" : "s");
     return ExitCode::bad_input;
   }
-  write_file(request.out, corrected.text);
+  const std::string mark = mark_of(calibrated.version, calibrated.job, calibrated.data_sha256);
+  const bool changed = corrected.text != text;
+  write_file(request.out, changed ? with_mark(corrected.text, corrected.program.language, mark) : corrected.text);
   fmt::print("{}", request.json ? summary_json(corrected, model.nominal.chain)
                                 : summary_table(corrected, model.nominal.chain));
   return ExitCode::done;
@@ -78,12 +140,19 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
   command
       ->add_option("program", request->program_file,
-                   "VAL II, CSV, KUKA KRL, ABB RAPID or URScript; poses are of the tool point in the base frame")
+                   "VAL II, CSV, KUKA KRL, ABB RAPID or URScript; poses are of the tool point in the base frame "
+                   "where the program states no other")
       ->required();
   command->add_option("--out", request->out, "the corrected program")->required();
   command->add_option("--language", request->language, "where the file's ending and words do not say it")
       ->check(CLI::IsMember({"val2", "csv", "krl", "rapid", "urscript"}, CLI::ignore_case));
   command->add_flag("--strict", request->strict, "write nothing where there is a warning (exit code 11)");
+  command->add_flag("--force", request->force, "overwrite a file that demecal did not write");
+  command
+      ->add_option(
+          "--near", request->near,
+          "Q1,Q2,... joints (deg; mm where one slides) that the arm is near to where the program does not tell")
+      ->delimiter(',');
   command->add_flag("--json", request->json, "the summary as one line of JSON");
   command->add_option("--payload-kg", request->payload_kg, "what the tool carries, where the file does not say it")
       ->check(CLI::Range(0.0, 1e5));
@@ -93,7 +162,8 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(-273.15, 1000.0));
   command
       ->add_option("--tool-mm", request->tool_mm,
-                   "X Y Z of the program's tool point on the flange, where it is not the tool that was measured")
+                   "X Y Z of the program's tool point on the flange, where it is not the tool that was measured; a "
+                   "tool that the program states comes first")
       ->expected(3);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/calibration.hpp"
 #include "calibration/round_terms.hpp"
+#include "fitting/posterior.hpp"
 
 namespace demecal {
 
@@ -18,6 +20,8 @@ struct CalibratedModel {
   CorrectedRobot robot;
   std::vector<ParameterEstimate> estimates;
   std::vector<JointSummary> joints;
+  std::optional<Posterior> posterior{};  ///< nothing in models of old versions
+  std::vector<Interval> measured{};      ///< of every joint, where it stood in the fitted poses; none in old models
   /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
   KnownFunctions functions{};
   std::string data_name;

@@ -5,6 +5,7 @@
 
 #include "calibration/shared_calls.hpp"
 #include "config/effect_text.hpp"
+#include "config/posterior_text.hpp"
 #include "config/robot_text.hpp"
 #include "config/yaml_text.hpp"
 #include "expression/text.hpp"
@@ -106,6 +107,7 @@ std::string model_text(const CalibratedModel& model) {
     const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
     text << correction_text(summary, correction, model.functions);
   }
+  text << posterior_text(model);
   return text.str();
 }
 

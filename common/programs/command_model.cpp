@@ -20,11 +20,40 @@ bool is_of_instrument(const Effect& effect) {
 constexpr double kLargestToolError = 0.01;  ///< m
 constexpr double kLargestToolTurn = 0.05;   ///< rad
 
+bool is_of_tool(const Effect& effect) {
+  return effect.kind == "tool";
+}
+
+/// Leaves out the numbers of effects that are `gone`, and counts those that stay anew.
+template <typename Gone>
+void leave_out_effects(Posterior& posterior, const std::vector<Effect>& effects, const Gone& gone) {
+  std::vector<int> place_of(effects.size(), -1);
+  int kept = 0;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (!gone(effects[i])) place_of[i] = kept++;
+  }
+  const auto place = [&](const ParameterId& id) { return place_of[static_cast<std::size_t>(id.index)]; };
+  posterior =
+      posterior.without([&](const ParameterId& id) { return id.kind == ParameterId::Kind::effect && place(id) < 0; });
+  for (ParameterId& id : posterior.ids) {
+    if (id.kind == ParameterId::Kind::effect) id.index = place(id);
+  }
+}
+
+bool is_number_of_tool(const ParameterId& id) {
+  return id.kind == ParameterId::Kind::tool_translation || id.kind == ParameterId::Kind::tool_rotation;
+}
+
 /// Takes the tool point as it stands: nothing of it is wrong.
 void take_tool(CommandModel& model, const Eigen::Vector3d& tool_m) {
   model.nominal.chain.tool_m = tool_m;
   model.robot.tools[""] = Eigen::Isometry3d(Eigen::Translation3d(tool_m));
-  std::erase_if(model.robot.effects, [](const Effect& effect) { return effect.kind == "tool"; });
+  const std::vector<Effect> before = model.robot.effects;
+  std::erase_if(model.robot.effects, is_of_tool);
+  model.tool_identified = false;
+  if (!model.posterior) return;
+  model.posterior = model.posterior->without(is_number_of_tool);
+  leave_out_effects(*model.posterior, before, is_of_tool);
 }
 
 /// Leaves out what is not the described tool in error.
@@ -57,6 +86,16 @@ void narrow(std::optional<Interval>& range, const Interval& by) {
   range->upper = std::min(range->upper, by.upper);
 }
 
+/// How far `value` stands outside the range, whole turns aside where the joint is revolute.
+double beyond(const Interval& range, double value, bool revolute) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int turns = revolute ? -2 : 0; turns <= (revolute ? 2 : 0); ++turns) {
+    const double turned = value + turns * 2.0 * std::numbers::pi;
+    least = std::min(least, std::max({0.0, range.lower - turned, turned - range.upper}));
+  }
+  return least;
+}
+
 }  // namespace
 
 Eigen::Isometry3d CommandModel::nominal_tool(const JointVector& joints) const {
@@ -70,6 +109,36 @@ CommandModel command_model(const Robot& nominal, const CorrectedRobot& identifie
   model.robot.sensor_from_base.setIdentity();
   std::erase_if(model.robot.effects, is_of_instrument);
   other_tool_m ? take_tool(model, *other_tool_m) : judge_tool(model);
+  return model;
+}
+
+CommandModel with_certainty(CommandModel model, const CorrectedRobot& identified,
+                            const std::optional<Posterior>& posterior, std::vector<Interval> measured,
+                            bool registration) {
+  model.measured = std::move(measured);
+  if (!posterior) return model;
+  const bool turned = !model.robot.tool("").linear().isIdentity(0.0);
+  const bool whole_first = registration && model.nominal.chain.convention == Convention::modified_dh;
+  model.posterior = posterior->without([&](const ParameterId& id) {
+    using Kind = ParameterId::Kind;
+    if (id.kind == Kind::effect) return false;
+    if (is_number_of_tool(id)) return !model.tool_identified || (id.kind == Kind::tool_rotation && !turned);
+    const bool along_first = id.link == LinkParameter::theta || id.link == LinkParameter::d;
+    return registration && id.index == 0 && (along_first || whole_first);
+  });
+  leave_out_effects(*model.posterior, identified.effects, [&](const Effect& effect) {
+    return is_of_instrument(effect) || (!model.tool_identified && is_of_tool(effect));
+  });
+  return model;
+}
+
+CommandModel with_stated_tool(CommandModel model, const Eigen::Vector3d& tool_m) {
+  constexpr double kSameTool = 3e-3;  ///< m
+  if (model.tool_identified && (tool_m - model.nominal.chain.tool_m).norm() <= kSameTool) {
+    model.nominal.chain.tool_m = tool_m;
+  } else {
+    take_tool(model, tool_m);
+  }
   return model;
 }
 
@@ -97,16 +166,20 @@ std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint)
   return range;
 }
 
+std::optional<Interval> beyond_measured(const CommandModel& model, int joint, double value) {
+  constexpr double kMargin_rad = 0.035, kMargin_m = 0.02;
+  if (model.measured.empty()) return std::nullopt;
+  const Interval& range = model.measured[static_cast<std::size_t>(joint)];
+  const bool revolute = model.nominal.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const double margin = revolute ? kMargin_rad : kMargin_m;
+  return beyond(range, value, revolute) > margin ? std::optional(range) : std::nullopt;
+}
+
 double beyond_calibrated(const CorrectedRobot& robot, int joint, double value) {
   const std::optional<Interval> range = calibrated_range(robot, joint);
   if (!range) return 0.0;
   const bool revolute = robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
-  double beyond = std::numeric_limits<double>::infinity();
-  for (int turns = revolute ? -2 : 0; turns <= (revolute ? 2 : 0); ++turns) {
-    const double turned = value + turns * 2.0 * std::numbers::pi;
-    beyond = std::min(beyond, std::max({0.0, range->lower - turned, turned - range->upper}));
-  }
-  return beyond;
+  return beyond(*range, value, revolute);
 }
 
 JointVector middle_joints(const CommandModel& model) {

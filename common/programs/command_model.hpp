@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "effects/corrected_robot.hpp"
+#include "fitting/posterior.hpp"
 
 namespace demecal {
 
@@ -22,7 +23,10 @@ struct CommandModel {
   Robot nominal;               ///< as its maker describes it; what the controller believes
   CorrectedRobot robot;        ///< predicts in the robot's own base frame
   std::vector<double> bounds;  ///< of each joint's correction (rad or m) over its range; infinite where none is stated
-  std::vector<std::string> notes{};  ///< sentences about the model that a user should know
+  std::vector<std::string> notes{};      ///< sentences about the model that a user should know
+  std::optional<Posterior> posterior{};  ///< of the numbers of `robot`; nothing: all of the correction is believed
+  std::vector<Interval> measured{};      ///< of every joint, rad or m; none where the model does not say
+  bool tool_identified = true;           ///< the tool of `robot` is the described one as it was measured
 
   /// Where the nominal robot has its tool: base frame, axes of the flange.
   Eigen::Isometry3d nominal_tool(const JointVector& joints) const;
@@ -33,6 +37,16 @@ struct CommandModel {
 CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
                            const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
 
+/// The model, with what its file states of how sure it is; numbers that are not part of it are left out.
+/// `registration`: the model's base was fitted, and without_base() was applied.
+CommandModel with_certainty(CommandModel model, const CorrectedRobot& identified,
+                            const std::optional<Posterior>& posterior, std::vector<Interval> measured,
+                            bool registration);
+
+/// The model for a program whose tool point, as the program states it, is `tool_m` (on the flange): within 3 mm of the
+/// described one it is that tool, and its measured error counts; elsewhere it is another, taken as it stands.
+CommandModel with_stated_tool(CommandModel model, const Eigen::Vector3d& tool_m);
+
 /// `identified` with what no fit can tell from the base's place as `nominal` has it: theta and d of joint 1 (standard
 /// Denavit-Hartenberg), or all of joint 1 (modified). For models whose registration was fitted: how such a fit shares
 /// out base and first joint says nothing of the arm.
@@ -41,6 +55,9 @@ CorrectedRobot without_base(CorrectedRobot identified, const Chain& nominal);
 /// The range that the model was calibrated in, of one joint (rad or m): where its correction and the effects that
 /// depend on it were measured. Nothing where the model states none.
 std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint);
+
+/// Nothing, or the range that the joint stands outside of by more than 2 deg (20 mm), whole turns aside.
+std::optional<Interval> beyond_measured(const CommandModel& model, int joint, double value);
 
 /// How far the joint stands outside that range, whole turns of revolute joints aside; 0 within it.
 double beyond_calibrated(const CorrectedRobot& robot, int joint, double value);

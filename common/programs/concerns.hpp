@@ -12,6 +12,7 @@ namespace demecal {
 std::vector<std::string> concerns(const Target& target, const CorrectedTarget& corrected, const CommandModel& model);
 
 /// The same of the program, as read, as a whole, such as a tool that was identified far from where it is described.
-std::vector<std::string> concerns(const Program& program, const CommandModel& model);
+/// `tool_given`: the model's tool is one that the user names.
+std::vector<std::string> concerns(const Program& program, const CommandModel& model, bool tool_given = false);
 
 }  // namespace demecal

@@ -2,62 +2,129 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
 
-#include "effects/command.hpp"
+#include "kinematics/units.hpp"
+#include "programs/amounts.hpp"
 #include "programs/concerns.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/orientation.hpp"
 #include "programs/replace.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr double kMoved = 2e-3;  ///< rad or m: a joint that changes by less has not moved
-constexpr double kExact = 1e-9;  ///< m
-constexpr int kMostRepetitions = 10;
 
-std::vector<double> inside(const std::vector<Cell>& cells) {
-  std::vector<double> values;
-  for (const Cell& cell : cells) values.push_back(cell.inside());
-  return values;
+/// The joint that two configurations differ in most.
+std::string difference_of(const Chain& arm, const JointVector& one, const JointVector& other) {
+  Eigen::Index joint = 0;
+  (one - other).cwiseAbs().maxCoeff(&joint);
+  const Joint& link = arm.joints[static_cast<std::size_t>(joint)];
+  return joint_label(static_cast<int>(joint)) + " at " + joint_amount(link, one[joint]) + " or " +
+         joint_amount(link, other[joint]);
 }
 
-Eigen::Vector3d point_of(const Target& target) {
-  return {target.position[0].inside(), target.position[1].inside(), target.position[2].inside()};
+std::string moved_text(const CorrectedTarget& corrected) {
+  const Eigen::Vector3d moved_m = corrected.command_tool.translation() - corrected.nominal_tool.translation();
+  return "(" + fixed_text(millimetres(moved_m.x()), 3) + ", " + fixed_text(millimetres(moved_m.y()), 3) + ", " +
+         fixed_text(millimetres(moved_m.z()), 3) + ") mm";
 }
 
 class Corrector {
  public:
   Corrector(const CommandModel& model, const Circumstances& circumstances)
-      : model_(model), circumstances_(circumstances), last_(middle_joints(model)) {
+      : model_(model),
+        circumstances_(circumstances),
+        last_(middle_joints(model)),
+        finder_(circumstances.near, middle_joints(model)) {
     signs_.setZero(last_.size());
   }
 
   CorrectedTarget correct(const Target& target) {
-    CorrectedTarget corrected;
-    const std::optional<JointVector> nominal = joints_of(target);
-    if (!nominal) return corrected;
-    corrected.nominal = *nominal;
-    note_motion(*nominal);
-    corrected.nominal_tool = model_.nominal_tool(*nominal);
-    command(target, corrected);
-    corrected.command_tool = model_.nominal_tool(corrected.command);
-    if (target.is_pose()) settle_position(target, corrected);
-    write(target, corrected);
+    const CommandModel& model = model_for(target);
+    CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
+    if (!corrected.is_left() && corrected.from != JointsFrom::undetermined) {
+      finder_.arrive(corrected.nominal);
+    } else if (target.is_pose()) {
+      finder_.arrive(std::nullopt);
+    } else {
+      finder_.arrive(joints_of(target));
+    }
+    corrected.texts = texts_of(target, corrected);
     return corrected;
   }
 
  private:
-  std::optional<JointVector> joints_of(const Target& target) const {
-    if (!target.is_pose()) {
-      JointVector joints(std::ssize(target.joints));
-      for (Eigen::Index i = 0; i < joints.size(); ++i) joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
-      return joints;
+  static JointVector joints_of(const Target& target) {
+    JointVector joints(std::ssize(target.joints));
+    for (Eigen::Index i = 0; i < joints.size(); ++i) joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
+    return joints;
+  }
+
+  /// What of the target's frames is not known. A user's tool stands for one that the program does not tell.
+  std::string unknown(const Target& target) const {
+    if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
+    return circumstances_.tool_given ? "" : target.frames.unknown_tool;
+  }
+
+  CorrectedTarget refused(const Target& target) const {
+    CorrectedTarget corrected;
+    corrected.outcome = Correctedness::left;
+    corrected.remarks.push_back(unknown(target) + "; this line was not corrected");
+    return corrected;
+  }
+
+  /// The model with the tool that the target states.
+  const CommandModel& model_for(const Target& target) {
+    if (!target.frames.tool) return model_;
+    const Eigen::Vector3d tool_m = target.frames.tool->translation();
+    for (const auto& [known_m, model] : with_tools_) {
+      if (known_m == tool_m) return *model;
     }
-    if (target.form == OrientationForm::unknown) return joints_at_point(model_.nominal.chain, point_of(target), last_);
-    Eigen::Isometry3d tool(rotation_from(target.form, inside(target.orientation)));
-    tool.translation() = point_of(target);
-    return nominal_joints(model_.nominal.chain, tool, target.hint, last_);
+    with_tools_.emplace_back(tool_m, std::make_unique<CommandModel>(with_stated_tool(model_, tool_m)));
+    return *with_tools_.back().second;
+  }
+
+  CorrectedTarget with_known_frames(const Target& target, const CommandModel& model) {
+    const Configurations found = configurations(target, model.nominal.chain);
+    if (found.joints.empty()) return {};
+    note_motion(found.joints.front());
+    std::vector<CorrectedTarget> ways;
+    for (const JointVector& joints : found.joints) ways.push_back(corrected_at(target, model, stop_at(target, joints)));
+    CorrectedTarget corrected = std::move(ways.front());
+    corrected.from = found.from;
+    for (std::size_t i = 1; i < ways.size(); ++i) {
+      if (agree(corrected, ways[i])) continue;
+      leave_undetermined(model.nominal.chain, ways, i, corrected);
+      break;
+    }
+    return corrected;
+  }
+
+  Configurations configurations(const Target& target, const Chain& arm) const {
+    if (!target.is_pose()) return {JointsFrom::target, {joints_of(target)}};
+    if (target.form != OrientationForm::unknown) return finder_.find(arm, target, stated_tool_pose(target));
+    const auto joints = joints_at_point(arm, stated_point(target), last_);
+    return joints ? Configurations{JointsFrom::before, {*joints}} : Configurations{};
+  }
+
+  /// Whether the program's numbers come out the same.
+  static bool agree(const CorrectedTarget& one, const CorrectedTarget& other) {
+    constexpr double kTolerance_m = 5e-5, kTolerance_rad = 5e-4;
+    const PoseError difference = pose_error(one.command_tool, other.command_tool);
+    return difference.head<3>().norm() <= kTolerance_m && difference.tail<3>().norm() <= kTolerance_rad;
+  }
+
+  static void leave_undetermined(const Chain& arm, const std::vector<CorrectedTarget>& ways, std::size_t other,
+                                 CorrectedTarget& corrected) {
+    const PoseError difference = pose_error(corrected.command_tool, ways[other].command_tool);
+    corrected.remarks = {"the arm's configuration is not known (" +
+                         difference_of(arm, corrected.nominal, ways[other].nominal) +
+                         "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
+                         " mm: " + moved_text(corrected) + " or " + moved_text(ways[other]) +
+                         "; this line was not corrected; a joint move before it or --near tells"};
+    corrected.outcome = Correctedness::left;
   }
 
   /// Takes the signs of the motion to here.
@@ -80,64 +147,24 @@ class Corrector {
     return stop;
   }
 
-  void command(const Target& target, CorrectedTarget& corrected) const {
-    corrected.stop = stop_at(target, corrected.nominal);
-    const InverseSolution solution = command_reaching(model_.robot, corrected.nominal_tool, corrected.stop);
-    corrected.inverse = corrected.command = solution.q;
-    corrected.outcome = solution.status == InverseStatus::converged ? Correctedness::corrected : Correctedness::nearest;
-    corrected.left_m = solution.position_residual_m;
-  }
-
-  /// Where the orientation is kept, moves the position until the model predicts the tool point at the target's.
-  void settle_position(const Target& target, CorrectedTarget& corrected) const {
-    const bool kept = target.form == OrientationForm::columns || target.form == OrientationForm::unknown;
-    if (!kept || corrected.command == corrected.nominal) return;
-    Eigen::Isometry3d tool(corrected.nominal_tool.linear());
-    tool.translation() = corrected.command_tool.translation();
-    JointVector joints = corrected.command;
-    for (int repetition = 0; repetition < kMostRepetitions; ++repetition) {
-      const auto solved = nominal_joints(model_.nominal.chain, tool, {.near = joints}, joints);
-      if (!solved) return;
-      joints = *solved;
-      const Eigen::Vector3d error = corrected.nominal_tool.translation() -
-                                    model_.robot.predict(corrected.stop.with_joints(joints), "").translation();
-      const bool first = repetition == 0;
-      if (first || error.norm() <= corrected.left_m) {
-        corrected.command = joints;
-        corrected.command_tool = tool;
-        corrected.left_m = error.norm();
-      }
-      if (error.norm() < kExact) {
-        corrected.outcome = Correctedness::corrected;
-        return;
-      }
-      tool.translation() += error;
-    }
-  }
-
-  void write(const Target& target, CorrectedTarget& corrected) const {
-    const bool changed = corrected.command != corrected.nominal;
-    const auto add = [&](const Cell& cell, double value) {
-      corrected.texts.push_back(changed ? rewritten(cell, value).value_or("") : "");
-    };
-    for (std::size_t i = 0; i < target.joints.size(); ++i) {
-      add(target.joints[i], corrected.command[static_cast<Eigen::Index>(i)]);
-    }
-    for (std::size_t i = 0; i < target.position.size(); ++i) {
-      add(target.position[i], corrected.command_tool.translation()[static_cast<Eigen::Index>(i)]);
-    }
-    if (target.form == OrientationForm::columns || target.form == OrientationForm::unknown) return;
-    const std::vector<double> numbers =
-        numbers_of(corrected.command_tool.linear(), target.form, inside(target.orientation));
-    for (std::size_t i = 0; i < numbers.size(); ++i) add(target.orientation[i], numbers[i]);
-  }
-
   const CommandModel& model_;
   Circumstances circumstances_;
   JointVector last_;
   ApproachSigns signs_;
   bool started_ = false;
+  ConfigurationFinder finder_;
+  std::vector<std::pair<Eigen::Vector3d, std::unique_ptr<CommandModel>>> with_tools_;
 };
+
+/// The order in which targets are visited.
+std::vector<std::size_t> visits(const Program& program) {
+  std::vector<std::size_t> order(program.targets.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
+    return program.targets[one].order < program.targets[other].order;
+  });
+  return order;
+}
 
 }  // namespace
 
@@ -145,13 +172,15 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
   Corrector corrector(model, circumstances);
-  for (std::string& sentence : concerns(result.program, model)) {
+  for (std::string& sentence : concerns(result.program, model, circumstances.tool_given)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
   result.warnings.insert(result.warnings.end(), result.program.left.begin(), result.program.left.end());
-  for (const Target& target : result.program.targets) {
-    result.targets.push_back(corrector.correct(target));
-    for (std::string& sentence : concerns(target, result.targets.back(), model)) {
+  result.targets.resize(result.program.targets.size());
+  for (const std::size_t i : visits(result.program)) {
+    const Target& target = result.program.targets[i];
+    result.targets[i] = corrector.correct(target);
+    for (std::string& sentence : concerns(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }

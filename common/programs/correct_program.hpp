@@ -5,6 +5,7 @@
 
 #include "programs/command_model.hpp"
 #include "programs/program.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal {
 
@@ -12,22 +13,8 @@ namespace demecal {
 struct Circumstances {
   double payload_kg = 0.0;
   std::optional<double> temperature_celsius{};
-};
-
-enum class Correctedness {
-  corrected,  ///< or in no need of it
-  nearest,    ///< the model has no exact inverse here; what could be corrected is
-  no_joints   ///< the nominal robot cannot reach the pose; it is left as it is
-};
-
-struct CorrectedTarget {
-  Correctedness outcome = Correctedness::no_joints;
-  Stop stop{JointVector()};      ///< the nominal joints and the circumstances they were corrected for
-  JointVector nominal, command;  ///< joints, rad or m: as the program means, and as it is to be sent
-  JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept
-  Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
-  double left_m = 0.0;                           ///< position error that the model predicts after correction
-  std::vector<std::string> texts{};              ///< of the cells, joints or position and then orientation; empty: kept
+  JointVector near{};       ///< joints that the arm is near to where the program does not tell; empty: unknown
+  bool tool_given = false;  ///< the model's tool is one that the user names
 };
 
 struct CorrectedProgram {
@@ -45,9 +32,12 @@ struct CorrectedProgram {
 /// A target that states no approach is approached from the target before it in the text: each joint's sign is that of
 /// its last change of 2 mrad (2 mm) or more, 0 before the first.
 ///
-/// Each of these is a warning: a target outside joint limits or the calibrated range, a correction larger than the
-/// model states or than arms' errors are, no exact inverse, a configuration that the program states and the arm does
-/// not have.
+/// Where the program leaves several configurations possible (see ConfigurationFinder), and their corrections differ by
+/// more than 0.05 mm or 0.03 deg, the target is left as it is; so is one whose frame or tool is not known.
+///
+/// Each of these is a warning: a target that is left, a target outside joint limits or the measured range, a correction
+/// larger than the model states or than arms' errors are, a direction that the calibration does not determine, no exact
+/// inverse, a configuration that the program states and the arm does not have.
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances);
 

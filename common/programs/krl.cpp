@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "data/lower_case.hpp"
+#include "programs/krl_frames.hpp"
 #include "programs/literal.hpp"
 #include "programs/read_program.hpp"
 
@@ -59,6 +60,8 @@ class KrlReader {
       aggregate(list, context, name, 1);
       at += list.size - 1;
     }
+    const KrlFrames frames(text_);
+    for (Target& target : program_.targets) frames.complete(target);
     return std::move(program_);
   }
 

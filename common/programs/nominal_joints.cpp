@@ -6,12 +6,10 @@
 #include <numbers>
 
 #include "kinematics/angles.hpp"
-#include "kinematics/inverse.hpp"
 
 namespace demecal {
 namespace {
 
-constexpr int kStarts = 48;
 constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
 constexpr double kNear = 1.0;       ///< rad or m: a solution this near to the last one is taken without looking further
 constexpr double kRounding = 1e-6;  ///< rad, of signs and quadrants
@@ -25,38 +23,6 @@ double radical_inverse(int index, int base) {
 
 bool limited(const Joint& joint) {
   return joint.lower < joint.upper;
-}
-
-JointVector start_of(const Chain& arm, int index) {
-  JointVector start(arm.size());
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
-    double lower = -std::numbers::pi, upper = std::numbers::pi;
-    if (joint.type == JointType::prismatic || (limited(joint) && joint.upper - joint.lower < 2.0 * std::numbers::pi)) {
-      lower = joint.lower;
-      upper = joint.upper;
-    }
-    start[i] = lower + (upper - lower) * radical_inverse(index, kPrimes[static_cast<std::size_t>(i)]);
-  }
-  return start;
-}
-
-PoseFunction nominal_pose(const Chain& arm) {
-  return [&arm](const JointVector& q) {
-    return PoseAndJacobian{forward(arm, q) * Eigen::Translation3d(arm.tool_m), joint_jacobian(arm, q, arm.tool_m)};
-  };
-}
-
-/// Whole turns of a revolute joint cost nothing: the one within the limits, if any, that is nearest to the reference.
-double nearest_turn(const Joint& joint, double value, double reference) {
-  if (joint.type == JointType::prismatic) return value;
-  const double near = wrap_near(value, reference);
-  double best = near;
-  for (const double turned : {near - 2.0 * std::numbers::pi, near + 2.0 * std::numbers::pi}) {
-    const double better = beyond_limits(joint, best) - beyond_limits(joint, turned);
-    if (better > 0.0) best = turned;
-  }
-  return best;
 }
 
 /// About where the hint has the joint; elsewhere, where the reference has it.
@@ -77,10 +43,9 @@ struct Candidate {
 
 Candidate candidate(const Chain& arm, JointVector q, const ArmHint& hint, const JointVector& reference) {
   Candidate made;
+  q = in_hinted_turns(arm, q, hint, reference);
   for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
-    q[i] = nearest_turn(joint, q[i], hinted(hint, static_cast<std::size_t>(i), reference[i]));
-    made.outside = made.outside || beyond_limits(joint, q[i]) > 0.0;
+    made.outside = made.outside || beyond_limits(arm.joints[static_cast<std::size_t>(i)], q[i]) > 0.0;
     made.distance = std::max(made.distance, std::abs(q[i] - reference[i]));
   }
   made.contradicting = contradictions(hint, q);
@@ -95,6 +60,45 @@ bool better(const Candidate& one, const Candidate& other) {
 }
 
 }  // namespace
+
+PoseFunction nominal_pose(const Chain& arm) {
+  return [&arm](const JointVector& q) {
+    return PoseAndJacobian{forward(arm, q) * Eigen::Translation3d(arm.tool_m), joint_jacobian(arm, q, arm.tool_m)};
+  };
+}
+
+JointVector search_start(const Chain& arm, int index) {
+  JointVector start(arm.size());
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
+    double lower = -std::numbers::pi, upper = std::numbers::pi;
+    if (joint.type == JointType::prismatic || (limited(joint) && joint.upper - joint.lower < 2.0 * std::numbers::pi)) {
+      lower = joint.lower;
+      upper = joint.upper;
+    }
+    start[i] = lower + (upper - lower) * radical_inverse(index, kPrimes[static_cast<std::size_t>(i)]);
+  }
+  return start;
+}
+
+double nearest_turn(const Joint& joint, double value, double reference) {
+  if (joint.type == JointType::prismatic) return value;
+  const double near = wrap_near(value, reference);
+  double best = near;
+  for (const double turned : {near - 2.0 * std::numbers::pi, near + 2.0 * std::numbers::pi}) {
+    const double better = beyond_limits(joint, best) - beyond_limits(joint, turned);
+    if (better > 0.0) best = turned;
+  }
+  return best;
+}
+
+JointVector in_hinted_turns(const Chain& arm, JointVector joints, const ArmHint& hint, const JointVector& reference) {
+  for (Eigen::Index i = 0; i < joints.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(i);
+    joints[i] = nearest_turn(arm.joints[joint], joints[i], hinted(hint, joint, reference[i]));
+  }
+  return joints;
+}
 
 double beyond_limits(const Joint& joint, double value) {
   if (!limited(joint)) return 0.0;
@@ -121,8 +125,8 @@ std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometr
   const PoseFunction model = nominal_pose(arm);
   const JointVector& near = hint.near.size() == arm.size() ? hint.near : reference;
   std::optional<Candidate> best;
-  for (int index = 0; index <= kStarts; ++index) {
-    const InverseSolution solution = inverse(model, tool, index == 0 ? near : start_of(arm, index));
+  for (int index = 0; index <= kSearchStarts; ++index) {
+    const InverseSolution solution = inverse(model, tool, index == 0 ? near : search_start(arm, index));
     if (solution.status != InverseStatus::converged) continue;
     Candidate found = candidate(arm, solution.q, hint, near);
     if (!best || better(found, *best)) best = std::move(found);
@@ -141,8 +145,8 @@ std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector
     return at;
   };
   const Eigen::Isometry3d target{Eigen::Translation3d(point_m)};
-  for (int index = 0; index <= kStarts; ++index) {
-    const InverseSolution solution = inverse(model, target, index == 0 ? reference : start_of(arm, index));
+  for (int index = 0; index <= kSearchStarts; ++index) {
+    const InverseSolution solution = inverse(model, target, index == 0 ? reference : search_start(arm, index));
     if (solution.status != InverseStatus::converged) continue;
     const Candidate found = candidate(arm, solution.q, {}, reference);
     if (!found.outside) return found.q;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "kinematics/inverse.hpp"
 #include "programs/program.hpp"
 
 namespace demecal {
@@ -21,6 +22,18 @@ std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector
 
 /// How many of the signs and quadrants that the hint states these joints contradict, by more than 1e-6 rad.
 int contradictions(const ArmHint& hint, const JointVector& joints);
+
+// What searches for joints are made of.
+/// Pose of the tool point (axes of the flange) and its Jacobian.
+PoseFunction nominal_pose(const Chain& arm);
+inline constexpr int kSearchStarts = 48;
+/// The `index`-th (from 1) of the joints that searches start from, spread evenly over the joints' limits.
+JointVector search_start(const Chain& arm, int index);
+/// The whole turn of a revolute joint's value that is nearest to `reference` or, where that is outside the limits, one
+/// nearer to them.
+double nearest_turn(const Joint& joint, double value, double reference);
+/// The joints in the whole turns that the hint speaks of or, where it does not, that are nearest to `reference`.
+JointVector in_hinted_turns(const Chain& arm, JointVector joints, const ArmHint& hint, const JointVector& reference);
 
 /// How far joint `joint` stands outside its limits, rad or m; 0 within them or where none are known (lower not below
 /// upper).

@@ -3,6 +3,7 @@
 
 #include "data/lower_case.hpp"
 #include "programs/literal.hpp"
+#include "programs/rapid_frames.hpp"
 #include "programs/read_program.hpp"
 
 namespace demecal {
@@ -48,6 +49,8 @@ class RapidReader {
         ++at;
       }
     }
+    const RapidFrames frames(text_);
+    for (Target& target : program_.targets) frames.complete(target);
     return std::move(program_);
   }
 

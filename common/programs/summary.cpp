@@ -29,14 +29,15 @@ std::string heading(const TargetFigures& figures) {
 
 std::string block(const Target& target, const CorrectedTarget& corrected, const Chain& arm, std::string& last_heading) {
   std::string text = fmt::format("  line {}{}", target.place.line, target.name.empty() ? "" : ": " + target.name);
-  if (corrected.outcome == Correctedness::no_joints) return text + ": left as it is\n";
+  if (corrected.is_left()) return text + ": left as it is\n";
   const TargetFigures figures = figures_of(target, corrected, arm);
   text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg\n", figures.moved_mm, figures.turned_deg);
   const std::string names = heading(figures);
   if (names != last_heading) text += names;
   last_heading = names;
-  return text + row("nominal", figures.nominal) + row("corrected", figures.corrected) +
-         row("difference", figures.difference);
+  text += row("nominal", figures.nominal) + row("corrected", figures.corrected) + row("difference", figures.difference);
+  for (const std::string& note : corrected.notes) text += "    " + note + '\n';
+  return text;
 }
 
 Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
@@ -44,14 +45,18 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
             {"line", target.place.line},
             {"column", target.place.column},
             {"kind", target.is_pose() ? "pose" : "joints"},
-            {"corrected_by_model", corrected.outcome != Correctedness::no_joints}};
-  if (corrected.outcome == Correctedness::no_joints) return json;
+            {"corrected_by_model", !corrected.is_left()},
+            {"joints_from", word_of(corrected.from)},
+            {"frame", target.frames.frame.empty() ? "base" : target.frames.frame},
+            {"tool", target.frames.tool ? target.frames.tool_name : "of the model"}};
+  if (corrected.is_left()) return json;
   const TargetFigures figures = figures_of(target, corrected, arm);
   json["units"] = figures.units;
   json["nominal"] = figures.nominal;
   json["corrected"] = figures.corrected;
   json["difference"] = figures.difference;
   json["moved_mm"] = figures.moved_mm;
+  json["left_as_programmed"] = corrected.notes;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
   return json;
 }
@@ -61,7 +66,7 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
 MovedFigures moved_figures(const CorrectedProgram& corrected) {
   MovedFigures figures;
   for (const CorrectedTarget& target : corrected.targets) {
-    if (target.outcome == Correctedness::no_joints) {
+    if (target.is_left()) {
       ++figures.left;
       continue;
     }

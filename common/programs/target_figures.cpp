@@ -21,9 +21,12 @@ TargetFigures figures_of(const Target& target, const CorrectedTarget& corrected,
     add("q" + std::to_string(joint + 1), revolute ? "deg" : "mm", to_border(corrected.nominal[joint]),
         to_border(corrected.command[joint]));
   }
+  const Eigen::Isometry3d frame_from_base = target.frames.base_from_frame.inverse();
+  const Eigen::Vector3d nominal_m = frame_from_base * corrected.nominal_tool.translation();
+  const Eigen::Vector3d command_m = frame_from_base * corrected.command_tool.translation();
   for (int axis = 0; axis < 3 && target.is_pose(); ++axis) {
-    add(std::string(1, static_cast<char>('x' + axis)), "mm", millimetres(corrected.nominal_tool.translation()[axis]),
-        millimetres(corrected.command_tool.translation()[axis]));
+    add(std::string(1, static_cast<char>('x' + axis)), "mm", millimetres(nominal_m[axis]),
+        millimetres(command_m[axis]));
   }
   const PoseError moved = pose_error(corrected.nominal_tool, corrected.command_tool);
   figures.moved_mm = millimetres(moved.head<3>().norm());

@@ -4,7 +4,9 @@
 #include <set>
 
 #include "programs/literal.hpp"
+#include "programs/orientation.hpp"
 #include "programs/read_program.hpp"
+#include "programs/stated_frames.hpp"
 
 namespace demecal {
 namespace {
@@ -28,19 +30,21 @@ class UrReader {
   Program read() {
     find_assignments();
     for_each_word([&](std::size_t begin, std::size_t end) {
-      const int targets = targets_of(code_.substr(begin, end - begin));
-      if (targets > 0 && at(end) == '(') read_call(text_.skip_spaces(end), targets);
+      const std::string_view word = code_.substr(begin, end - begin);
+      if (word == "set_tcp" && at(end) == '(') read_tool(text_.skip_spaces(end));
+      const int targets = targets_of(word);
+      if (targets == 0 || at(end) != '(') return;
+      use_ = {begin, word == "movej" || word == "servoj" ? Motion::joints : Motion::line, {}};
+      if (tool_) set_tool(use_.frames, *tool_);
+      read_call(text_.skip_spaces(end), targets);
     });
+    for (Target& target : program_.targets) take_uses(uses_at_.at(literal_of_.at(target.begin())), target);
     std::sort(program_.targets.begin(), program_.targets.end(),
-              [](const Target& one, const Target& other) { return first_byte(one) < first_byte(other); });
+              [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
     return std::move(program_);
   }
 
  private:
-  static std::size_t first_byte(const Target& target) {
-    return (target.is_pose() ? target.position : target.joints).front().begin;
-  }
-
   template <typename Visit>
   void for_each_word(const Visit& visit) const {
     for (std::size_t begin = 0; begin < code_.size(); ++begin) {
@@ -70,8 +74,11 @@ class UrReader {
     for_each_word([&](std::size_t begin, std::size_t end) {
       const std::size_t sign = text_.skip_spaces(end);
       if (sign >= code_.size() || code_[sign] != '=' || code_.substr(sign).starts_with("==")) return;
+      const std::string name(code_.substr(begin, end - begin));
       if (const auto literal = literal_at(sign + 1)) {
-        assigned_[std::string(code_.substr(begin, end - begin))].push_back(*literal);
+        assigned_[name].push_back(*literal);
+      } else {
+        computed_.insert(name);
       }
     });
   }
@@ -124,6 +131,29 @@ class UrReader {
     }
   }
 
+  /// The tool of set_tcp(): a literal, or a variable that is given one and no other.
+  void read_tool(std::size_t open) {
+    std::optional<std::size_t> literal = literal_at(open + 1);
+    const std::size_t begin = text_.skip_spaces(open + 1);
+    const std::string word(code_.substr(begin, text_.word_end(begin) - begin));
+    const auto variable = assigned_.find(word);
+    if (!literal && variable != assigned_.end() && variable->second.size() == 1 && !computed_.contains(word)) {
+      literal = variable->second.front();
+    }
+    tool_ = KnownFrame::computed("the tool of set_tcp");
+    if (!literal || code_[*literal] != 'p') return;
+    const BracketItem list = read_list(text_, text_.skip_spaces(*literal + 1), '[');
+    std::vector<double> values;
+    for (const BracketItem& item : list.items) {
+      const auto cell = cell_at(text_.text(), item.begin, item.size, {});
+      if (cell) values.push_back(cell->value);
+    }
+    if (values.size() != 6 || list.items.size() != 6) return;
+    Eigen::Isometry3d pose(rotation_from(OrientationForm::rotation_vector, {values[3], values[4], values[5]}));
+    pose.translation() = Eigen::Vector3d(values[0], values[1], values[2]);
+    tool_ = KnownFrame{"set_tcp", pose, ""};
+  }
+
   void inverse_kinematics(std::size_t open) {
     const std::size_t second = argument_end(open + 1);
     ArmHint hint;
@@ -152,6 +182,7 @@ class UrReader {
 
   /// Makes a target of the literal at `begin`, unless it is one already.
   void add(std::size_t begin, const std::string& name, Numbers numbers, const ArmHint& hint) {
+    uses_at_[begin].push_back(use_);
     if (!seen_.insert(begin).second) return;
     constexpr CellUnit kMetre{1.0, kDecimalsM}, kRadian{1.0, kDecimalsRad};
     constexpr std::array<CellUnit, 6> kPose{kMetre, kMetre, kMetre, kRadian, kRadian, kRadian};
@@ -176,6 +207,7 @@ class UrReader {
     } else {
       target.joints = *cells;
     }
+    literal_of_[target.begin()] = begin;
     program_.targets.push_back(std::move(target));
   }
 
@@ -184,7 +216,12 @@ class UrReader {
   const Chain& arm_;
   Program program_;
   std::map<std::string, std::vector<std::size_t>> assigned_;
+  std::set<std::string> computed_;  ///< variables that are given something else, too
   std::set<std::size_t> seen_;
+  std::optional<KnownFrame> tool_;
+  TargetUse use_;                                          ///< the motion that is being read
+  std::map<std::size_t, std::vector<TargetUse>> uses_at_;  ///< of every literal
+  std::map<std::size_t, std::size_t> literal_of_;          ///< the literal of a target, by its first number
 };
 
 }  // namespace

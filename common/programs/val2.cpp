@@ -5,6 +5,7 @@
 
 #include "data/lower_case.hpp"
 #include "programs/read_program.hpp"
+#include "programs/val2_frames.hpp"
 
 namespace demecal {
 namespace {
@@ -42,6 +43,7 @@ class Val2Reader {
       begin = end + 1;
     }
     finish();
+    frames_.complete(program_);
     return std::move(program_);
   }
 
@@ -54,7 +56,8 @@ class Val2Reader {
       in_locations_ = lower_case(line.substr(0, line.find_first_of(" \t"))) == ".locations";
       return;
     }
-    if (!in_locations_ || line.empty()) return;
+    if (!in_locations_) return frames_.read_line(text_, begin, end);
+    if (line.empty()) return;
     if (line.front() == '#' || text_.begins_word(begin)) begin = read_name(begin, end);
     read_numbers(begin, end);
   }
@@ -146,6 +149,7 @@ class Val2Reader {
   Program program_;
   bool in_locations_ = false, open_ = false;
   Location location_{};
+  Val2Frames frames_;
 };
 
 }  // namespace

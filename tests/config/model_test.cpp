@@ -7,6 +7,7 @@
 
 #include "config/model_text.hpp"
 #include "effects/random_effects.hpp"
+#include "fitting/fit.hpp"
 #include "temporary_folder.hpp"
 
 namespace demecal {
@@ -107,6 +108,36 @@ TEST(ModelFile, WithoutKnownCoefficientsReadsThemAsZero) {
   CalibratedModel model = random_model(stream);
   model.robot.effects = {{.kind = "eccentricity", .joint = 4, .settings = {{"order", 2.0}}}};
   EXPECT_EQ(written_and_read(model).robot.effects[0].values, (std::vector<double>{0.0, 0.0}));
+}
+
+TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
+  RandomStream stream{999};
+  CalibratedModel model = random_model(stream);
+  model.robot.effects = {{.kind = "backlash", .joint = 1, .values = {1e-4}}};
+  EXPECT_FALSE(written_and_read(model).posterior);
+  EXPECT_TRUE(written_and_read(model).measured.empty());
+  Posterior posterior;
+  posterior.ids = effect_parameters(model.robot);
+  posterior.ids.push_back({.kind = ParameterId::Kind::link, .index = 3, .link = LinkParameter::beta});
+  posterior.ids.push_back({.kind = ParameterId::Kind::tool_rotation, .index = 2, .target = "B"});
+  posterior.terms = {{1, {wave(1.0, 2.0, 0.3), {}, {-0.5, 0.75}}}};
+  posterior.factor = Eigen::MatrixXd::Zero(4, 4);
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    for (Eigen::Index column = 0; column <= row; ++column) posterior.factor(row, column) = stream.normal() * 1e-4;
+  }
+  model.posterior = posterior;
+  for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
+  const CalibratedModel read = written_and_read(model);
+  ASSERT_TRUE(read.posterior);
+  EXPECT_EQ(read.posterior->ids, posterior.ids);
+  ASSERT_EQ(read.posterior->terms.size(), 1u);
+  EXPECT_EQ(read.posterior->terms[0].joint, 1);
+  EXPECT_DOUBLE_EQ(read.posterior->terms[0].shape(0.6), posterior.terms[0].shape(0.6));
+  EXPECT_LT((read.posterior->factor - posterior.factor).cwiseAbs().maxCoeff(), 1e-8);
+  for (std::size_t joint = 0; joint < 6; ++joint) {
+    EXPECT_EQ(read.measured[joint].lower, model.measured[joint].lower);
+    EXPECT_EQ(read.measured[joint].upper, model.measured[joint].upper);
+  }
 }
 
 /// Two joints with formulas of one structure, which is a shared function.

@@ -27,14 +27,17 @@ class Applied {
     EXPECT_EQ(ended.code, 0) << ended.err;
   }
 
-  Ended apply(const std::string& program, const std::string& text, std::vector<std::string> more = {}) {
+  Ended apply(const std::string& program, const std::string& text, std::vector<std::string> more = {},
+              const std::string& out = "") {
     std::ofstream(job_.path(program), std::ios::binary) << text;
     std::vector<std::string> arguments{"apply", job_.path("out/model.yaml"), job_.path(program), "--out",
-                                       job_.path("new-" + program)};
+                                       job_.path(out.empty() ? "new-" + program : out)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run("demecal", arguments);
   }
 
+  std::string path(const std::string& name) const { return job_.path(name); }
+  std::string text(const std::string& name) const { return job_.text(name); }
   std::string result(const std::string& program) const { return job_.text("new-" + program); }
   bool wrote(const std::string& program) const { return std::filesystem::exists(job_.path("new-" + program)); }
 
@@ -42,14 +45,35 @@ class Applied {
   SmallJob job_;
 };
 
+TEST(Apply, NeverOverwritesTheProgramNorFilesThatAreNotOurs) {
+  Applied applied;
+  const Ended itself = applied.apply("a.csv", kCsv, {}, "a.csv");
+  EXPECT_EQ(itself.code, 10);
+  EXPECT_NE(itself.err.find("is the program itself"), std::string::npos) << itself.err;
+  std::filesystem::create_symlink(applied.path("a.csv"), applied.path("link.csv"));
+  std::filesystem::create_hard_link(applied.path("a.csv"), applied.path("hard.csv"));
+  EXPECT_EQ(applied.apply("a.csv", kCsv, {}, "link.csv").code, 10);
+  EXPECT_EQ(applied.apply("a.csv", kCsv, {"--force"}, "hard.csv").code, 10);
+  EXPECT_EQ(applied.text("a.csv"), kCsv);
+  std::ofstream(applied.path("other.csv"), std::ios::binary) << "something else\n";
+  const Ended other = applied.apply("a.csv", kCsv, {}, "other.csv");
+  EXPECT_EQ(other.code, 10);
+  EXPECT_NE(other.err.find("--force"), std::string::npos) << other.err;
+  EXPECT_EQ(applied.text("other.csv"), "something else\n");
+  EXPECT_EQ(applied.apply("a.csv", kCsv, {"--force"}, "other.csv").code, 0);
+  EXPECT_TRUE(applied.text("other.csv").starts_with("# corrected by demecal "));
+}
+
 TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
   Applied applied;
   const Ended val2 = applied.apply("a.v2", kVal2);
   ASSERT_EQ(val2.code, 0) << val2.err;
-  EXPECT_NE(val2.out.find("3 targets corrected"), std::string::npos) << val2.out;
+  EXPECT_NE(val2.out.find("2 targets corrected"), std::string::npos) << val2.out;
   const std::string corrected = applied.result("a.v2");
-  const std::string before_numbers = std::string(kVal2).substr(0, std::string(kVal2).find("40.0"));
-  EXPECT_TRUE(corrected.starts_with(before_numbers)) << corrected;
+  EXPECT_NE(val2.err.find("a.v2:7: mcp[1]: the arm's configuration is not known"), std::string::npos) << val2.err;
+  EXPECT_TRUE(corrected.starts_with(".PROGRAM t1\r\n; corrected by demecal ")) << corrected;
+  const std::string kept(" MOVE #cp[1]\r\n.END\r\n.LOCATIONS\r\n#cp[1] ");
+  EXPECT_NE(corrected.find(kept), std::string::npos) << corrected;
   EXPECT_NE(corrected, kVal2);
   EXPECT_NE(corrected.find("\r\nmcp[1] 16384 0 0 0 -16384 0 0 0 -16384 "), std::string::npos) << corrected;
   EXPECT_TRUE(corrected.ends_with("\r\n.END"));
@@ -74,6 +98,14 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
   EXPECT_NE(strict.err.find("e.v2:2: #cp[1]: joint 1 is sent to 350.0000 deg, outside its limits"), std::string::npos)
       << strict.err;
   EXPECT_FALSE(applied.wrote("e.v2"));
+
+  const Ended again = applied.apply("new-a.v2", corrected);
+  EXPECT_EQ(again.code, 11);
+  EXPECT_NE(again.err.find("new-a.v2:2: "), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("was corrected already"), std::string::npos) << again.err;
+  EXPECT_EQ(applied.apply("a.v2", kVal2, {"--near", "40,-30.5,140,5,-50,10.25"}).code, 0)
+      << "ours may be written again";
+  EXPECT_EQ(applied.apply("a.v2", kVal2, {"--near", "40,-30.5"}).code, 10);
 
   EXPECT_EQ(applied.apply("f.v2", kVal2, {"--language", "logo"}).code, 10);
   EXPECT_EQ(applied.apply("g.txt", "hello\n").code, 11);

@@ -5,6 +5,8 @@
 
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
+#include "programs/mark.hpp"
+#include "programs/target_correction.hpp"
 #include "written_program.hpp"
 
 namespace demecal {
@@ -74,6 +76,54 @@ TEST(Readers, EndWithAProgramOrASentence) {
       } catch (const InputError&) {
         ++refused;
       }
+    }
+  }
+  EXPECT_GT(read, 200);
+  EXPECT_GT(refused, 200);
+}
+
+/// Programs that state tools, frames and configurations in every way that is read.
+const std::vector<std::pair<Language, std::string>>& stating_programs() {
+  static const std::vector<std::pair<Language, std::string>> programs{
+      {Language::val2,
+       ".PROGRAM a\n 10 TOOL t\n BASE 100,,-50,30\n MOVE p\n.END\n.LOCATIONS\n"
+       "t 1 0 0 0 1 0 0 0 1 0 0 150\np 1 0 0 0 1 0 0 0 1 10 20 30\n.END\n"},
+      {Language::krl,
+       "&ACCESS RVP\nDEF a()\nTOOL_DATA[1]={X 1,Y 2,Z 3,A 4,B 5,C 6}\nBASE_DATA[2]={X 1,Y 2,Z 3,A 4,B 5,C 6}\n"
+       "DECL FDAT FP1={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \"}\nFDAT_ACT=FP1\nBAS(#TOOL,1)\n"
+       "$BASE=BASE_DATA[2]\n$TOOL={X 1,Y 2,Z 3,A 4,B 5,C 6}\n$BASE.X=3\n$TOOL=$NULLFRAME\n"
+       "DECL E6POS XP1={X 10,Y 0,Z 0,A 0,B 0,C 0,S 2,T 2}\nLIN XP1 C_DIS\nPTP {E6POS: X 1,Y 2,Z 3,A 4,B 5,C 6}\nEND\n"},
+      {Language::rapid,
+       "MODULE m\nPERS tooldata g:=[TRUE,[[0,0,150],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+       "PERS wobjdata w:=[FALSE,TRUE,\"\",[[500,0,0],[1,0,0,0]],[[0,0,10],[1,0,0,0]]];\nw.uframe:=f;\n"
+       "CONST robtarget p{1}:=[[[100,200,300],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]];\n"
+       "MoveC p{1},Offs(p{1},0,0,5),v100,fine,g\\WObj:=w;\nMoveJ p{1},v9,fine,tool0;\nENDMODULE\n"},
+      {Language::urscript,
+       "def a():\n t=p[0,0,0.3,0,0,0]\n q=p[0.1,0.2,0.3,0,0,0]\n set_tcp(t)\n movej(get_inverse_kin(q, "
+       "qnear=[0,0,0,0,0,0]))\n"
+       " set_tcp(p[0,0,0,0,0,0])\n movel(q)\nend\n"}};
+  return programs;
+}
+
+TEST(Readers, EndWithFramesOrASentence) {
+  RandomStream stream{7403};
+  const Chain arm = wrist_arm();
+  int read = 0, refused = 0;
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    for (const auto& [language, whole] : stating_programs()) {
+      const std::string text = disturbed(stream, whole);
+      try {
+        const Program program = read_program(language, text, "p", arm);
+        expect_sound(program, text);
+        for (const Target& target : program.targets) {
+          if (!target.is_pose()) continue;
+          EXPECT_TRUE(stated_tool_pose(target).matrix().allFinite()) << text;
+        }
+        ++read;
+      } catch (const InputError&) {
+        ++refused;
+      }
+      marked_line(with_mark(text, language, "corrected by demecal"));
     }
   }
   EXPECT_GT(read, 200);

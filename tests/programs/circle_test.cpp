@@ -76,7 +76,7 @@ Circle circle_of(RandomStream& stream, const CommandModel& model, Language langu
   const std::string text = written(language, of_poses, kTargets, line, "\n");
   Program program = read_program(language, text, "p", model.nominal.chain);
   const Run before = run_on(model, program, meant);
-  const CorrectedProgram corrected = correct_program(text, std::move(program), model, {});
+  const CorrectedProgram corrected = correct_program(text, std::move(program), model, {.near = meant.front()});
   for (std::size_t i = 0; i < meant.size(); ++i) {
     EXPECT_EQ(corrected.targets[i].outcome, Correctedness::corrected);
     EXPECT_LT((meant[i] - corrected.targets[i].nominal).norm(), 1e-2);

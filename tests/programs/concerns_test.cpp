@@ -5,6 +5,7 @@
 #include "corrected_arm.hpp"
 #include "kinematics/units.hpp"
 #include "programs/concerns.hpp"
+#include "programs/nominal_joints.hpp"
 #include "programs/summary.hpp"
 #include "written_program.hpp"
 
@@ -69,7 +70,10 @@ TEST(Concerns, NameACorrectionLargerThanStated) {
 TEST(Concerns, NamePosesOutOfReachAndLeaveThem) {
   const CommandModel model = wave_model(2e-3);
   const std::string text = "movel(p[9, 0, 0, 0, 0, 0])\nmovel(p[0.5, 0.4, 0.2, 0, 0, 0])";
-  const CorrectedProgram corrected = correct_program(text, read_urscript(text, "p", model.nominal.chain), model, {});
+  const Eigen::Isometry3d second(Eigen::Translation3d(0.5, 0.4, 0.2));
+  const JointVector near = *nominal_joints(model.nominal.chain, second, {}, JointVector::Zero(6));
+  const CorrectedProgram corrected =
+      correct_program(text, read_urscript(text, "p", model.nominal.chain), model, {.near = near});
   ASSERT_FALSE(corrected.warnings.empty());
   EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("does not reach the pose"));
   EXPECT_EQ(corrected.text.substr(0, 27), text.substr(0, 27));

@@ -115,7 +115,7 @@ inline std::string pose_line(Language language, const Eigen::Isometry3d& pose, c
     }
     case Language::rapid:
       return "MoveL [[" + listed(point, decimals) + "],[" + listed(wxyz(pose), decimals) + "],[" +
-             configuration(joints) + "],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]],v200,fine,tool0;";
+             configuration(joints) + "],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]],v200,fine,t_test;";
     case Language::urscript: {
       const Eigen::Vector3d turn = vector_of(pose.linear());
       return "movel(p[" + listed({pose.translation().data(), 3}, decimals) + ", " + listed({turn.data(), 3}, decimals) +
@@ -125,7 +125,7 @@ inline std::string pose_line(Language language, const Eigen::Isometry3d& pose, c
   return "";
 }
 
-/// What stands before and behind the targets.
+/// What stands before and behind the targets: languages that state tools state that of elbow_arm().
 inline std::string opening(Language language, bool of_poses) {
   switch (language) {
     case Language::val2:
@@ -136,9 +136,10 @@ inline std::string opening(Language language, bool of_poses) {
     case Language::krl:
       return "&ACCESS RVP\nDEFDAT points ; {A1 1, A2 2}\n$BASE={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\n";
     case Language::rapid:
-      return "%%%\n VERSION:1\n%%%\nMODULE m ! [[1,2,3],[1,0,0,0]]\n";
+      return "%%%\n VERSION:1\n%%%\nMODULE m ! [[1,2,3],[1,0,0,0]]\n"
+             " PERS tooldata t_test:=[TRUE,[[150,2,56],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
     case Language::urscript:
-      return "def prog(): # movej([1,2,3,4,5,6])\n  set_tcp(p[0.0,0.0,0.1,0.0,0.0,0.0])\n";
+      return "def prog(): # movej([1,2,3,4,5,6])\n  set_tcp(p[0.15,0.002,0.056,0.0,0.0,0.0])\n";
   }
   return "";
 }

@@ -1,0 +1,130 @@
+#include "calibration/model_posterior.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/final_fit.hpp"
+#include "fitting/scatter.hpp"
+
+namespace demecal {
+namespace {
+
+using Kind = ParameterId::Kind;
+
+bool is_of_base(const ParameterId& id) {
+  return id.kind == Kind::base_translation || id.kind == Kind::base_rotation;
+}
+
+bool is_of_tool(const ParameterId& id) {
+  return id.kind == Kind::tool_translation || id.kind == Kind::tool_rotation;
+}
+
+/// The poses that the model's numbers come from.
+std::vector<std::size_t> fitted_poses(const DataSet& data, const Calibration& calibration) {
+  return calibration.unseen ? poses_of_last_fit(data) : poses_of(data, PoseSet::calibration);
+}
+
+/// How the residuals scatter; orientations of a target that is mounted otherwise than its tool do not count.
+RowScales scatter_of(const DataSet& data, const CorrectedRobot& robot, const std::vector<Observation>& observations) {
+  constexpr double kMountedOtherwise_rad = 0.1, kSmallest = 1e-9;
+  RowScales scales = median_deviations(data, robot, observations);
+  for (double& scale : scales) scale = scale > 0.0 ? std::max(scale, kSmallest) : scale;
+  if (root_mean_squares(data, robot, observations)[kOrientation] > kMountedOtherwise_rad) scales[kOrientation] = 0.0;
+  return scales;
+}
+
+/// The variance of rows of unit scale, by what they leave; larger where few are left to tell it by (Student).
+double row_variance(const Projection& projection) {
+  constexpr double kFewest = 3.0;
+  const double freedom = std::max(projection.freedom(), kFewest);
+  return std::max(1.0, projection.squares() / freedom) * freedom / std::max(1.0, freedom - 2.0);
+}
+
+/// Adds what base and tool could share out between them unseen: nothing is believed of either, so that least squares
+/// holds one of them fast.
+void widen(const Linearised& at, Eigen::MatrixXd& covariance) {
+  constexpr double kUnseen = 1e-9, kTool_m = 1e-2, kTool_rad = 0.1, kBase = 10.0;
+  std::vector<Eigen::Index> places;
+  std::vector<double> usual;
+  for (std::size_t i = 0; i < at.ids.size(); ++i) {
+    const ParameterId& id = at.ids[i];
+    if (!is_of_base(id) && !is_of_tool(id)) continue;
+    places.push_back(static_cast<Eigen::Index>(i));
+    usual.push_back(is_of_base(id) ? kBase : id.is_angle() ? kTool_rad : kTool_m);
+  }
+  if (places.empty()) return;
+  const Eigen::VectorXd unit = Eigen::Map<const Eigen::VectorXd>(usual.data(), std::ssize(usual));
+  const Eigen::MatrixXd columns = at.fitted.declared(Eigen::all, places) * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
+  const double largest = eigen.eigenvalues().maxCoeff();
+  for (Eigen::Index k = 0; k < unit.size(); ++k) {
+    if (eigen.eigenvalues()[k] > kUnseen * largest) continue;
+    const Eigen::VectorXd unseen = unit.asDiagonal() * eigen.eigenvectors().col(k);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t j = 0; j < places.size(); ++j) {
+        covariance(places[i], places[j]) += unseen[static_cast<Eigen::Index>(i)] * unseen[static_cast<Eigen::Index>(j)];
+      }
+    }
+  }
+}
+
+/// The rows `kept` of a triangular matrix whose product with its transpose is the covariance.
+Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& covariance) {
+  if (covariance.rows() == 0) return covariance;
+  const Eigen::VectorXd deviations = covariance.diagonal().cwiseMax(1e-40).cwiseSqrt();
+  const Eigen::MatrixXd correlation =
+      deviations.cwiseInverse().asDiagonal() * covariance * deviations.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+  const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(root.transpose());
+  const Eigen::MatrixXd upper = qr.matrixQR().triangularView<Eigen::Upper>();
+  return deviations.asDiagonal() * upper.transpose();
+}
+
+}  // namespace
+
+Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
+  constexpr double kLeastTerm = 1e-7;  ///< rad
+  const std::vector<std::size_t> poses = fitted_poses(data, calibration);
+  const CorrectedRobot& robot = calibration.robot;
+  DiagnosedModel model{robot, smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset),
+                       scatter_of(data, robot, observe(data, poses, robot))};
+  const Linearised at = linearise({data, declared, poses, {}}, model);
+  Eigen::MatrixXd covariance = row_variance(at.projection) * at.covariance;
+  widen(at, covariance);
+  Posterior posterior;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < at.ids.size(); ++i) {
+    if (is_of_base(at.ids[i])) continue;
+    posterior.ids.push_back(at.ids[i]);
+    kept.push_back(static_cast<Eigen::Index>(i));
+  }
+  for (std::size_t i = 0; i < model.smooth.terms.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(at.ids.size() + i);
+    if (!(covariance(row, row) > kLeastTerm * kLeastTerm)) continue;
+    const SmoothTerm& term = model.smooth.terms[i];
+    const auto joint = static_cast<std::size_t>(term.joint);
+    posterior.terms.push_back({term.joint, {term.formula, model.smooth.branches[joint], model.smooth.ranges[joint]}});
+    kept.push_back(row);
+  }
+  posterior.factor = triangular_root(covariance(kept, kept));
+  return posterior;
+}
+
+std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration) {
+  std::vector<Interval> ranges;
+  for (const std::size_t pose : fitted_poses(data, calibration)) {
+    const JointVector& joints = data.poses[pose].joints;
+    for (int joint = 0; joint < joints.size(); ++joint) {
+      if (std::ssize(ranges) == joint) ranges.push_back({joints[joint], joints[joint]});
+      Interval& range = ranges[static_cast<std::size_t>(joint)];
+      range.lower = std::min(range.lower, joints[joint]);
+      range.upper = std::max(range.upper, joints[joint]);
+    }
+  }
+  return ranges;
+}
+
+}  // namespace demecal

@@ -1,0 +1,157 @@
+#include "programs/target_correction.hpp"
+
+#include <cmath>
+
+#include "kinematics/rotation_vector.hpp"
+#include "kinematics/units.hpp"
+#include "programs/amounts.hpp"
+#include "programs/determined_part.hpp"
+#include "programs/nearby_command.hpp"
+#include "programs/nominal_joints.hpp"
+#include "programs/orientation.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kExact = 1e-9;                ///< m
+constexpr double kPositionWorthSaying = 5e-5;  ///< m
+constexpr double kTurnWorthSaying = 3.5e-4;    ///< rad: 0.02 deg
+
+std::vector<double> inside(const std::vector<Cell>& cells) {
+  std::vector<double> values;
+  for (const Cell& cell : cells) values.push_back(cell.inside());
+  return values;
+}
+
+/// The tool's axes on the flange, as the program has them.
+Eigen::Matrix3d tool_axes(const Target& target) {
+  if (!target.frames.tool) return Eigen::Matrix3d::Identity();
+  return target.frames.tool->linear();
+}
+
+/// "z of the flange", or the direction's numbers where it is near to no axis.
+std::string axis_name(const Eigen::Vector3d& direction, const Eigen::Matrix3d& flange) {
+  constexpr double kAlong = 0.97;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string letter(1, static_cast<char>('X' + axis));
+    if (std::abs(direction[axis]) > kAlong) return letter + " of the base frame";
+    if (std::abs(direction.dot(flange.col(axis))) > kAlong) return letter + " of the flange";
+  }
+  return "(" + fixed_text(direction.x(), 2) + ", " + fixed_text(direction.y(), 2) + ", " +
+         fixed_text(direction.z(), 2) + ") of the base frame";
+}
+
+std::string left_sentence(const std::string& what, const DeterminedPart& part, const std::string& deviation,
+                          const Eigen::Matrix3d& flange) {
+  return what + axis_name(part.left, flange) + " is not determined by the calibration (standard deviation " +
+         deviation + "): left as programmed";
+}
+
+/// Where the model's tool is to go: the nominal pose, as far as the correction to it is determined.
+Eigen::Isometry3d goal_of(const Target& target, const CommandModel& model, CorrectedTarget& corrected) {
+  if (!model.posterior) return corrected.nominal_tool;
+  Eigen::Isometry3d goal = model.robot.predict(corrected.stop, "");
+  const PoseError correction = pose_error(goal, corrected.nominal_tool);
+  const PoseCovariance covariance = pose_covariance(*model.posterior, model.robot, corrected.stop);
+  const DeterminedPart position =
+      determined_part(correction.head<3>(), covariance.topLeftCorner<3, 3>(), kPositionWorthSaying);
+  const DeterminedPart turn =
+      determined_part(correction.tail<3>(), covariance.bottomRightCorner<3, 3>(), kTurnWorthSaying);
+  const Eigen::Matrix3d& flange = corrected.nominal_tool.linear();
+  if (position.deviation > 0.0) {
+    const std::string deviation = fixed_text(millimetres(position.deviation), 2) + " mm";
+    corrected.remarks.push_back(left_sentence("position along ", position, deviation, flange));
+  }
+  if (turn.deviation > 0.0 && !(target.is_pose() && keeps_orientation(target))) {
+    const std::string deviation = fixed_text(degrees(turn.deviation), 3) + " deg";
+    corrected.notes.push_back(left_sentence("orientation about ", turn, deviation, flange));
+  }
+  goal.translation() += position.applied;
+  goal.linear() = (rotation_of(turn.applied) * goal.linear()).eval();
+  return goal;
+}
+
+/// Where the orientation is kept, moves the position until the model predicts the tool point at the goal's.
+void settle_position(const Target& target, const CommandModel& model, const Eigen::Vector3d& goal_m,
+                     CorrectedTarget& corrected) {
+  constexpr int kMostRepetitions = 10;
+  constexpr double kLargestMotion = 0.05;  ///< rad or m
+  if (!keeps_orientation(target) || corrected.command == corrected.nominal) return;
+  Eigen::Isometry3d tool(corrected.nominal_tool.linear());
+  tool.translation() = corrected.command_tool.translation();
+  JointVector joints = corrected.command;
+  for (int repetition = 0; repetition < kMostRepetitions; ++repetition) {
+    const auto solved = nominal_joints(model.nominal.chain, tool, {.near = joints}, joints);
+    if (!solved || (*solved - corrected.nominal).cwiseAbs().maxCoeff() > kLargestMotion) return;
+    joints = *solved;
+    const Eigen::Vector3d error = goal_m - model.robot.predict(corrected.stop.with_joints(joints), "").translation();
+    const bool first = repetition == 0;
+    if (first || error.norm() <= corrected.left_m) {
+      corrected.command = joints;
+      corrected.command_tool = tool;
+      corrected.left_m = error.norm();
+    }
+    if (error.norm() < kExact) {
+      corrected.outcome = Correctedness::corrected;
+      return;
+    }
+    tool.translation() += error;
+  }
+}
+
+}  // namespace
+
+bool keeps_orientation(const Target& target) {
+  return target.form == OrientationForm::columns || target.form == OrientationForm::unknown;
+}
+
+Eigen::Vector3d stated_point(const Target& target) {
+  return target.frames.base_from_frame *
+         Eigen::Vector3d(target.position[0].inside(), target.position[1].inside(), target.position[2].inside());
+}
+
+Eigen::Isometry3d stated_tool_pose(const Target& target) {
+  Eigen::Isometry3d tool(target.frames.base_from_frame.linear() *
+                         rotation_from(target.form, inside(target.orientation)) * tool_axes(target).transpose());
+  tool.translation() = stated_point(target);
+  return tool;
+}
+
+CorrectedTarget corrected_at(const Target& target, const CommandModel& model, const Stop& stop) {
+  CorrectedTarget corrected;
+  corrected.stop = stop;
+  corrected.nominal = stop.joints;
+  corrected.nominal_tool = model.nominal_tool(stop.joints);
+  const Eigen::Isometry3d goal = corrected.goal = goal_of(target, model, corrected);
+  const InverseSolution solution = nearby_command(model.robot, goal, stop);
+  corrected.inverse = corrected.command = solution.q;
+  corrected.outcome = solution.status == InverseStatus::converged ? Correctedness::corrected : Correctedness::nearest;
+  corrected.left_m = solution.position_residual_m;
+  corrected.left_rad = solution.orientation_residual_rad;
+  corrected.command_tool = model.nominal_tool(corrected.command);
+  if (target.is_pose()) settle_position(target, model, goal.translation(), corrected);
+  return corrected;
+}
+
+std::vector<std::string> texts_of(const Target& target, const CorrectedTarget& corrected) {
+  std::vector<std::string> texts;
+  const bool changed = !corrected.is_left() && corrected.command != corrected.nominal;
+  const auto add = [&](const Cell& cell, double value) {
+    texts.push_back(changed ? rewritten(cell, value).value_or("") : "");
+  };
+  if (corrected.is_left()) return texts;
+  for (std::size_t i = 0; i < target.joints.size(); ++i) {
+    add(target.joints[i], corrected.command[static_cast<Eigen::Index>(i)]);
+  }
+  const Eigen::Isometry3d in_frame = target.frames.base_from_frame.inverse() * corrected.command_tool;
+  for (std::size_t i = 0; i < target.position.size(); ++i) {
+    add(target.position[i], in_frame.translation()[static_cast<Eigen::Index>(i)]);
+  }
+  if (keeps_orientation(target)) return texts;
+  const std::vector<double> numbers =
+      numbers_of(in_frame.linear() * tool_axes(target), target.form, inside(target.orientation));
+  for (std::size_t i = 0; i < numbers.size(); ++i) add(target.orientation[i], numbers[i]);
+  return texts;
+}
+
+}  // namespace demecal

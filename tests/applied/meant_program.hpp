@@ -1,0 +1,215 @@
+// Programs written for a simulated controller, which knows in what joints it reaches every target.
+#pragma once
+
+#include <sstream>
+
+#include "calibrated_cell.hpp"
+#include "kinematics/rotation_vector.hpp"
+#include "kinematics/units.hpp"
+#include "programs/branches.hpp"
+#include "programs/read_program.hpp"
+
+namespace demecal {
+
+/// A program, and for each of its targets, in the order of the text, the joints that its controller would take.
+struct MeantProgram {
+  Language language = Language::csv;
+  std::string text;
+  std::vector<JointVector> joints;
+  JointVector near{};             ///< that the user gives; empty: none
+  Eigen::Isometry3d tool, frame;  ///< as stated, or the described tool and the base
+  bool states_tool = false, states_frame = false;
+  bool ordinary = true;  ///< its configuration is stated, all is in the measured range and away from singular joints
+};
+
+inline std::string numbers_text(std::span<const double> values, const std::string& separator = ", ") {
+  std::ostringstream text;
+  text.precision(9);
+  text << std::fixed;
+  for (std::size_t i = 0; i < values.size(); ++i) text << (i > 0 ? separator : "") << values[i];
+  return text.str();
+}
+
+inline std::string named_numbers(const std::vector<std::string>& names, const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i > 0 ? "," : "") + names[i] + ' ' + numbers_text({&values[i], 1});
+  }
+  return text;
+}
+
+inline std::vector<double> joint_degrees(const JointVector& joints) {
+  std::vector<double> values;
+  for (const double angle : joints) values.push_back(degrees(angle));
+  return values;
+}
+
+inline std::vector<double> millimetre_numbers(const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d point = 1e3 * pose.translation();
+  return {point.x(), point.y(), point.z()};
+}
+
+inline std::vector<double> quaternion_numbers(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond turn(pose.linear());
+  return {turn.w(), turn.x(), turn.y(), turn.z()};
+}
+
+inline std::vector<double> abc_numbers(const Eigen::Isometry3d& pose) {
+  const Eigen::Matrix3d& r = pose.linear();
+  return {degrees(std::atan2(r(1, 0), r(0, 0))), degrees(std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)))),
+          degrees(std::atan2(r(2, 1), r(2, 2)))};
+}
+
+inline std::string krl_pose(const Eigen::Isometry3d& pose) {
+  std::vector<double> values = millimetre_numbers(pose);
+  const std::vector<double> angles = abc_numbers(pose);
+  values.insert(values.end(), angles.begin(), angles.end());
+  return named_numbers({"X", "Y", "Z", "A", "B", "C"}, values);
+}
+
+inline std::string rapid_pose(const Eigen::Isometry3d& pose) {
+  return "[" + numbers_text(millimetre_numbers(pose)) + "],[" + numbers_text(quaternion_numbers(pose)) + "]";
+}
+
+inline std::string ur_pose(const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d turn = vector_of(pose.linear());
+  return "p[" + numbers_text({pose.translation().data(), 3}) + ", " + numbers_text({turn.data(), 3}) + "]";
+}
+
+inline std::string turn_bits(const JointVector& joints) {
+  int bits = 0;
+  for (int joint = 0; joint < 6; ++joint) bits |= joints[joint] < 0.0 ? 1 << joint : 0;
+  return std::to_string(bits);
+}
+
+inline std::string quadrants_text(const JointVector& joints) {
+  std::string text = "[";
+  for (const int joint : {0, 3, 5})
+    text += std::to_string(static_cast<int>(std::floor(joints[joint] / 1.5707963268))) + ",";
+  return text + "0]";
+}
+
+/// Writes one motion after another.
+class ProgramWriter {
+ public:
+  ProgramWriter(Language language, const CalibratedCell& cell) : cell_(cell) {
+    meant.language = language;
+    meant.tool = Eigen::Isometry3d(Eigen::Translation3d(cell.nominal.chain.tool_m));
+    meant.frame.setIdentity();
+  }
+
+  /// The pose that the program writes for the tool at nominal joints.
+  Eigen::Isometry3d written_pose(const JointVector& joints) const {
+    return meant.frame.inverse() * forward(cell_.nominal.chain, joints) * meant.tool;
+  }
+
+  void open() {
+    switch (meant.language) {
+      case Language::val2:
+        text_ << ".PROGRAM t\n";
+        if (meant.states_tool) text_ << " TOOL t1\n";
+        text_ << ".END\n.LOCATIONS\n";
+        if (meant.states_tool) text_ << "t1 " << val2_pose(meant.tool) << "\n";
+        break;
+      case Language::krl:
+        text_ << "DEF t()\n";
+        if (meant.states_tool) text_ << "$TOOL={" << krl_pose(meant.tool) << "}\n";
+        if (meant.states_frame) text_ << "$BASE={" << krl_pose(meant.frame) << "}\n";
+        break;
+      case Language::rapid:
+        text_ << "MODULE m\n PERS tooldata t1:=[TRUE,[" << rapid_pose(meant.tool)
+              << "],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
+        text_ << " PERS wobjdata w1:=[FALSE,TRUE,\"\",[" << rapid_pose(meant.frame) << "],[[0,0,0],[1,0,0,0]]];\n";
+        text_ << " PROC main()\n";
+        break;
+      case Language::urscript:
+        text_ << "def t():\n";
+        if (meant.states_tool) text_ << " set_tcp(" << ur_pose(meant.tool) << ")\n";
+        break;
+      case Language::csv:
+        break;
+    }
+  }
+
+  void joint_move(const JointVector& joints) {
+    const std::vector<double> angles = joint_degrees(joints);
+    const std::string number = std::to_string(meant.joints.size() + 1);
+    switch (meant.language) {
+      case Language::val2:
+        text_ << "#p[" << number << "] " << numbers_text(angles, " ") << '\n';
+        break;
+      case Language::csv:
+        csv_header("q", joints.size());
+        text_ << numbers_text(angles) << '\n';
+        break;
+      case Language::krl:
+        text_ << "PTP {" << named_numbers({"A1", "A2", "A3", "A4", "A5", "A6"}, angles) << "}\n";
+        break;
+      case Language::rapid:
+        text_ << "  MoveAbsJ [[" << numbers_text(angles) << "],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine," << tool_name()
+              << ";\n";
+        break;
+      case Language::urscript:
+        text_ << " movej([" << numbers_text({joints.data(), 6}) << "], a=1)\n";
+        break;
+    }
+    meant.joints.push_back(joints);
+  }
+
+  /// To a pose, along a line or not, its configuration stated where the language does.
+  void pose_move(const JointVector& joints, bool line) {
+    const Eigen::Isometry3d pose = written_pose(joints);
+    switch (meant.language) {
+      case Language::val2:
+        text_ << "p[" << meant.joints.size() + 1 << "] " << val2_pose(pose) << '\n';
+        break;
+      case Language::csv:
+        csv_header("x", 0);
+        text_ << numbers_text(millimetre_numbers(pose)) << ", " << numbers_text(quaternion_numbers(pose)) << '\n';
+        break;
+      case Language::krl:
+        text_ << (line ? "LIN" : "PTP") << " {E6POS: " << krl_pose(pose) << ",S 2,T " << turn_bits(joints) << "}\n";
+        break;
+      case Language::rapid:
+        text_ << (line ? "  MoveL [" : "  MoveJ [") << rapid_pose(pose) << "," << quadrants_text(joints)
+              << ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine," << tool_name() << (meant.states_frame ? "\\WObj:=w1" : "")
+              << ";\n";
+        break;
+      case Language::urscript:
+        text_ << (line ? " movel(" : " movej(") << ur_pose(pose) << ", a=1)\n";
+        break;
+    }
+    meant.joints.push_back(joints);
+  }
+
+  MeantProgram finished() {
+    if (meant.language == Language::val2) text_ << ".END\n";
+    if (meant.language == Language::krl) text_ << "END\n";
+    if (meant.language == Language::rapid) text_ << " ENDPROC\nENDMODULE\n";
+    if (meant.language == Language::urscript) text_ << "end\n";
+    meant.text = text_.str();
+    return meant;
+  }
+
+  MeantProgram meant;
+
+ private:
+  static std::string val2_pose(const Eigen::Isometry3d& pose) {
+    const Eigen::Matrix3d axes = pose.linear();
+    return numbers_text({axes.data(), 9}, " ") + ' ' + numbers_text(millimetre_numbers(pose), " ");
+  }
+
+  std::string tool_name() const { return "t1"; }
+
+  void csv_header(const std::string& kind, Eigen::Index joints) {
+    if (!meant.joints.empty()) return;
+    if (kind == "x") text_ << "x_mm,y_mm,z_mm,qw,qx,qy,qz\n";
+    for (Eigen::Index i = 0; i < joints; ++i) text_ << (i > 0 ? "," : "") << 'q' << i + 1 << "_deg";
+    if (kind == "q") text_ << '\n';
+  }
+
+  const CalibratedCell& cell_;
+  std::ostringstream text_;
+};
+
+}  // namespace demecal

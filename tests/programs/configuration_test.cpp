@@ -1,0 +1,97 @@
+// In which configuration a target is reached: what tells, and what is left where nothing does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corrected_arm.hpp"
+#include "kinematics/units.hpp"
+#include "programs/branches.hpp"
+#include "written_program.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Configured {
+  RandomStream stream{7506};
+  CommandModel model = erring_model(stream, elbow_arm(stream));
+  JointVector meant = [] {
+    JointVector joints(6);
+    joints << 0.4, -0.7, 0.5, 0.3, 0.9, -0.2;
+    return joints;
+  }();
+
+  std::string line(const JointVector& joints) const {
+    return pose_line(Language::urscript, model.nominal_tool(joints), joints, 1, 9) + "\n";
+  }
+  CorrectedProgram correct(const std::string& text, const JointVector& near = {}) const {
+    return correct_program(text, read_urscript(text, "p.script", model.nominal.chain), model, {.near = near});
+  }
+};
+
+TEST(Configuration, ThatNothingTellsLeavesTheLineAndStatesBothCorrections) {
+  const Configured of;
+  const std::string text = of.line(of.meant);
+  const CorrectedProgram corrected = of.correct(text);
+  EXPECT_EQ(corrected.text, text);
+  EXPECT_EQ(corrected.targets[0].from, JointsFrom::undetermined);
+  ASSERT_EQ(corrected.warnings.size(), 1u);
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("configuration is not known (joint"));
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("the corrections differ by"));
+}
+
+TEST(Configuration, ComesFromTheJointsBeforeOrFromTheUser) {
+  const Configured of;
+  const JointVector before = of.meant + JointVector::Constant(6, 0.05);
+  const CorrectedProgram moved = of.correct(joints_line(Language::urscript, before, 1, 9) + '\n' + of.line(of.meant));
+  EXPECT_EQ(moved.targets[1].from, JointsFrom::line);
+  EXPECT_LT((moved.targets[1].nominal - of.meant).norm(), 1e-6);
+  const CorrectedProgram named = of.correct(of.line(of.meant), before);
+  EXPECT_EQ(named.targets[0].from, JointsFrom::given);
+  EXPECT_LT((named.targets[0].nominal - of.meant).norm(), 1e-6);
+  EXPECT_TRUE(named.warnings.empty());
+}
+
+TEST(Configuration, IsKeptAlongAStraightLineHoweverNearAnotherIs) {
+  const Configured of;
+  RandomStream stream{7507};
+  int followed = 0;
+  for (int i = 0; i < 30; ++i) {
+    const JointVector from = regular_joints(stream, of.model.nominal.chain), to = from + random_change(stream, 6, 0.4);
+    const auto end = joints_after_line(of.model.nominal.chain, from, of.model.nominal_tool(to));
+    if (!end || (*end - to).norm() > 1e-6) continue;
+    ++followed;
+    const CorrectedProgram corrected = of.correct(joints_line(Language::urscript, from, 1, 9) + '\n' + of.line(to));
+    EXPECT_LT((corrected.targets[1].nominal - to).norm(), 1e-5);
+  }
+  EXPECT_GT(followed, 15);
+}
+
+TEST(Branches, AreAllThatAnElbowArmWithAWristHas) {
+  RandomStream stream{7508};
+  const Chain arm = elbow_arm(stream).chain;
+  JointVector joints(6);
+  joints << 0.4, -0.7, 0.5, 0.3, 0.9, -0.2;
+  const Eigen::Isometry3d tool = forward(arm, joints) * Eigen::Translation3d(arm.tool_m);
+  const std::vector<JointVector> all = joints_reaching(arm, tool, joints);
+  EXPECT_EQ(all.size(), 8u);
+  for (const JointVector& branch : all) {
+    EXPECT_TRUE((forward(arm, branch) * Eigen::Translation3d(arm.tool_m)).isApprox(tool, 1e-8));
+  }
+}
+
+TEST(SingularWrist, KeepsItsJoints) {
+  RandomStream stream{7509};
+  for (int i = 0; i < 10; ++i) {
+    const CommandModel model = erring_model(stream, elbow_arm(stream));
+    JointVector joints(6);
+    joints << 0.4, -0.7, 0.5, 0.0, stream.real(-1e-3, 1e-3), 0.0;
+    const std::string text = joints_line(Language::urscript, joints, 1, 9);
+    const CorrectedProgram corrected = correct_program(text, read_urscript(text, "p", model.nominal.chain), model, {});
+    EXPECT_LT((corrected.targets[0].command - joints).cwiseAbs().maxCoeff(), radians(3.0));
+    EXPECT_LT(corrected.targets[0].left_m, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace demecal
