@@ -52,9 +52,10 @@ CommandModel command_model_of(const CalibratedModel& model, const ApplyRequest& 
   return commands;
 }
 
-/// The joints of --near, rad and m.
-JointVector near_joints(const ApplyRequest& request, const Chain& arm) {
-  if (request.near.empty()) return {};
+/// The joints of --near, otherwise the robot's declared home, rad and m.
+JointVector near_joints(const ApplyRequest& request, const Robot& robot) {
+  const Chain& arm = robot.chain;
+  if (request.near.empty()) return robot.home;
   if (std::ssize(request.near) != arm.size()) {
     throw CLI::ValidationError("--near", std::to_string(request.near.size()) + " numbers; this arm has " +
                                              std::to_string(arm.size()) + " joints");
@@ -115,7 +116,7 @@ ExitCode run(const ApplyRequest& request) {
   CorrectedProgram corrected = correct_program(text, std::move(program), model,
                                                {.payload_kg = request.payload_kg,
                                                 .temperature_celsius = request.temperature_celsius,
-                                                .near = near_joints(request, model.nominal.chain),
+                                                .near = near_joints(request, model.nominal),
                                                 .tool_given = !request.tool_mm.empty()});
   for (const Remark& warning : corrected.warnings) fmt::print(stderr, "{}", warning_text(corrected, warning));
   const std::size_t warnings = corrected.warnings.size();
@@ -149,9 +150,9 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--strict", request->strict, "write nothing where there is a warning (exit code 11)");
   command->add_flag("--force", request->force, "overwrite a file that demecal did not write");
   command
-      ->add_option(
-          "--near", request->near,
-          "Q1,Q2,... joints (deg; mm where one slides) that the arm is near to where the program does not tell")
+      ->add_option("--near", request->near,
+                   "Q1,Q2,... joints (deg; mm where one slides) that the arm is near to where the program does not "
+                   "tell; without it the robot's home_deg")
       ->delimiter(',');
   command->add_flag("--json", request->json, "the summary as one line of JSON");
   command->add_option("--payload-kg", request->payload_kg, "what the tool carries, where the file does not say it")

@@ -93,17 +93,30 @@ Eigen::Vector3d read_gravity(const YamlNode& node) {
   return gravity_mps2;
 }
 
+JointVector read_home(const YamlNode& node, const Chain& chain) {
+  const std::vector<double> values = node.numbers();
+  if (std::ssize(values) != chain.size())
+    node.fail(std::to_string(values.size()) + " numbers", "the robot has " + std::to_string(chain.size()) + " joints");
+  JointVector home(chain.size());
+  for (Eigen::Index i = 0; i < home.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    home[i] = chain.joints[at].type == JointType::revolute ? radians(values[at]) : metres(values[at]);
+  }
+  return home;
+}
+
 }  // namespace
 
 Robot robot_from(const YamlNode& node) {
-  node.with_keys(
-      {"demecal_robot", "name", "convention", "joints", "tool_mm", "links", "gravity_mps2", "repeatability_mm"});
+  node.with_keys({"demecal_robot", "name", "convention", "joints", "tool_mm", "links", "gravity_mps2",
+                  "repeatability_mm", "home_deg"});
   Robot robot;
   robot.name = node.at("name").text();
   robot.chain = read_chain(node);
   if (const YamlNode* links = node.find("links")) robot.masses = read_masses(*links, robot.chain.joints.size());
   if (const YamlNode* gravity = node.find("gravity_mps2")) robot.gravity_mps2 = read_gravity(*gravity);
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
+  if (const YamlNode* home = node.find("home_deg")) robot.home = read_home(*home, robot.chain);
   return robot;
 }
 

@@ -19,6 +19,15 @@ std::string joint_text(const Joint& joint) {
   return text.str();
 }
 
+std::string home_text(const Robot& robot) {
+  std::string values;
+  for (Eigen::Index i = 0; i < robot.home.size(); ++i) {
+    const bool revolute = robot.chain.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
+    values += (i == 0 ? "" : ", ") + (revolute ? degrees_text(robot.home[i]) : millimetres_text(robot.home[i]));
+  }
+  return "[" + values + "]";
+}
+
 }  // namespace
 
 std::string robot_text(const Robot& robot, int indent) {
@@ -36,6 +45,7 @@ std::string robot_text(const Robot& robot, int indent) {
   }
   text << margin << "gravity_mps2: " << yaml_numbers({robot.gravity_mps2.data(), 3}) << '\n';
   if (robot.repeatability_m) text << margin << "repeatability_mm: " << millimetres_text(*robot.repeatability_m) << '\n';
+  if (robot.home.size() > 0) text << margin << "home_deg: " << home_text(robot) << '\n';
   return text.str();
 }
 

@@ -25,6 +25,7 @@ struct Robot {
   std::vector<LinkMass> masses;  ///< empty where unknown
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};
   std::optional<double> repeatability_m;
+  JointVector home{};  ///< rad, m: where programs start that do not say it; empty: not declared
 };
 
 struct DataSet {

@@ -45,6 +45,10 @@ Robot random_robot(RandomStream& random) {
   robot.chain.tool_m = {random.real(), random.real(), random.real()};
   robot.gravity_mps2 = {random.real(), random.real(), -9.5};
   robot.repeatability_m = random.real(0.0, 1e-3);
+  if (random.chance(0.5)) {
+    robot.home = JointVector::Zero(robot.chain.size());
+    for (double& value : robot.home) value = random.real(-1.0, 1.0);
+  }
   return robot;
 }
 
@@ -101,6 +105,8 @@ void expect_same_robot(const Robot& back, const Robot& robot) {
   expect_same_vector(back.chain.tool_m, robot.chain.tool_m);
   EXPECT_EQ(back.gravity_mps2, robot.gravity_mps2);
   expect_same(*back.repeatability_m, *robot.repeatability_m);
+  ASSERT_EQ(back.home.size(), robot.home.size());
+  if (robot.home.size() > 0) expect_same_vector(back.home, robot.home);
 }
 
 void expect_same_pose(const MeasuredPose& back, const MeasuredPose& pose) {
