@@ -9,8 +9,8 @@
 #define DEMECAL_FOR_EACH_VECTOR_UNIT
 #endif
 
-/// Stands before a loop whose steps depend on no other step, though the compiler cannot know that the columns are apart.
-/// The sanitizers' checks stand within such loops, where g++ would warn that it ignores what it was told.
+/// Stands before a loop whose steps depend on no other step, though the compiler cannot know that the columns are
+/// apart. The sanitizers' checks stand within such loops, where g++ would warn that it ignores what it was told.
 #if defined(__GNUC__) && !defined(__clang__) && !defined(DEMECAL_SANITIZED)
 #define DEMECAL_ROWS_APART _Pragma("GCC ivdep")
 #else
