@@ -21,13 +21,12 @@
 #include "coordinator/result_folder.hpp"
 #include "data/nearest_name.hpp"
 #include "diagnosis/proposal.hpp"
+#include "random/random_purpose.hpp"
 #include "report/report_json.hpp"
 #include "report/terminal.hpp"
 
 namespace demecal {
 namespace {
-
-constexpr std::uint64_t kProposals = 31;  ///< the stream of randomness that draws them
 
 struct DiagnoseRequest {
   std::string data_file, model_file, out;
@@ -81,7 +80,7 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
   const DiagnosisData of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
                          poses_of(data, PoseSet::validation)};
   const std::vector<Stop> stops = propose_poses(of, diagnosis.model, diagnosis.result.loop.rounds, request.proposed,
-                                                RandomStream{request.seed, kProposals});
+                                                RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
   write_file(request.out + "/proposed.csv", proposed_poses_csv(request.data_file, data, stops));
 }
 

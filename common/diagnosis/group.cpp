@@ -64,8 +64,9 @@ Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Lineari
   }
 }
 
-RandomStream Group::random(std::uint64_t purpose) const {
-  return RandomStream{rules_.seed, purpose, static_cast<std::uint64_t>(rules_.group), outcome_.rounds.size()};
+RandomStream Group::random(RandomPurpose purpose) const {
+  return RandomStream{rules_.seed, number_of(purpose), static_cast<std::uint64_t>(rules_.group),
+                      outcome_.rounds.size()};
 }
 
 std::optional<std::size_t> Group::best() const {
@@ -119,7 +120,8 @@ void Group::renew_null(std::size_t index) {
   const bool evident = !null_maxima_.empty() && scores_[index].fall_nats > kEvident * null_maxima_.back();
   const bool first = outcome_.rounds.empty();
   if (!null_maxima_.empty() && (evident || !first)) return;
-  null_maxima_ = scan_.null_maxima(columns_, at_.fitted, projection_, rules_.permutations, random(5));
+  null_maxima_ = scan_.null_maxima(columns_, at_.fitted, projection_, rules_.permutations,
+                                   random(RandomPurpose::null_distribution));
 }
 
 Round Group::judge(std::size_t index, Projection::Trial& trial) {
@@ -130,7 +132,8 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   trial = projection_.trial(columns_.dense(at_.fitted, index), judging.dense(at_.judging, 0));
   const auto before = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
   const auto after = tool_errors_mm(at_.judging, trial.judging_left, model_.scales, of_.data);
-  const Resampled draws = resampled(at_.fitted, trial, projection_.left(), rules_.resamples, random(4));
+  const Resampled draws =
+      resampled(at_.fitted, trial, projection_.left(), rules_.resamples, random(RandomPurpose::resampled_effect));
   Round round;
   round.number = rules_.first_round + static_cast<int>(outcome_.rounds.size());
   round.group = rules_.group;
@@ -143,9 +146,9 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   round.fall_nats = scores_[index].fall_nats;
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
-  round.gain_lower_mm2 =
-      gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
-                           whole_errors_mm(at_.judging, trial.judging_left, model_.scales), random(3));
+  round.gain_lower_mm2 = gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
+                                              whole_errors_mm(at_.judging, trial.judging_left, model_.scales),
+                                              random(RandomPurpose::gain_of_effect));
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
   round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted);
@@ -180,8 +183,9 @@ void Group::take(Round round, const Projection::Trial& trial) {
   scan_.follow(columns_, at_.fitted, projection_);
   scores_ = scan_.scores();
   const auto errors = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
-  const double gain_mm2 =
-      errors.empty() ? sure_gain_mm2_ + 1.0 : gain_lower_bound_mm2(start_errors_mm_, errors, random(7));
+  const double gain_mm2 = errors.empty()
+                              ? sure_gain_mm2_ + 1.0
+                              : gain_lower_bound_mm2(start_errors_mm_, errors, random(RandomPurpose::gain_of_group));
   if (gain_mm2 <= sure_gain_mm2_) return;
   sure_gain_mm2_ = gain_mm2;
   sure_rounds_ = outcome_.rounds.size();

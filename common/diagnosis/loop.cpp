@@ -38,11 +38,12 @@ class ClosedLoop {
   void describe_added();
   void look_further();
   void finish(const Linearised& at);
-  RandomStream random(std::uint64_t purpose) const {
-    return RandomStream{options_.seed, purpose, static_cast<std::uint64_t>(group_)};
+  RandomStream random(RandomPurpose purpose) const {
+    return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
   }
   double structure(const Linearised& at) const {
-    return structure_p_value(at.fitted, at.projection, of_.data.robot.chain, options_.permutations, random(6));
+    return structure_p_value(at.fitted, at.projection, of_.data.robot.chain, options_.permutations,
+                             random(RandomPurpose::structure_test));
   }
 
   const DiagnosisData& of_;
@@ -71,8 +72,10 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   std::for_each_n(evolved, options_.evolved.size(),
                   [&](Candidate& candidate) { set_measured_ranges(candidate.effect, of_.data.robot, evidence); });
   const std::vector<ArmState>& states = at.fitted.states;
-  const auto shuffled_approach = disguised(states, Disguise::shuffled_approach, random(1));
-  const auto shuffled_heat = disguised(states, Disguise::shuffled_temperature, random(2));
+  const auto shuffled_approach =
+      disguised(states, Disguise::shuffled_approach, random(RandomPurpose::shuffled_approach));
+  const auto shuffled_heat =
+      disguised(states, Disguise::shuffled_temperature, random(RandomPurpose::shuffled_temperature));
   for (const Candidate& candidate : candidates_) {
     const bool sides = candidate.disguise == Disguise::shuffled_approach;
     const bool heat = candidate.disguise == Disguise::shuffled_temperature;
@@ -221,7 +224,8 @@ void ClosedLoop::look_further() {
   for (Round& round : outcome_.rounds) {
     const bool named_last = round.verdict == Verdict::added || &round == &outcome_.rounds.back();
     if (!named_last || round.rivals.empty() || said >= kMost) continue;
-    round.further = further_measurement(of_, model_, round.effect, round.rivals, random(8));
+    round.further =
+        further_measurement(of_, model_, round.effect, round.rivals, random(RandomPurpose::further_measurement));
     ++said;
   }
 }
