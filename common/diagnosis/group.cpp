@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "diagnosis/implausible.hpp"
 #include "diagnosis/rivals.hpp"
 
 namespace demecal {
@@ -16,21 +17,12 @@ constexpr double kAlike = 0.9;          ///< cosine
 constexpr double kSame = 0.995;         ///< cosine
 constexpr double kNatsToTell = 5.0;
 constexpr double kNatsAbout = 3.0;
-constexpr double kStable = 0.95;           ///< share of resamples that must agree with a sign
-constexpr double kEvident = 2.0;           ///< times the largest fall by luck: no need to permute again
-constexpr double kLargestTurn_rad = 0.02;  ///< gears, bearings and links that give way more are broken
-constexpr double kLargestShift_m = 0.02;
+constexpr double kStable = 0.95;  ///< share of resamples that must agree with a sign
+constexpr double kEvident = 2.0;  ///< times the largest fall by luck: no need to permute again
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// A mount is known to a few degrees: gravity that leans more is another effect's disguise.
-bool leans_too_far(const Effect& effect) {
-  constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
-  if (effect.kind != "compliance" || effect.form != "tilted") return false;
-  return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
 }
 
 double sum_of_squares(const std::vector<double>& errors) {
@@ -170,9 +162,6 @@ std::string Group::objection(const Round& round, const Projection::Trial& trial)
     }
   }
   if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
-  const LargestMotion largest = largest_motion(round.effect, of_.data.robot, at_.fitted.states);
-  if (largest.turn_rad > kLargestTurn_rad || largest.shift_m > kLargestShift_m) return "no arm strays so far by itself";
-  if (leans_too_far(round.effect)) return "no mount leans so far from where its file says";
   return {};
 }
 
@@ -233,6 +222,10 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       break;
     }
     round.reason = objection(round, trial);
+    if (round.reason.empty()) {
+      round.reason = implausibility(round.effect, of_.data.robot, at_.fitted.states);
+      round.implausible = !round.reason.empty();
+    }
     outcome_.luck = round.p_family > rules_.family_error && !searched(*index);
     if (round.reason.empty()) {
       take(std::move(round), trial);

@@ -37,6 +37,7 @@ class ClosedLoop {
   StopReason reason_to_stop(const GroupOutcome& last) const;
   void describe_added();
   void look_further();
+  void leave_out_own_forms();
   void finish(const Linearised& at);
   RandomStream random(RandomPurpose purpose) const {
     return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
@@ -230,16 +231,25 @@ void ClosedLoop::look_further() {
   }
 }
 
+/// Other forms of an effect are no rivals of it.
+void ClosedLoop::leave_out_own_forms() {
+  for (Round& round : outcome_.rounds) {
+    std::erase_if(round.rivals, [&](const Rival& rival) {
+      const Effect &own = round.effect, &other = rival.effect;
+      const bool named = own.kind != "symbolic" && own.kind == other.kind && own.joint == other.joint;
+      return other.same_law_as(own) || (named && other.settings == own.settings);
+    });
+  }
+}
+
 void ClosedLoop::finish(const Linearised& at) {
   outcome_.p_structure_left = p_structure_;
   describe_added();
+  leave_out_own_forms();
   look_further();
-  const Scan scan(columns_, prices_nats(candidates_), at.fitted, at.projection);
-  outcome_.not_found = smallest_detectable(candidates_, scan.scores(), model_.robot, of_.data.robot,
-                                           {.null_maxima = null_maxima_,
-                                            .family_error = options_.family_error,
-                                            .variance = at.projection.squares() / at.projection.freedom(),
-                                            .poses = at.fitted.poses.size()});
+  outcome_.not_found =
+      not_found_beyond({of_.data.robot, model_.robot, at, candidates_, columns_, outcome_.rounds}, null_maxima_,
+                       {options_.family_error, options_.permutations}, random(RandomPurpose::null_distribution));
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (at.fitted.root_weight[i] < 0.5) outcome_.outliers.push_back(at.fitted.poses[i]);
   }

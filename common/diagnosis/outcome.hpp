@@ -35,6 +35,7 @@ struct Round {
   std::string diagnosis;        ///< one sentence for an engineer
   std::string formula;          ///< one line
   std::string reason;           ///< why it was not added; empty where it was
+  bool implausible = false;     ///< refused as larger than a real arm's: the data hold it, so that it has no bound
   std::vector<Rival> rivals;    ///< nearest first
   double p_structure = 1.0;     ///< of the omnibus test for dependence before this group
   double p_family = 1.0;        ///< family-wise, over all candidates or, of an evolved formula, over whole searches
@@ -53,6 +54,7 @@ struct NotFound {
   Effect effect;                     ///< kind and joint
   double smallest_detectable = 0.0;  ///< the smallest amplitude that these poses would show with power 0.9
   std::string unit;                  ///< "rad", "rad/Nm", ...
+  bool testable = true;  ///< an effect that small is plausible of its kind; else these data tell nothing of it
 };
 
 /// A kind of effect that these data cannot show at all.
