@@ -93,7 +93,7 @@ void ClosedLoop::make_candidates(const Linearised& at) {
 void ClosedLoop::measure_pure_error(const Linearised& at) {
   const auto pure = pure_error(of_.data, of_.fitted);
   if (!pure) return;
-  outcome_.noise_m = pure->deviation_m;
+  outcome_.repeat_scatter_m = pure->deviation_m;
   double squares = 0.0, freedom = 0.0;
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (!of_.data.poses[at.fitted.poses[i]].position_m) continue;

@@ -79,12 +79,12 @@ struct LoopOutcome {
   std::vector<NotFound> not_found;
   std::vector<Unseen> unseen;
   std::vector<Decoy> decoys;
-  std::vector<std::size_t> outliers;      ///< poses (in the data set) that were down-weighted as far out
-  std::optional<double> noise_m;          ///< per axis, from repeats
-  std::optional<double> lack_of_fit_p;    ///< of the F test against repeats, before the loop
-  std::optional<double> explained_share;  ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
-  double p_structure_left = 1.0;          ///< of the omnibus test at the end
-  int candidates = 0;                     ///< effects tried in every round
+  std::vector<std::size_t> outliers;       ///< poses (in the data set) that were down-weighted as far out
+  std::optional<double> repeat_scatter_m;  ///< per axis, of repeated calibration poses
+  std::optional<double> lack_of_fit_p;     ///< of the F test against repeats, before the loop
+  std::optional<double> explained_share;   ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
+  double p_structure_left = 1.0;           ///< of the omnibus test at the end
+  int candidates = 0;                      ///< effects tried in every round
   int permutations = 0;
 };
 

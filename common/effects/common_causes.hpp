@@ -9,7 +9,7 @@ namespace demecal {
 
 struct Cause {
   std::string_view kind;          ///< a word of the catalogue
-  std::string_view words;         ///< for people: "link geometry"
+  std::string_view words;         ///< for people, "of joint 2" may follow: "link geometry"
   double largest_turn_rad = 0.0;  ///< of a joint, link or mounting, anywhere among the poses; more is no arm's error
   double largest_shift_m = 0.0;
 };
