@@ -223,7 +223,7 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
     }
     round.reason = objection(round, trial);
     if (round.reason.empty()) {
-      round.reason = implausibility(round.effect, of_.data.robot, at_.fitted.states);
+      round.reason = implausibility(round.effect, of_, model_, at_.fitted.states);
       round.implausible = !round.reason.empty();
     }
     outcome_.luck = round.p_family > rules_.family_error && !searched(*index);

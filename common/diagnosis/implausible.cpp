@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "diagnosis/judgement.hpp"
+#include "effects/measurement.hpp"
 
 namespace demecal {
 namespace {
@@ -18,17 +19,35 @@ std::string with_three_places(double value) {
   return text;
 }
 
+double rms_m(const DiagnosisData& of, const CorrectedRobot& robot) {
+  double squares = 0.0;
+  for (const std::size_t pose : of.fitted) squares += std::pow(tool_error_m(robot, of.data, of.data.poses[pose]), 2);
+  return std::sqrt(squares / static_cast<double>(of.fitted.size()));
+}
+
+/// The whole share, nearly, that explains most of the error where the joint turns with the other; 0 where none does.
+/// Motions of radians are beyond what one linear step can tell.
+double whole_share(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model) {
+  constexpr int kSteps = 12;
+  constexpr double kLeft = 0.2;  ///< of the error, at most
+  for (const double start : {1.0, -1.0}) {
+    DiagnosedModel coupled = model;
+    coupled.robot.effects.push_back(effect);
+    coupled.robot.effects.back().values = {start};
+    coupled = refined(of, std::move(coupled), kSteps);
+    const double share = coupled.robot.effects.back().value(0);
+    if (std::abs(share - start) < kUnitShare && rms_m(of, coupled.robot) < kLeft * rms_m(of, model.robot)) return share;
+  }
+  return 0.0;
+}
+
 /// Controllers that report a joint against the horizontal, or through a parallelogram, give its angle as a sum.
-std::string unit_coupling(const Effect& effect) {
-  if (effect.kind != "coupling" || effect.form != "linear") return {};
-  const double share = effect.value(0);
-  if (std::abs(std::abs(share) - 1.0) > kUnitShare) return {};
+std::string unit_coupling(const Effect& effect, double share) {
   const std::string joint = std::to_string(effect.joint + 1),
                     from = std::to_string(std::lround(effect.setting("from")));
-  return "the data show a unit coupling: joint " + joint + " turns with joint " + from + ", " +
+  return "the data show a unit coupling: joint " + joint + " turns with joint " + from + ", by " +
          with_three_places(share) + " of its motion; that is how joint " + joint +
-         " is reported, not an error of the arm: write its column as the sum q" + joint +
-         (share > 0 ? " + q" : " - q") + from;
+         " is reported, not an error of the arm: write its column as q" + joint + (share > 0 ? " + q" : " - q") + from;
 }
 
 }  // namespace
@@ -39,11 +58,14 @@ bool leans_too_far(const Effect& effect) {
   return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
 }
 
-std::string implausibility(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
-  const LargestMotion largest = largest_motion(effect, robot, states);
+std::string implausibility(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model,
+                           const std::vector<ArmState>& states) {
+  const LargestMotion largest = largest_motion(effect, of.data.robot, states);
   if (largest.turn_rad <= kLargestTurn_rad && largest.shift_m <= kLargestShift_m)
     return leans_too_far(effect) ? "mounting tilt implausible (> 20 deg)" : "";
-  if (const std::string coupled = unit_coupling(effect); !coupled.empty()) return coupled;
+  if (effect.kind == "coupling" && effect.form == "linear") {
+    if (const double share = whole_share(effect, of, model); share != 0.0) return unit_coupling(effect, share);
+  }
   return "implausibly large for a real arm (> " +
          std::string(largest.turn_rad > kLargestTurn_rad ? "20 mrad" : "20 mm") + "): check signs, units and row order";
 }

@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "effects/effect.hpp"
+#include "diagnosis/diagnosed_model.hpp"
 
 namespace demecal {
 
-/// Why no real arm has this effect, and what to look at; empty where one may. A joint that moves by a whole share of
-/// another's motion is how the controller reports its joints, which the sentence says.
-std::string implausibility(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
+/// Why no real arm has this effect, and what to look at; empty where one may. `states` are those of the fitted poses. A
+/// joint that moves by a whole share of another's motion, which `model` with it bears out, is how the controller
+/// reports its joints: the sentence says so.
+std::string implausibility(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model,
+                           const std::vector<ArmState>& states);
 
 /// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in disguise.
 bool leans_too_far(const Effect& effect);
