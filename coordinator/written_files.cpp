@@ -53,7 +53,10 @@ bool is_of_earlier_version(const std::string& folder, const std::string& name) {
 }  // namespace
 
 WrittenFiles::WrittenFiles(std::string folder) : folder_(std::move(folder)) {
-  if (!std::filesystem::exists(path_of(kList))) return take_over();
+  if (!std::filesystem::exists(path_of(kList))) {
+    take_over();
+    return;
+  }
   std::istringstream lines(read_file(path_of(kList)));
   std::string hash, name;
   while (lines >> hash >> std::ws && std::getline(lines, name)) hashes_[name].insert(hash);

@@ -5,6 +5,7 @@
 
 #include "diagnosis/judgement.hpp"
 #include "effects/measurement.hpp"
+#include "fitting/fit.hpp"
 
 namespace demecal {
 namespace {
@@ -19,24 +20,31 @@ std::string with_three_places(double value) {
   return text;
 }
 
-double rms_m(const DiagnosisData& of, const CorrectedRobot& robot) {
+double rms_m(const DataSet& data, const std::vector<std::size_t>& poses, const CorrectedRobot& robot) {
   double squares = 0.0;
-  for (const std::size_t pose : of.fitted) squares += std::pow(tool_error_m(robot, of.data, of.data.poses[pose]), 2);
-  return std::sqrt(squares / static_cast<double>(of.fitted.size()));
+  for (const std::size_t pose : poses) squares += std::pow(tool_error_m(robot, data, data.poses[pose]), 2);
+  return std::sqrt(squares / static_cast<double>(poses.size()));
 }
 
 /// The whole share, nearly, that explains most of the error where the joint turns with the other; 0 where none does.
-/// Motions of radians are beyond what one linear step can tell.
+/// Motions of radians are beyond what one linear step can tell: the arm is fitted anew to joints that are sums.
 double whole_share(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model) {
   constexpr int kSteps = 12;
   constexpr double kLeft = 0.2;  ///< of the error, at most
-  for (const double start : {1.0, -1.0}) {
-    DiagnosedModel coupled = model;
-    coupled.robot.effects.push_back(effect);
-    coupled.robot.effects.back().values = {start};
-    coupled = refined(of, std::move(coupled), kSteps);
-    const double share = coupled.robot.effects.back().value(0);
-    if (std::abs(share - start) < kUnitShare && rms_m(of, coupled.robot) < kLeft * rms_m(of, model.robot)) return share;
+  const auto from = static_cast<Eigen::Index>(std::lround(effect.setting("from"))) - 1;
+  for (const double whole : {1.0, -1.0}) {
+    DataSet summed = of.data;
+    for (MeasuredPose& pose : summed.poses) pose.joints[effect.joint] += whole * pose.joints[from];
+    const DiagnosisData with{summed, of.declared, of.fitted, of.judging};
+    const Fit fit = fit_declared(summed, of.fitted, of.declared, nominal_robot(summed));
+    if (fit.status != FitStatus::converged ||
+        rms_m(summed, of.fitted, fit.robot) > kLeft * rms_m(of.data, of.fitted, model.robot))
+      continue;
+    DiagnosedModel rest = diagnosed_model(with, fit);
+    rest.robot.effects.push_back(effect);
+    rest.robot.effects.back().values = {0.0};
+    const double share = whole + refined(with, std::move(rest), kSteps).robot.effects.back().value(0);
+    if (std::abs(share - whole) < kUnitShare) return share;
   }
   return 0.0;
 }

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kIndent = 7;          // of what is said of one effect
 constexpr std::size_t kMostHarmonics = 12;  // that take a line each
 constexpr std::size_t kMostRivals = 3;
+constexpr std::size_t kMostRefused = 2;
 constexpr std::size_t kMostNameLetters = 42;
 constexpr std::size_t kMostDiagnoses = 8;  // effects, for each to get its sentence
 
@@ -81,7 +82,7 @@ std::string effect_lines(const Round& round, const Robot& robot, bool diagnosed)
   const std::string class_name = class_words(members);
   const std::string name = members.empty()                         ? effect.name()
                            : class_name.size() <= kMostNameLetters ? class_name
-                                                                   : "one of the effects named below";
+                                                                   : class_words({members.front()}) + " or another";
   std::string text = columns(std::to_string(round.number), name, effect.size(), probability(round.p_family),
                              mm(round.validation_before_mm), mm(round.validation_after_mm));
   if (!members.empty()) {
@@ -146,10 +147,12 @@ std::string last_candidate(const LoopOutcome& loop, const Robot& robot) {
 /// What the data hold that no real arm has: said, since it is neither an effect nor absent.
 std::string refused_lines(const LoopOutcome& loop, const Robot& robot) {
   std::string text;
+  std::size_t refused = 0;
   for (const Round& round : loop.rounds) {
-    if (!round.implausible) continue;
+    if (!round.implausible || ++refused > kMostRefused) continue;
     text += wrapped("  refused:", effect_entry(round.effect, robot).name() + ": " + round.reason, 4);
   }
+  if (refused > kMostRefused) text += fmt::format("  {} more refused: see report.html\n", refused - kMostRefused);
   return text;
 }
 

@@ -65,7 +65,7 @@ TEST(LoopTerminal, NamesTheClassOfAnEffectThatThesePosesCannotTellFromAnother) {
   round.effect = {.kind = "sensor_scale", .joint = -1, .values = {-4.25e-4}};
   round.rivals = {{{.kind = "geometry", .joint = 2}, 0.999, 0.3}, {{.kind = "drift", .joint = -1}, 0.94, 2.0}};
   const std::string text = unbroken(shown(loop));
-  EXPECT_THAT(text, HasSubstr("1 link geometry of joint 3 or instrument scale"));
+  EXPECT_THAT(text, HasSubstr("1 link geometry of joint 3 or another -425 ppm"));
   EXPECT_THAT(text, HasSubstr("Link geometry of joint 3 or instrument scale: these poses cannot tell. The model has it "
                               "as sensor_scale. If that is right: " +
                               round.diagnosis));
