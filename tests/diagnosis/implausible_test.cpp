@@ -33,8 +33,8 @@ TEST(UnitCoupling, IsNamedAndNoBound) {
     for (const NotFound& missing : outcome.not_found) {
       const bool it = missing.effect.same_law_as(coupling->effect);
       EXPECT_FALSE(it) << "what the data hold is not bounded";
-      if (missing.effect.kind == "coupling" && missing.unit == "1" && missing.testable)
-        EXPECT_LT(missing.smallest_detectable, 0.05);
+      if (missing.effect.kind != "coupling" || missing.unit != "1" || !missing.testable) continue;
+      EXPECT_LT(missing.smallest_detectable, 0.05);
     }
   }
 }
