@@ -13,8 +13,8 @@
 namespace demecal {
 namespace {
 
-constexpr int kPatience = 40;             ///< generations without gain before a population begins anew
-constexpr int kRefused = 5;               ///< of a generation at most
+constexpr int kPatience = 40;  ///< generations without gain before a population begins anew
+constexpr int kRefused = 5;    ///< of a generation at most
 
 class Sequence {
  public:

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "diagnosis/judgement.hpp"
-#include "effects/common_causes.hpp"
+#include "effects/likely_causes.hpp"
 
 namespace demecal {
 namespace {

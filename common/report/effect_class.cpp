@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "effects/common_causes.hpp"
+#include "effects/likely_causes.hpp"
 
 namespace demecal {
 namespace {

@@ -1,4 +1,4 @@
-#include "effects/common_causes.hpp"
+#include "effects/likely_causes.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The causes of errors by commonness: all of the catalogue, each with words and sizes.
-#include "effects/common_causes.hpp"
+#include "effects/likely_causes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace demecal {
 namespace {
 
-TEST(CommonCauses, AreTheKindsOfTheCatalogueAndNoOthers) {
+TEST(LikelyCauses, AreTheKindsOfTheCatalogueAndNoOthers) {
   for (const EffectLaw* const law : catalogue()) EXPECT_LT(rarity(law->kind()), causes().size()) << law->kind();
   EXPECT_EQ(causes().size(), catalogue().size());
   for (const Cause& cause : causes()) {
@@ -20,7 +20,7 @@ TEST(CommonCauses, AreTheKindsOfTheCatalogueAndNoOthers) {
   }
 }
 
-TEST(CommonCauses, BeginWithTheLinksAndEndWithTheInstrument) {
+TEST(LikelyCauses, BeginWithTheLinksAndEndWithTheInstrument) {
   EXPECT_EQ(rarity("geometry"), 0u);
   EXPECT_EQ(rarity("sensor_scale") + 1, causes().size());
   EXPECT_LT(rarity("backlash"), rarity("hysteresis"));
