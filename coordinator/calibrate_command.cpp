@@ -95,7 +95,9 @@ ExitCode run(CalibrateRequest request) {
   const Job job = job_of(request);
   const CheckedData checked = load_checked(job.data_file);
   const DataSet& data = checked.data;
-  make_writable(request.out);
+  std::vector<std::string> files = result_files(job.method);
+  files.emplace_back("events.jsonl");
+  make_writable(request.out, files, request.force);
   if (refuses(checked, request.force)) {
     write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
@@ -109,6 +111,7 @@ ExitCode run(CalibrateRequest request) {
   options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
+  const FilesBeingWritten events(request.out, {"events.jsonl"});
   Chronicle chronicle(request.out, !request.resume.empty(), job.name,
                       join_dds(*request.fleet.dds, Role::herald, "chronicle"));
   options.chronicle = &chronicle;

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "config/files.hpp"
 #include "config/load_data_set.hpp"
+#include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/coverage.hpp"
 #include "effects/measurement.hpp"
@@ -36,7 +36,10 @@ bool refuses(const CheckedData& checked, bool force) {
 }
 
 void add_force(CLI::App& command, bool& force) {
-  command.add_flag("--force", force, "go on although the data and the robot's description contradict each other");
+  command.add_flag(
+      "--force", force,
+      "go on although the data and the robot's description contradict each other, and overwrite files that demecal did "
+      "not write, or that were changed since");
 }
 
 void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked) {
@@ -44,8 +47,8 @@ void write_refusal(const std::string& folder, const std::string& job, const Chec
     fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file, data_check_to_terminal(checked.check));
   const CalibrationReport report = refusal_report(checked.data, job, checked.check);
   const std::string json = to_json(report);
-  write_file(folder + "/report.json", json);
-  write_file(folder + "/report.html", report_html(json, ""));
+  write_result(folder, "report.json", json);
+  write_result(folder, "report.html", report_html(json, ""));
 }
 
 }  // namespace demecal

@@ -10,7 +10,6 @@
 
 #include "baselines/baseline.hpp"
 #include "baselines/comparison.hpp"
-#include "config/files.hpp"
 #include "config/load_job.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
@@ -111,7 +110,9 @@ ExitCode run(const CompareRequest& request) {
   const Job job = job_of(request);
   const CheckedData checked = load_checked(job.data_file);
   const DataSet& data = checked.data;
-  if (!request.out.empty()) make_writable(request.out);
+  std::vector<std::string> files = result_files(job.method);
+  files.emplace_back("comparison.json");
+  if (!request.out.empty()) make_writable(request.out, files, request.force);
   if (refuses(checked, request.force)) {
     if (!request.out.empty()) write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
@@ -124,7 +125,7 @@ ExitCode run(const CompareRequest& request) {
   if (code == ExitCode::no_worker) {
     fmt::print(stderr, "no worker came: the table is without this job's own method\n");
   }
-  if (!request.out.empty()) write_file(request.out + "/comparison.json", comparison_json(comparison, 1));
+  if (!request.out.empty()) write_result(request.out, "comparison.json", comparison_json(comparison, 1));
   fmt::print("{}", request.json ? comparison_json(comparison) : comparison_table(comparison));
   return code;
 }

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "config/files.hpp"
 #include "config/load_job.hpp"
 #include "config/model_text.hpp"
 #include "config/proposed_poses.hpp"
@@ -21,13 +20,12 @@
 #include "coordinator/result_folder.hpp"
 #include "data/nearest_name.hpp"
 #include "diagnosis/proposal.hpp"
+#include "random/random_purpose.hpp"
 #include "report/report_json.hpp"
 #include "report/terminal.hpp"
 
 namespace demecal {
 namespace {
-
-constexpr std::uint64_t kProposals = 31;  ///< the stream of randomness that draws them
 
 struct DiagnoseRequest {
   std::string data_file, model_file, out;
@@ -81,8 +79,8 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
   const DiagnosisData of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
                          poses_of(data, PoseSet::validation)};
   const std::vector<Stop> stops = propose_poses(of, diagnosis.model, diagnosis.result.loop.rounds, request.proposed,
-                                                RandomStream{request.seed, kProposals});
-  write_file(request.out + "/proposed.csv", proposed_poses_csv(request.data_file, data, stops));
+                                                RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
+  write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_file, data, stops));
 }
 
 ExitCode run(const DiagnoseRequest& request) {
@@ -91,7 +89,9 @@ ExitCode run(const DiagnoseRequest& request) {
   std::optional<CalibratedModel> known;
   if (!request.model_file.empty()) known = load_model(request.model_file);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
-  make_writable(request.out);
+  std::vector<std::string> files = result_files(Method::diagnose);
+  if (request.proposed > 0) files.emplace_back("proposed.csv");
+  make_writable(request.out, files, request.force);
   const Job job = job_of(request, declared_by(request, known, data));
   if (refuses(checked, request.force)) {
     write_refusal(request.out, job.name, checked);

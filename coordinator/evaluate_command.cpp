@@ -39,8 +39,10 @@ ExitCode run(const EvaluateRequest& request) {
   const CorrectedRobot robot = request.refit_base ? registered(model, data) : model.robot;
   check_fitted(data, robot, checked.check);
   fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
+  const std::vector<UnappliedEffect> unapplied = unapplied_effects(robot, data);
+  for (const UnappliedEffect& one : unapplied) fmt::print(stderr, "{}: {}\n", data.file, one.sentence());
   const ErrorBySet errors = errors_by_set(robot, data);
-  fmt::print("{}", request.json ? errors_to_json(errors, checked.check) : errors_to_terminal(errors));
+  fmt::print("{}", request.json ? errors_to_json(errors, checked.check, unapplied) : errors_to_terminal(errors));
   return ExitCode::done;
 }
 

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 
@@ -26,6 +27,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_arguments;
+  } catch (const demecal::ArgumentError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    exit_code = ExitCode::wrong_arguments;
   } catch (const demecal::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     exit_code = ExitCode::bad_input;

@@ -80,13 +80,12 @@ ExitCode run(const PrepareRequest& request) {
   if (refuses(checked, request.force)) return ExitCode::contradiction;
   fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
 
-  make_writable(request.out);
-  write_data_set(data, request.out, "Prepared from raw measurements: " + raw.name);
   std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml"};
-  for (const WrittenFile& file : files) {
-    write_file(request.out + "/" + file.name, file.text);
-    names.push_back(file.name);
-  }
+  for (const WrittenFile& file : files) names.push_back(file.name);
+  make_writable(request.out, names, request.force);
+  const FilesBeingWritten written(request.out, names);
+  write_data_set(data, request.out, "Prepared from raw measurements: " + raw.name);
+  for (const WrittenFile& file : files) write_file(request.out + "/" + file.name, file.text);
   const std::string frame(asked ? word_of(*asked) : "instrument");
   if (request.json) {
     fmt::print("{}", statistic_json(statistic, raw.name, frame, names));

@@ -5,9 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "calibration/loop_passes.hpp"
 #include "config/files.hpp"
 #include "config/model_text.hpp"
+#include "coordinator/argument_error.hpp"
+#include "coordinator/written_files.hpp"
 #include "data_check/fitted_model.hpp"
 #include "errors/input_error.hpp"
 #include "report/history.hpp"
@@ -28,7 +32,14 @@ std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
 
 }  // namespace
 
-void make_writable(const std::string& folder) {
+std::vector<std::string> result_files(Method method) {
+  std::vector<std::string> files{"model.yaml", "report.json", "report.html"};
+  if (method != Method::diagnose && method != Method::structural) files.emplace_back("history.csv");
+  if (method == Method::distal) files.emplace_back("distal.csv");
+  return files;
+}
+
+void make_writable(const std::string& folder, const std::vector<std::string>& files, bool force) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw InputError({folder, 0}, "", "cannot make the results folder: " + failure.message());
@@ -36,11 +47,38 @@ void make_writable(const std::string& folder) {
   if (!std::ofstream(probe))
     throw InputError({folder, 0}, "", std::string("cannot write here: ") + std::strerror(errno));
   std::filesystem::remove(probe, failure);
+  const std::vector<std::string> strangers = WrittenFiles(folder).strangers(files);
+  if (strangers.empty() || force) return;
+  const bool one = strangers.size() == 1;
+  throw ArgumentError(fmt::format(
+      "{}: {} {} there already and {} not what demecal wrote there, or changed since: choose another folder, move {} "
+      "away, or overwrite {} with --force",
+      folder, fmt::join(strangers, ", "), one ? "is" : "are", one ? "is" : "are", one ? "it" : "them",
+      one ? "it" : "them"));
+}
+
+void write_result(const std::string& folder, const std::string& name, const std::string& bytes) {
+  WrittenFiles(folder).write(name, bytes);
+}
+
+FilesBeingWritten::FilesBeingWritten(std::string folder, std::vector<std::string> files)
+    : folder_(std::move(folder)), files_(std::move(files)) {
+  WrittenFiles written(folder_);
+  for (const std::string& file : files_) written.begin(file);
+}
+
+FilesBeingWritten::~FilesBeingWritten() {
+  try {
+    WrittenFiles written(folder_);
+    for (const std::string& file : files_) written.note_as_is(file);
+  } catch (const std::exception&) {
+    // The list still says that they are being written: the next run takes them for its own.
+  }
 }
 
 CalibrationReport write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result) {
   const std::string model_path = folder + "/model.yaml";
-  write_file(model_path, model_text(result.model));
+  write_result(folder, "model.yaml", model_text(result.model));
   CalibratedModel written = load_model(model_path);
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
@@ -55,11 +93,11 @@ CalibrationReport write_results(const std::string& folder, const DataSet& data, 
   if (result.model.method == Method::structural) report.unidentified.clear();  // they are of the fit to compare with
   report.distal = result.distal;
   const std::string json = to_json(report);
-  write_file(folder + "/report.json", json);
+  write_result(folder, "report.json", json);
   const std::string history = history_csv(history_rows(result.history));
-  if (result.model.method == Method::distal) write_file(folder + "/distal.csv", distal_csv(result.distal));
-  if (evolves) write_file(folder + "/history.csv", history);
-  write_file(folder + "/report.html", report_html(json, evolves ? history : ""));
+  if (result.model.method == Method::distal) write_result(folder, "distal.csv", distal_csv(result.distal));
+  if (evolves) write_result(folder, "history.csv", history);
+  write_result(folder, "report.html", report_html(json, evolves ? history : ""));
   return report;
 }
 

@@ -15,11 +15,14 @@ namespace {
 
 struct SimulateRequest {
   std::string scenario_file, out;
+  bool force = false;
 };
 
 ExitCode run(const SimulateRequest& request) {
   const Scenario scenario = load_scenario(request.scenario_file);
-  make_writable(request.out);
+  const std::vector<std::string> files{"dataset.yaml", "poses.csv", "robot.yaml", "truth.yaml"};
+  make_writable(request.out, files, request.force);
+  const FilesBeingWritten written(request.out, files);
   const DataSet data = simulate(scenario);
   write_data_set(data, request.out, "Measured on a simulated robot: " + scenario.name);
   write_file(request.out + "/truth.yaml", "# What is true of the data set beside this file; no command reads it\n" +
@@ -37,6 +40,8 @@ void add_simulate(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("simulate", "measure a simulated robot: a data set, and its truth in a file apart");
   command->add_option("scenario", request->scenario_file, "SCENARIO.yaml")->required();
   command->add_option("--out", request->out, "folder for the data set")->required();
+  command->add_flag("--force", request->force,
+                    "overwrite files that demecal did not write, or that were changed since");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

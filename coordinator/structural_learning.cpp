@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "random/random_purpose.hpp"
 #include "structure/structural_calibration.hpp"
 
 namespace demecal {
@@ -11,7 +12,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kStream = 0x5354525543ULL;  // names this search's random numbers beside those of islands
 constexpr int kBetweenLines = 10;
 
 }  // namespace
@@ -30,7 +30,7 @@ CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, cons
                  generation, search.generations, 1e2 * left);
     return !interrupt;
   };
-  RandomStream random{job.seed, kStream};
+  RandomStream random{job.seed, number_of(RandomPurpose::structure_search)};
   StructuralCalibration found =
       calibrate_structure(data, job.declared, result.preparation.registered.robot, search, random, watch);
   result.calibration = conclude(data, without_corrections, result.preparation, {});

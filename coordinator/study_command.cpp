@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "config/files.hpp"
 #include "config/study_grid.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
@@ -83,8 +82,8 @@ void tell(const Study& study, const StudyRun& run) {
 }
 
 void write(const std::string& folder, const Study& study) {
-  write_file(folder + "/study.csv", study_csv(study));
-  write_file(folder + "/study.json", study_json(study, 1));
+  write_result(folder, "study.csv", study_csv(study));
+  write_result(folder, "study.json", study_json(study, 1));
 }
 
 ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) {
@@ -111,7 +110,7 @@ ExitCode run(const StudyRequest& request) {
   if (refuses(checked, request.force)) return ExitCode::contradiction;
   fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
   const DataSet& data = checked.data;
-  make_writable(request.out);
+  make_writable(request.out, {"study.csv", "study.json"}, request.force);
   Study study = study_of(request, axes, cells, data);
   const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;

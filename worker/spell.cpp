@@ -5,7 +5,8 @@
 
 namespace demecal {
 
-Spell::Spell(std::vector<Member> members, Inbox inbox) : members_(std::move(members)), inbox_(std::move(inbox)) {
+Spell::Spell(std::vector<Member> members, MigrantStore arrived)
+    : members_(std::move(members)), arrived_(std::move(arrived)) {
   for (Member& member : members_) member.began = member.tenancy->epoch();
 }
 
@@ -13,8 +14,8 @@ void Spell::breed(std::chrono::steady_clock::duration budget, const std::functio
   const auto end = std::chrono::steady_clock::now() + budget;
   while (const Member* member = next()) {
     Tenancy& tenancy = *member->tenancy;
-    tenancy.run_epoch(tenancy.immigrants(inbox_), beat);
-    inbox_.put(tenancy.last_migrants());
+    tenancy.run_epoch(tenancy.immigrants(arrived_), beat);
+    arrived_.put(tenancy.last_migrants());
     ended_ = tenancy.epoch_ended();
     if (ends_ || ended_ >= end || member->is_awaited || tenancy.epoch() - member->began >= kMostEpochs) return;
   }
@@ -24,7 +25,7 @@ const Spell::Member* Spell::next() const {
   const Member* slowest = nullptr;
   for (const Member& member : members_) {
     if (member.tenancy->finished() || (slowest && slowest->tenancy->epoch() <= member.tenancy->epoch())) continue;
-    if (member.tenancy->is_ready(inbox_)) slowest = &member;
+    if (member.tenancy->is_ready(arrived_)) slowest = &member;
   }
   return slowest;
 }

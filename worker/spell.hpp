@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "worker/inbox.hpp"
+#include "worker/migrant_store.hpp"
 #include "worker/tenancy.hpp"
 
 namespace demecal {
@@ -26,8 +26,8 @@ class Spell {
     std::uint32_t began = 0;  ///< its epoch before the spell
   };
 
-  /// `inbox` has what the members lack of others. No other thread may touch the members until the spell is over.
-  Spell(std::vector<Member> members, Inbox inbox);
+  /// `arrived` has what the members lack of others. No other thread may touch the members until the spell is over.
+  Spell(std::vector<Member> members, MigrantStore arrived);
 
   /// Breeds whichever island is farthest behind of those that can go on, until `budget` is over, none can, an awaited
   /// island has bred or one has bred kMostEpochs; at least one epoch where any can. `beat` as for Tenancy::run_epoch.
@@ -47,7 +47,7 @@ class Spell {
   const Member* next() const;
 
   std::vector<Member> members_;
-  Inbox inbox_;
+  MigrantStore arrived_;
   WaitedShare::Time ended_{};
   std::atomic<bool> ends_{false};
 };

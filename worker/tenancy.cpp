@@ -30,14 +30,14 @@ Tenancy::Tenancy(std::shared_ptr<const RunData> run, const IslandTask& task)
   for (const Migrants& sent : recent_) migrants_sent_ += sent.individuals.size();
 }
 
-bool Tenancy::is_ready(const Inbox& inbox) const {
-  return epoch() == 0 || run_->data.archipelago.asynchronous || inbox.holds(sources_, epoch());
+bool Tenancy::is_ready(const MigrantStore& arrived) const {
+  return epoch() == 0 || run_->data.archipelago.asynchronous || arrived.holds(sources_, epoch());
 }
 
-Population Tenancy::immigrants(const Inbox& inbox) {
+Population Tenancy::immigrants(const MigrantStore& arrived) {
   if (epoch() == 0) return {};
-  if (run_->data.archipelago.asynchronous) return inbox.collect_new(sources_, taken_);
-  return inbox.collect(sources_, epoch()).value_or(Population{});
+  if (run_->data.archipelago.asynchronous) return arrived.collect_new(sources_, taken_);
+  return arrived.collect(sources_, epoch()).value_or(Population{});
 }
 
 void Tenancy::run_epoch(const Population& immigrants, const std::function<void()>& beat) {

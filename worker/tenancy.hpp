@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "protocol/messages.hpp"
-#include "worker/inbox.hpp"
+#include "worker/migrant_store.hpp"
 #include "worker/waited_share.hpp"
 
 namespace demecal {
@@ -36,9 +36,9 @@ class Tenancy {
   const std::vector<IslandKey>& sources() const { return sources_; }
   const std::vector<IslandKey>& consumers() const { return consumers_; }
   /// Whether its next epoch can begin; not where it waits for its neighbours.
-  bool is_ready(const Inbox& inbox) const;
+  bool is_ready(const MigrantStore& arrived) const;
   /// What its next epoch takes in.
-  Population immigrants(const Inbox& inbox);
+  Population immigrants(const MigrantStore& arrived);
 
   /// Breeds one epoch; called from one thread at a time. `beat` is called after every generation.
   void run_epoch(const Population& immigrants, const std::function<void()>& beat);

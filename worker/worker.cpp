@@ -56,7 +56,7 @@ void Worker::take(const CalibrationData& data) {
   if (!serves(data.run)) return;
   if (const Fault fault = find_fault(data)) return transport_.drop(coordinator_of(data.run), *fault);
   runs_[data.run] = std::make_shared<RunData>(RunData{data});
-  inboxes_[data.run];
+  arrived_[data.run];
   const auto early = waiting_.extract(data.run);
   if (early.empty()) return;
   waiting_tasks_ -= early.mapped().size();
@@ -144,14 +144,14 @@ void Worker::begin(const IslandTask& task) {
     if (is_elsewhere(task.run, source)) transport_.follow_migrants(source.joint);
   for (const IslandKey& consumer : tenancy->consumers())
     if (is_elsewhere(task.run, consumer)) transport_.follow_migrants(task.island.joint);
-  for (const Migrants& migrants : task.recent) inboxes_[task.run].put(migrants);
+  for (const Migrants& migrants : task.recent) arrived_[task.run].put(migrants);
   tenancy->send_all_recent();
   send_migrants(*tenancy);
   // Whoever bred its last generation may have died before it could say so.
   if (tenancy->finished()) transport_.publish(tenancy->outcome(options_.name));
 }
 
-/// Only where a neighbour is with another worker: the others find them in the inbox.
+/// Only where a neighbour is with another worker: the others find them among what arrived.
 void Worker::send_migrants(Tenancy& tenancy) {
   if (!is_awaited_elsewhere(tenancy)) return;
   for (Migrants& migrants : tenancy.unsent()) {
@@ -181,7 +181,7 @@ void Worker::take(const Migrants& migrants) {
     return;
   }
   if (const Fault fault = find_fault(migrants, run->second->data)) return transport_.drop(migrants.worker, *fault);
-  inboxes_[migrants.run].put(migrants);
+  arrived_[migrants.run].put(migrants);
 }
 
 void Worker::take(const Control& control) {
@@ -212,7 +212,7 @@ void Worker::forget_run(RunId run) {
   const auto of_run = [run](const auto& entry) { return entry.first.first == run; };
   std::erase_if(tenancies_, of_run);
   runs_.erase(run);
-  inboxes_.erase(run);
+  arrived_.erase(run);
   if (const auto waiting = waiting_.extract(run)) waiting_tasks_ -= waiting.mapped().size();
   // Who held an island before this worker came is not known here: nobody is accused.
   const std::set<std::string> named = holders_.forget(run);

@@ -13,7 +13,7 @@
 
 #include "transport/transport.hpp"
 #include "worker/holders.hpp"
-#include "worker/inbox.hpp"
+#include "worker/migrant_store.hpp"
 #include "worker/slots.hpp"
 #include "worker/spell.hpp"
 #include "worker/tenancy.hpp"
@@ -75,7 +75,7 @@ class Worker {
   Transport& transport_;
   WorkerOptions options_;
   std::map<RunId, std::shared_ptr<const RunData>> runs_;
-  std::map<RunId, Inbox> inboxes_;
+  std::map<RunId, MigrantStore> arrived_;
   std::map<RunId, std::map<IslandKey, IslandTask>> waiting_;  ///< tasks that came before their run's data
   std::size_t waiting_tasks_ = 0;
   Unproven unproven_;  ///< migrants of runs without data, or whose sender no task has named

@@ -23,7 +23,7 @@ WaitedShare::Time Worker::note_waiting() {
     const bool busy = busy_.contains(tenancy);
     if (!busy && tenancy->finished()) continue;
     any_left = true;
-    tenancy->set_waiting(now, !busy && !tenancy->is_ready(inboxes_[place.first]));
+    tenancy->set_waiting(now, !busy && !tenancy->is_ready(arrived_[place.first]));
   }
   const double slots = options_.slots;
   const double idle = std::max(slots - static_cast<double>(busy_.size()), 0.0);
@@ -37,7 +37,7 @@ std::shared_ptr<Tenancy> Worker::slowest_ready() const {
   for (const auto& [place, tenancy] : tenancies_) {
     if (busy_.contains(tenancy) || tenancy->finished()) continue;  // who is busy must not be looked at
     if (slowest && slowest->epoch() <= tenancy->epoch()) continue;
-    if (tenancy->is_ready(inboxes_.at(place.first))) slowest = tenancy;
+    if (tenancy->is_ready(arrived_.at(place.first))) slowest = tenancy;
   }
   return slowest;
 }
@@ -47,19 +47,19 @@ std::shared_ptr<Tenancy> Worker::slowest_ready() const {
 bool Worker::start_one() {
   const std::shared_ptr<Tenancy> slowest = slowest_ready();
   if (!slowest) return false;
-  const Inbox& inbox = inboxes_.at(slowest->run());
+  const MigrantStore& arrived = arrived_.at(slowest->run());
   const auto free = free_tenancies(slowest->run());
   auto linked = linked_with(slowest, free);
   const auto is_besides = [&](const auto& entry) {
-    return entry.second->is_ready(inbox) && std::ranges::count(linked, entry.second) == 0;
+    return entry.second->is_ready(arrived) && std::ranges::count(linked, entry.second) == 0;
   };
   const bool together = std::ranges::count_if(free, is_besides) + 1 >= options_.slots;
   if (!together) linked = {slowest};
   std::vector<Spell::Member> members;
-  Inbox theirs;
+  MigrantStore theirs;
   for (const auto& tenancy : linked) {
     members.push_back({tenancy, is_awaited_elsewhere(*tenancy)});
-    theirs.copy(inbox, tenancy->sources(), tenancy->epoch());
+    theirs.copy(arrived, tenancy->sources(), tenancy->epoch());
   }
   const auto spell = std::make_shared<Spell>(std::move(members), std::move(theirs));
   for (const auto& tenancy : linked) busy_[tenancy] = spell;
@@ -96,7 +96,7 @@ void Worker::finish(const Spell::Member& member) {
     return;
   }
   for (const Migrants& migrants : tenancy.recent())
-    if (migrants.epoch > member.began) inboxes_[place.first].put(migrants);
+    if (migrants.epoch > member.began) arrived_[place.first].put(migrants);
   const bool has_got_on = tenancy.epoch() > member.began;
   if (has_got_on || tenancy.owes_all_recent()) send_migrants(tenancy);
   if (!has_got_on) return;

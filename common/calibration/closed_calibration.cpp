@@ -6,6 +6,7 @@
 #include "calibration/last_fit.hpp"
 #include "calibration/loop_passes.hpp"
 #include "diagnosis/evidence.hpp"
+#include "random/random_purpose.hpp"
 
 namespace demecal {
 namespace {
@@ -154,13 +155,12 @@ void Passes::settle(const DiagnosisData& of, DiagnosedModel& model) const {
 /// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
 /// begins there. Its model is kept where it is the better description.
 void Passes::look_for_formulas(const Evolve& evolve, const RoundWatcher& watch) {
-  constexpr std::uint64_t kPermutations = 31;  // what the random stream is for
   const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration),
                          poses_of(data_, PoseSet::validation)};
   const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
   const DiagnosedModel model = refined(of, diagnosed_model(of, start_from(bare)), kSteps);
-  FormulaSearch search =
-      search_formulas(of, model, evolve, job_.closed_loop.family_error, RandomStream{job_.seed, kPermutations});
+  FormulaSearch search = search_formulas(of, model, evolve, job_.closed_loop.family_error,
+                                         RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
   if (search.formulas.empty()) return;
   std::vector<Candidate> candidates = library();
   candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());

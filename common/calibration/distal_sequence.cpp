@@ -8,13 +8,13 @@
 #include "evolution/breeding.hpp"
 #include "evolution/selection.hpp"
 #include "evolution/tree_generation.hpp"
+#include "random/random_purpose.hpp"
 
 namespace demecal {
 namespace {
 
-constexpr int kPatience = 40;             ///< generations without gain before a population begins anew
-constexpr int kRefused = 5;               ///< of a generation at most
-constexpr std::uint64_t kSequence = 406;  ///< what the random stream is for
+constexpr int kPatience = 40;  ///< generations without gain before a population begins anew
+constexpr int kRefused = 5;    ///< of a generation at most
 
 class Sequence {
  public:
@@ -23,7 +23,7 @@ class Sequence {
       : index_(index),
         job_(job),
         may_go_on_(may_go_on),
-        random_{job.seed, kSequence},
+        random_{job.seed, number_of(RandomPurpose::distal_sequence)},
         trainings_(preparation.training),
         trees_(preparation.training.size()) {
     outcome_.learnt.robot = without_corrections(preparation.declared.robot);

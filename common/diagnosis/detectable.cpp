@@ -4,6 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/judgement.hpp"
+#include "effects/likely_causes.hpp"
+
 namespace demecal {
 namespace {
 
@@ -21,6 +24,31 @@ double amplitude(const Candidate& candidate, const Score& score, const Detection
   const double price = 0.5 * static_cast<double>(score.rank) * std::log(static_cast<double>(detection.poses));
   const double least = 2.0 * (std::max(0.0, detection.null_maxima[place]) + price + candidate.name_nats);
   return (std::sqrt(least) + kPower90) * std::sqrt(detection.variance / score.smallest);
+}
+
+/// Marks what only an effect larger than plausible of its kind would show, over the states of the poses.
+void mark_untestable(std::vector<NotFound>& not_found, const Robot& robot, const std::vector<ArmState>& states) {
+  for (NotFound& missing : not_found) {
+    Effect effect = missing.effect;
+    effect.values.assign(law_of(effect).coefficients(effect, robot).size(), 0.0);
+    effect.values.front() = missing.smallest_detectable;
+    const LargestMotion needed = farthest_motion(effect, robot, states);
+    const Cause& cause = cause_of(effect.kind);
+    missing.testable = needed.turn_rad <= cause.largest_turn_rad && needed.shift_m <= cause.largest_shift_m;
+  }
+}
+
+/// The candidates that were refused as larger than a real arm's effects.
+std::vector<std::size_t> refused(const std::vector<Candidate>& candidates, const std::vector<Round>& rounds) {
+  std::vector<std::size_t> found;
+  for (const Round& round : rounds) {
+    if (!round.implausible) continue;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const bool real = candidates[i].disguise == Disguise::none;
+      if (real && candidates[i].effect.same_law_as(round.effect)) found.push_back(i);
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -45,6 +73,27 @@ std::vector<NotFound> smallest_detectable(const std::vector<Candidate>& candidat
       same->effect = effect;
     }
   }
+  return all;
+}
+
+std::vector<NotFound> not_found_beyond(const EndedLoop& loop, const std::vector<double>& null_maxima,
+                                       const BoundOptions& options, RandomStream random) {
+  Projection beyond = loop.at.projection;
+  const std::vector<std::size_t> set_aside = refused(loop.candidates, loop.rounds);
+  for (const std::size_t index : set_aside) {
+    const auto count = loop.columns.spans()[index].count;
+    const RowMatrix judging = RowMatrix::Zero(loop.at.judging.rows(), count);
+    beyond.add(beyond.trial(loop.columns.dense(loop.at.fitted, index), judging));
+  }
+  const Scan scan(loop.columns, prices_nats(loop.candidates), loop.at.fitted, beyond);
+  std::vector<double> maxima = null_maxima;
+  if (!set_aside.empty()) maxima = scan.null_maxima(loop.columns, loop.at.fitted, beyond, options.permutations, random);
+  std::vector<NotFound> all = smallest_detectable(loop.candidates, scan.scores(), loop.model, loop.robot,
+                                                  {.null_maxima = maxima,
+                                                   .family_error = options.family_error,
+                                                   .variance = beyond.squares() / beyond.freedom(),
+                                                   .poses = loop.at.fitted.poses.size()});
+  mark_untestable(all, loop.robot, loop.at.fitted.states);
   return all;
 }
 

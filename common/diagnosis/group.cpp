@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "diagnosis/implausible.hpp"
 #include "diagnosis/rivals.hpp"
 
 namespace demecal {
@@ -16,21 +17,12 @@ constexpr double kAlike = 0.9;          ///< cosine
 constexpr double kSame = 0.995;         ///< cosine
 constexpr double kNatsToTell = 5.0;
 constexpr double kNatsAbout = 3.0;
-constexpr double kStable = 0.95;           ///< share of resamples that must agree with a sign
-constexpr double kEvident = 2.0;           ///< times the largest fall by luck: no need to permute again
-constexpr double kLargestTurn_rad = 0.02;  ///< gears, bearings and links that give way more are broken
-constexpr double kLargestShift_m = 0.02;
+constexpr double kStable = 0.95;  ///< share of resamples that must agree with a sign
+constexpr double kEvident = 2.0;  ///< times the largest fall by luck: no need to permute again
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// A mount is known to a few degrees: gravity that leans more is another effect's disguise.
-bool leans_too_far(const Effect& effect) {
-  constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
-  if (effect.kind != "compliance" || effect.form != "tilted") return false;
-  return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
 }
 
 double sum_of_squares(const std::vector<double>& errors) {
@@ -64,8 +56,9 @@ Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Lineari
   }
 }
 
-RandomStream Group::random(std::uint64_t purpose) const {
-  return RandomStream{rules_.seed, purpose, static_cast<std::uint64_t>(rules_.group), outcome_.rounds.size()};
+RandomStream Group::random(RandomPurpose purpose) const {
+  return RandomStream{rules_.seed, number_of(purpose), static_cast<std::uint64_t>(rules_.group),
+                      outcome_.rounds.size()};
 }
 
 std::optional<std::size_t> Group::best() const {
@@ -119,7 +112,8 @@ void Group::renew_null(std::size_t index) {
   const bool evident = !null_maxima_.empty() && scores_[index].fall_nats > kEvident * null_maxima_.back();
   const bool first = outcome_.rounds.empty();
   if (!null_maxima_.empty() && (evident || !first)) return;
-  null_maxima_ = scan_.null_maxima(columns_, at_.fitted, projection_, rules_.permutations, random(5));
+  null_maxima_ = scan_.null_maxima(columns_, at_.fitted, projection_, rules_.permutations,
+                                   random(RandomPurpose::null_distribution));
 }
 
 Round Group::judge(std::size_t index, Projection::Trial& trial) {
@@ -130,7 +124,8 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   trial = projection_.trial(columns_.dense(at_.fitted, index), judging.dense(at_.judging, 0));
   const auto before = tool_errors_mm(at_.judging, projection_.judging_left(), model_.scales, of_.data);
   const auto after = tool_errors_mm(at_.judging, trial.judging_left, model_.scales, of_.data);
-  const Resampled draws = resampled(at_.fitted, trial, projection_.left(), rules_.resamples, random(4));
+  const Resampled draws =
+      resampled(at_.fitted, trial, projection_.left(), rules_.resamples, random(RandomPurpose::resampled_effect));
   Round round;
   round.number = rules_.first_round + static_cast<int>(outcome_.rounds.size());
   round.group = rules_.group;
@@ -143,9 +138,9 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   round.fall_nats = scores_[index].fall_nats;
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
-  round.gain_lower_mm2 =
-      gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
-                           whole_errors_mm(at_.judging, trial.judging_left, model_.scales), random(3));
+  round.gain_lower_mm2 = gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
+                                              whole_errors_mm(at_.judging, trial.judging_left, model_.scales),
+                                              random(RandomPurpose::gain_of_effect));
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
   round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted);
@@ -167,9 +162,6 @@ std::string Group::objection(const Round& round, const Projection::Trial& trial)
     }
   }
   if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
-  const LargestMotion largest = largest_motion(round.effect, of_.data.robot, at_.fitted.states);
-  if (largest.turn_rad > kLargestTurn_rad || largest.shift_m > kLargestShift_m) return "no arm strays so far by itself";
-  if (leans_too_far(round.effect)) return "no mount leans so far from where its file says";
   return {};
 }
 
@@ -180,8 +172,9 @@ void Group::take(Round round, const Projection::Trial& trial) {
   scan_.follow(columns_, at_.fitted, projection_);
   scores_ = scan_.scores();
   const auto errors = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
-  const double gain_mm2 =
-      errors.empty() ? sure_gain_mm2_ + 1.0 : gain_lower_bound_mm2(start_errors_mm_, errors, random(7));
+  const double gain_mm2 = errors.empty()
+                              ? sure_gain_mm2_ + 1.0
+                              : gain_lower_bound_mm2(start_errors_mm_, errors, random(RandomPurpose::gain_of_group));
   if (gain_mm2 <= sure_gain_mm2_) return;
   sure_gain_mm2_ = gain_mm2;
   sure_rounds_ = outcome_.rounds.size();
@@ -229,6 +222,10 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       break;
     }
     round.reason = objection(round, trial);
+    if (round.reason.empty()) {
+      round.reason = implausibility(round.effect, of_, model_, at_.fitted.states);
+      round.implausible = !round.reason.empty();
+    }
     outcome_.luck = round.p_family > rules_.family_error && !searched(*index);
     if (round.reason.empty()) {
       take(std::move(round), trial);

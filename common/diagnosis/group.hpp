@@ -9,6 +9,7 @@
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
+#include "random/random_purpose.hpp"
 
 namespace demecal {
 
@@ -62,7 +63,7 @@ class Group {
   void take(Round round, const Projection::Trial& trial);
   void leave_out_alike(const Round& round);
   void drop_unsure();
-  RandomStream random(std::uint64_t purpose) const;
+  RandomStream random(RandomPurpose purpose) const;
 
   const DiagnosisData& of_;
   const DiagnosedModel& model_;

@@ -52,6 +52,24 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment
   return scale.cwiseProduct(eigen.eigenvectors() * turned);
 }
 
+/// By place and axis, one motion a state.
+using Motions = std::map<std::pair<int, int>, std::vector<double>>;
+
+Motions motions_of(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  Motions motions;
+  std::vector<UnitMotion> units;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    units.clear();
+    append_unit_motions(effect, robot, states[i], units);
+    for (const UnitMotion& unit : units) {
+      auto [at, fresh] = motions.try_emplace({unit.place, unit.axis});
+      if (fresh) at->second.assign(states.size(), 0.0);
+      at->second[i] += unit.size * effect.value(static_cast<std::size_t>(unit.coefficient));
+    }
+  }
+  return motions;
+}
+
 }  // namespace
 
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
@@ -95,24 +113,22 @@ double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vec
 }
 
 LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
-  std::map<std::pair<int, int>, std::vector<double>> motions;  // by place and axis, one a state
-  std::vector<UnitMotion> units;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    units.clear();
-    append_unit_motions(effect, robot, states[i], units);
-    for (const UnitMotion& unit : units) {
-      auto [at, fresh] = motions.try_emplace({unit.place, unit.axis});
-      if (fresh) at->second.assign(states.size(), 0.0);
-      at->second[i] += unit.size * effect.value(static_cast<std::size_t>(unit.coefficient));
-    }
-  }
   LargestMotion largest;
-  for (const auto& [place, sizes] : motions) {
+  for (const auto& [place, sizes] : motions_of(effect, robot, states)) {
     const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
     double& most = place.second < 3 ? largest.shift_m : largest.turn_rad;
     for (const double size : sizes) most = std::max(most, std::abs(size - mean));
   }
   return largest;
+}
+
+LargestMotion farthest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  LargestMotion farthest;
+  for (const auto& [place, sizes] : motions_of(effect, robot, states)) {
+    double& most = place.second < 3 ? farthest.shift_m : farthest.turn_rad;
+    for (const double size : sizes) most = std::max(most, std::abs(size));
+  }
+  return farthest;
 }
 
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,

@@ -28,6 +28,8 @@ struct LargestMotion {
   double turn_rad = 0.0, shift_m = 0.0;
 };
 LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
+/// The same of what stays the same too: how far the effect moves any place at most.
+LargestMotion farthest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
 
 /// How coefficients scatter when the fitted poses are drawn anew with replacement.
 struct Resampled {

@@ -37,12 +37,14 @@ class ClosedLoop {
   StopReason reason_to_stop(const GroupOutcome& last) const;
   void describe_added();
   void look_further();
+  void leave_out_own_forms();
   void finish(const Linearised& at);
-  RandomStream random(std::uint64_t purpose) const {
-    return RandomStream{options_.seed, purpose, static_cast<std::uint64_t>(group_)};
+  RandomStream random(RandomPurpose purpose) const {
+    return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
   }
   double structure(const Linearised& at) const {
-    return structure_p_value(at.fitted, at.projection, of_.data.robot.chain, options_.permutations, random(6));
+    return structure_p_value(at.fitted, at.projection, of_.data.robot.chain, options_.permutations,
+                             random(RandomPurpose::structure_test));
   }
 
   const DiagnosisData& of_;
@@ -71,8 +73,10 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   std::for_each_n(evolved, options_.evolved.size(),
                   [&](Candidate& candidate) { set_measured_ranges(candidate.effect, of_.data.robot, evidence); });
   const std::vector<ArmState>& states = at.fitted.states;
-  const auto shuffled_approach = disguised(states, Disguise::shuffled_approach, random(1));
-  const auto shuffled_heat = disguised(states, Disguise::shuffled_temperature, random(2));
+  const auto shuffled_approach =
+      disguised(states, Disguise::shuffled_approach, random(RandomPurpose::shuffled_approach));
+  const auto shuffled_heat =
+      disguised(states, Disguise::shuffled_temperature, random(RandomPurpose::shuffled_temperature));
   for (const Candidate& candidate : candidates_) {
     const bool sides = candidate.disguise == Disguise::shuffled_approach;
     const bool heat = candidate.disguise == Disguise::shuffled_temperature;
@@ -89,7 +93,7 @@ void ClosedLoop::make_candidates(const Linearised& at) {
 void ClosedLoop::measure_pure_error(const Linearised& at) {
   const auto pure = pure_error(of_.data, of_.fitted);
   if (!pure) return;
-  outcome_.noise_m = pure->deviation_m;
+  outcome_.repeat_scatter_m = pure->deviation_m;
   double squares = 0.0, freedom = 0.0;
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (!of_.data.poses[at.fitted.poses[i]].position_m) continue;
@@ -221,21 +225,31 @@ void ClosedLoop::look_further() {
   for (Round& round : outcome_.rounds) {
     const bool named_last = round.verdict == Verdict::added || &round == &outcome_.rounds.back();
     if (!named_last || round.rivals.empty() || said >= kMost) continue;
-    round.further = further_measurement(of_, model_, round.effect, round.rivals, random(8));
+    round.further =
+        further_measurement(of_, model_, round.effect, round.rivals, random(RandomPurpose::further_measurement));
     ++said;
+  }
+}
+
+/// Other forms of an effect are no rivals of it.
+void ClosedLoop::leave_out_own_forms() {
+  for (Round& round : outcome_.rounds) {
+    std::erase_if(round.rivals, [&](const Rival& rival) {
+      const Effect &own = round.effect, &other = rival.effect;
+      const bool named = own.kind != "symbolic" && own.kind == other.kind && own.joint == other.joint;
+      return other.same_law_as(own) || (named && other.settings == own.settings);
+    });
   }
 }
 
 void ClosedLoop::finish(const Linearised& at) {
   outcome_.p_structure_left = p_structure_;
   describe_added();
+  leave_out_own_forms();
   look_further();
-  const Scan scan(columns_, prices_nats(candidates_), at.fitted, at.projection);
-  outcome_.not_found = smallest_detectable(candidates_, scan.scores(), model_.robot, of_.data.robot,
-                                           {.null_maxima = null_maxima_,
-                                            .family_error = options_.family_error,
-                                            .variance = at.projection.squares() / at.projection.freedom(),
-                                            .poses = at.fitted.poses.size()});
+  outcome_.not_found =
+      not_found_beyond({of_.data.robot, model_.robot, at, candidates_, columns_, outcome_.rounds}, null_maxima_,
+                       {options_.family_error, options_.permutations}, random(RandomPurpose::null_distribution));
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (at.fitted.root_weight[i] < 0.5) outcome_.outliers.push_back(at.fitted.poses[i]);
   }

@@ -35,6 +35,7 @@ struct Round {
   std::string diagnosis;        ///< one sentence for an engineer
   std::string formula;          ///< one line
   std::string reason;           ///< why it was not added; empty where it was
+  bool implausible = false;     ///< refused as larger than a real arm's: the data hold it, so that it has no bound
   std::vector<Rival> rivals;    ///< nearest first
   double p_structure = 1.0;     ///< of the omnibus test for dependence before this group
   double p_family = 1.0;        ///< family-wise, over all candidates or, of an evolved formula, over whole searches
@@ -53,6 +54,7 @@ struct NotFound {
   Effect effect;                     ///< kind and joint
   double smallest_detectable = 0.0;  ///< the smallest amplitude that these poses would show with power 0.9
   std::string unit;                  ///< "rad", "rad/Nm", ...
+  bool testable = true;  ///< an effect that small is plausible of its kind; else these data tell nothing of it
 };
 
 /// A kind of effect that these data cannot show at all.
@@ -77,12 +79,12 @@ struct LoopOutcome {
   std::vector<NotFound> not_found;
   std::vector<Unseen> unseen;
   std::vector<Decoy> decoys;
-  std::vector<std::size_t> outliers;      ///< poses (in the data set) that were down-weighted as far out
-  std::optional<double> noise_m;          ///< per axis, from repeats
-  std::optional<double> lack_of_fit_p;    ///< of the F test against repeats, before the loop
-  std::optional<double> explained_share;  ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
-  double p_structure_left = 1.0;          ///< of the omnibus test at the end
-  int candidates = 0;                     ///< effects tried in every round
+  std::vector<std::size_t> outliers;       ///< poses (in the data set) that were down-weighted as far out
+  std::optional<double> repeat_scatter_m;  ///< per axis, of repeated calibration poses
+  std::optional<double> lack_of_fit_p;     ///< of the F test against repeats, before the loop
+  std::optional<double> explained_share;   ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
+  double p_structure_left = 1.0;           ///< of the omnibus test at the end
+  int candidates = 0;                      ///< effects tried in every round
   int permutations = 0;
 };
 

@@ -21,14 +21,14 @@ DEMECAL_FOR_EACH_VECTOR_UNIT
 void weigh_errors(const double* target, const double* weight, const double* values, double least_size, double* error,
                   double* square_weight, std::size_t rows) {
   if (least_size > 0.0) {
-#pragma GCC ivdep
+    DEMECAL_ROWS_APART
     for (std::size_t i = 0; i < rows / kLanes * kLanes; ++i) {
       const double left = target[i] - values[i], size = std::abs(left);
       error[i] = left;
       square_weight[i] = weight[i] / (size > least_size ? size : least_size);
     }
   } else {
-#pragma GCC ivdep
+    DEMECAL_ROWS_APART
     for (std::size_t i = 0; i < rows / kLanes * kLanes; ++i) {
       error[i] = target[i] - values[i];
       square_weight[i] = weight[i];

@@ -13,7 +13,7 @@ using Strip = std::array<double, NormalEquations::kMostRowsAtOnce>;
 
 DEMECAL_FOR_EACH_VECTOR_UNIT
 void weigh(const double* column, const double* weight, double* out, std::size_t rows) {
-#pragma GCC ivdep
+  DEMECAL_ROWS_APART
   for (std::size_t i = 0; i < rows / kLanes * kLanes; ++i) out[i] = column[i] * weight[i];
 }
 
@@ -52,7 +52,7 @@ bool solve_in_place(double* matrix, double* inverse_diagonal, double* step, std:
     for (std::size_t j = i + 1; j < n; ++j) {
       const double factor = pivot[j] * inverse_diagonal[i];
       double* const row = matrix + j * n;
-#pragma GCC ivdep
+      DEMECAL_ROWS_APART
       for (std::size_t k = j; k < n; ++k) row[k] = std::fma(-factor, pivot[k], row[k]);
       step[j] = std::fma(-factor, step[i], step[j]);
     }

@@ -13,18 +13,18 @@ constexpr std::uint8_t code_of(Primitive function, Form form) {
   return static_cast<std::uint8_t>(static_cast<int>(function) * kForms + static_cast<int>(form));
 }
 
-// In the loops below `out` may be an argument's own column: every row depends on itself alone, which ivdep states.
+// In the loops below `out` may be an argument's own column: every row depends on itself alone.
 
 template <class Function>
 [[gnu::always_inline]] inline void unary(const double* in, double* out, std::size_t rows, Function function) {
-#pragma GCC ivdep
+  DEMECAL_ROWS_APART
   for (std::size_t i = 0; i < rows / kLanes * kLanes; ++i) out[i] = function(in[i]);
 }
 
 template <class Function>
 [[gnu::always_inline]] inline void binary(const double* a, const double* b, double* out, std::size_t rows,
                                           Function function) {
-#pragma GCC ivdep
+  DEMECAL_ROWS_APART
   for (std::size_t i = 0; i < rows / kLanes * kLanes; ++i) out[i] = function(a[i], b[i]);
 }
 

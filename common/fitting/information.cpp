@@ -23,6 +23,10 @@ void Information::make_room(Eigen::Index rows) {
 
 void Information::reduce() {
   if (filled_ == 0) return;
+  if (basis_.cols() == 0) {  // products without numbers have no place in memory
+    filled_ = 0;
+    return;
+  }
   seen_.noalias() = rows_.topRows(filled_) * basis_;
   squares_.selfadjointView<Eigen::Lower>().rankUpdate(seen_.transpose());
   gradient_.noalias() += seen_.transpose() * residuals_.head(filled_);

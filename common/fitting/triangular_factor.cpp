@@ -22,7 +22,10 @@ void TriangularFactor::add(
 
 void TriangularFactor::reduce() {
   const Eigen::Index n = stack_.cols();
-  if (n == 0) return;
+  if (n == 0) {
+    filled_ = 0;
+    return;
+  }
   stack_.bottomRows(stack_.rows() - filled_).setZero();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_);
   stack_.topRows(n) = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <numeric>
 
 #include "calibration/shared_calls.hpp"
+#include "diagnosis/structure.hpp"
 #include "effects/error_figures.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
@@ -66,20 +66,11 @@ ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
 }
 
 std::optional<double> noise_floor_mm(const DataSet& data) {
-  std::map<std::pair<std::string, std::string>, std::vector<Eigen::Vector3d>> repeats;
-  for (const MeasuredPose& pose : data.poses) {
-    if (pose.position_m) repeats[{pose.pose_id, pose.target}].push_back(*pose.position_m);
-  }
-  double squares = 0.0;
-  std::size_t freedom = 0;
-  for (const auto& [pose, positions] : repeats) {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& position : positions) mean += position / static_cast<double>(positions.size());
-    for (const Eigen::Vector3d& position : positions) squares += (position - mean).squaredNorm();
-    freedom += 3 * (positions.size() - 1);
-  }
-  if (freedom == 0) return std::nullopt;
-  return 1e3 * std::sqrt(squares / static_cast<double>(freedom));
+  std::vector<std::size_t> all(data.poses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::optional<PureError> repeats = pure_error(data, all);
+  if (!repeats) return std::nullopt;
+  return millimetres(repeats->deviation_m);
 }
 
 CalibrationReport make_report(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& before,
@@ -102,7 +93,7 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   report.declared = errors_by_set(preparation.declared.robot, data);
   report.before = errors_by_set(before, data);
   report.after = errors_by_set(model.robot, data);
-  report.noise_floor_mm = loop.noise_m ? millimetres(*loop.noise_m) : noise_floor_mm(data);
+  report.noise_floor_mm = noise_floor_mm(data);
   report.unseen = calibration.unseen;
   report.loop = loop;
   report.described = model.nominal;

@@ -77,8 +77,8 @@ std::string further_list(const JsonValue& report) {
                          escaped(effect_entry(round["effect"]).name()), escaped(sentence));
   }
   if (items.empty()) return {};
-  return "<h3>What to measure next</h3>\n<p class=\"note\">These poses hardly tell the named effects from their "
-         "rivals. "
+  return "<h3>What to measure next</h3>\n<p class=\"note\">These poses cannot distinguish the named effects from "
+         "their rivals. "
          "The measurements below would, nine times out of ten with so many poses.</p>\n<ul class=\"plain\" "
          "id=\"further\">\n" +
          items + "</ul>\n";

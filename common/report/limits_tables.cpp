@@ -14,10 +14,12 @@ std::string titled(const char* title, const char* note, const std::string& table
 
 std::string not_found_row(const JsonValue& missing) {
   const auto smallest = missing["smallest_detectable"].number();
-  const std::string unit = missing["unit"].text();
+  const std::string unit = missing["unit"].text(), untestable = missing["sentence"].text();
   return table_row(escaped(effect_entry(missing).name()),
                    {smallest ? fmt::format("{:.3g}", *smallest) : "–", escaped(unit),
-                    smallest ? escaped(limit_amount(*smallest, unit)) : "–"});
+                    smallest             ? escaped(limit_amount(*smallest, unit))
+                    : untestable.empty() ? "–"
+                                         : escaped(untestable)});
 }
 
 }  // namespace
@@ -29,7 +31,7 @@ std::string not_found_table(const JsonValue& report) {
   if (rows.empty()) return {};
   return titled("Not found",
                 "Effects of these kinds, if present, are smaller than these poses would have shown nine times out of "
-                "ten.",
+                "ten; where only an implausibly large one would have shown, these data cannot tell.",
                 table_panel("not-found",
                             "<th scope=\"row\">effect</th><th>smallest detectable</th><th>unit</th><th>in words</th>",
                             rows, not_found.size()));
@@ -43,7 +45,7 @@ std::string unseen_table(const JsonValue& report) {
                         escaped(kind["reason"].text()));
   }
   if (rows.empty()) return {};
-  return titled("What these data cannot show", "Whether the arm has effects of these kinds stays open.",
+  return titled("Not testable with these data", "Whether the arm has effects of these kinds stays open.",
                 table_panel("unseen", "<th scope=\"row\">kind</th><th class=\"words\">why</th>", rows, unseen.size()));
 }
 

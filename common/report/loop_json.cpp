@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/effect_class.hpp"
 #include "report/effect_entry.hpp"
 
 namespace demecal {
@@ -55,7 +56,13 @@ Json round_entry(const Round& round, const Robot& robot) {
              {"effect", to_json(effect_entry(round.effect, robot))},
              {"diagnosis", round.diagnosis},
              {"formula", round.formula},
-             {"reason", round.reason}};
+             {"reason", round.reason},
+             {"implausible", round.implausible}};
+  const std::vector<Effect> members = effect_class(round);
+  entry["class"] = list(members, [](const Effect& member) {
+    return Json{{"kind", member.kind}, {"joint", member.joint < 0 ? Json(nullptr) : Json(member.joint + 1)}};
+  });
+  entry["class_sentence"] = class_sentence(members);
   entry["rivals"] = list(round.rivals, [&robot](const Rival& one) { return rival(one, robot); });
   entry["p_structure"] = number(round.p_structure);
   entry["p_family"] = number(round.p_family);
@@ -73,8 +80,9 @@ Json round_entry(const Round& round, const Robot& robot) {
 Json not_found(const NotFound& missing, const Robot& robot) {
   Json entry = to_json(effect_entry(missing.effect, robot));
   entry.erase("amplitude");  // whatever was fitted, it was not found
-  entry["smallest_detectable"] = number(missing.smallest_detectable);
+  entry["smallest_detectable"] = missing.testable ? number(missing.smallest_detectable) : Json(nullptr);
   entry["unit"] = missing.unit;
+  entry["sentence"] = missing.testable ? "" : "not testable with these data";
   return entry;
 }
 

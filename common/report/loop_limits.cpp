@@ -32,7 +32,7 @@ std::size_t rank(const Searched& searched) {
 std::vector<Searched> by_kind(const std::vector<NotFound>& not_found) {
   std::vector<Searched> kinds;
   for (const NotFound& missing : not_found) {
-    if (!std::isfinite(missing.smallest_detectable)) continue;
+    if (!std::isfinite(missing.smallest_detectable) || !missing.testable) continue;
     const auto same = [&missing](const Searched& other) {
       return other.kind == missing.effect.kind && other.unit == missing.unit;
     };
@@ -80,11 +80,29 @@ std::string not_found_lines(const LoopOutcome& loop, const Robot& described) {
                     words_of(kinds[i], described), 4);
     told += kinds[i].places.size();
   }
-  if (told < loop.not_found.size()) {
-    text +=
-        fmt::format("  {} more effects not found, with their limits: see report.html\n", loop.not_found.size() - told);
+  const auto testable = static_cast<std::size_t>(std::ranges::count_if(loop.not_found, &NotFound::testable));
+  if (told < testable) {
+    text += fmt::format("  {} more effects not found, with their limits: see report.html\n", testable - told);
   }
   return text;
+}
+
+std::string untestable_line(const LoopOutcome& loop) {
+  std::vector<std::pair<std::string, std::string>> kinds;  // and joints
+  for (const NotFound& missing : loop.not_found) {
+    if (missing.testable) continue;
+    const std::string& kind = missing.effect.kind;
+    auto found = std::ranges::find(kinds, kind, &std::pair<std::string, std::string>::first);
+    if (found == kinds.end()) found = kinds.insert(kinds.end(), {kind, ""});
+    if (missing.effect.joint >= 0)
+      found->second += fmt::format("{}{}", found->second.empty() ? "" : ", ", missing.effect.joint + 1);
+  }
+  std::string text;
+  for (const auto& [kind, joints] : kinds) {
+    text += (text.empty() ? "" : "; ") + kind + (joints.empty() ? "" : " of joint ") + joints;
+  }
+  const char* why = " (only implausibly large ones would show)";
+  return text.empty() ? text : wrapped("  not testable with these data:", text + why, 4);
 }
 
 std::string unseen_line(const LoopOutcome& loop) {
@@ -99,7 +117,7 @@ std::string unseen_line(const LoopOutcome& loop) {
   }
   std::string text;
   for (const auto& [reason, kinds] : reasons) text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", kinds, reason);
-  return text.empty() ? text : wrapped("  these data cannot show:", text, 4);
+  return text.empty() ? text : wrapped("  not testable with these data:", text, 4);
 }
 
 std::string decoys_line(const LoopOutcome& loop) {

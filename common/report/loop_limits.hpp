@@ -11,6 +11,9 @@ namespace demecal {
 /// limits where several places were searched.
 std::string not_found_lines(const LoopOutcome& loop, const Robot& described);
 
+/// One paragraph of effects that only an implausible size would show.
+std::string untestable_line(const LoopOutcome& loop);
+
 /// One paragraph of the kinds that these data cannot show, by reason.
 std::string unseen_line(const LoopOutcome& loop);
 

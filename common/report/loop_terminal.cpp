@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/effect_class.hpp"
 #include "report/effect_entry.hpp"
 #include "report/harmonics.hpp"
 #include "report/loop_limits.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr std::size_t kIndent = 7;          // of what is said of one effect
 constexpr std::size_t kMostHarmonics = 12;  // that take a line each
 constexpr std::size_t kMostRivals = 3;
+constexpr std::size_t kMostRefused = 2;
+constexpr std::size_t kMostNameLetters = 42;
 constexpr std::size_t kMostDiagnoses = 8;  // effects, for each to get its sentence
 
 using Rounds = std::vector<const Round*>;
@@ -39,7 +42,8 @@ std::string mm(double value) {
 
 std::string columns(const std::string& number, const std::string& name, const std::string& size, const std::string& p,
                     const std::string& before, const std::string& after) {
-  std::string line = right(number, 5) + "  " + left(name, 42) + right(size, 13) + right(p, 9) + right(before, 12);
+  std::string line =
+      right(number, 5) + "  " + left(name, kMostNameLetters) + right(size, 13) + right(p, 9) + right(before, 12);
   return line + (after.empty() ? "" : " -> " + after) + "\n";
 }
 
@@ -47,16 +51,23 @@ std::string heading() {
   return columns("", "effect added", "size", "p", "validation", "after, mm");
 }
 
-std::string rivals_line(const Round& round, const Robot& robot) {
-  if (round.rivals.empty()) return {};
+/// Rivals that the name of the effect's class does not hold already.
+std::string rivals_line(const Round& round, const std::vector<Effect>& members, const Robot& robot) {
   std::string names;
-  for (std::size_t i = 0; i < std::min(kMostRivals, round.rivals.size()); ++i) {
-    const Rival& rival = round.rivals[i];
-    names +=
-        fmt::format("{}{} (cosine {:.2f})", i == 0 ? "" : "; ", effect_entry(rival.effect, robot).name(), rival.cosine);
+  std::size_t named = 0, more = 0;
+  for (const Rival& rival : round.rivals) {
+    const auto is_it = [&rival](const Effect& member) { return member.same_law_as(rival.effect); };
+    if (std::ranges::any_of(members, is_it)) continue;
+    if (++named > kMostRivals) {
+      ++more;
+      continue;
+    }
+    names += fmt::format("{}{} (cosine {:.2f})", names.empty() ? "" : "; ", effect_entry(rival.effect, robot).name(),
+                         rival.cosine);
   }
-  if (round.rivals.size() > kMostRivals) names += fmt::format("; {} more", round.rivals.size() - kMostRivals);
-  return wrapped(std::string(kIndent, ' ') + "hardly told from:", names, kIndent + 2);
+  if (names.empty()) return {};
+  if (more > 0) names += fmt::format("; {} more", more);
+  return wrapped(std::string(kIndent, ' ') + "cannot be distinguished with these poses from:", names, kIndent + 2);
 }
 
 std::string further_line(const Round& round) {
@@ -66,10 +77,20 @@ std::string further_line(const Round& round) {
 
 std::string effect_lines(const Round& round, const Robot& robot, bool diagnosed) {
   const EffectEntry effect = effect_entry(round.effect, robot);
-  std::string text = columns(std::to_string(round.number), effect.name(), effect.size(), probability(round.p_family),
+  const std::vector<Effect> members = effect_class(round);
+  const std::string margin(kIndent - 1, ' ');
+  const std::string class_name = class_words(members);
+  const std::string name = members.empty()                         ? effect.name()
+                           : class_name.size() <= kMostNameLetters ? class_name
+                                                                   : class_words({members.front()}) + " or another";
+  std::string text = columns(std::to_string(round.number), name, effect.size(), probability(round.p_family),
                              mm(round.validation_before_mm), mm(round.validation_after_mm));
-  if (diagnosed && !round.diagnosis.empty()) text += wrapped(std::string(kIndent - 1, ' '), round.diagnosis, kIndent);
-  return text + rivals_line(round, robot) + further_line(round);
+  if (!members.empty()) {
+    text += wrapped(margin, fmt::format("{} The model has it as {}.", class_sentence(members), effect.name()), kIndent);
+  }
+  if (diagnosed && !round.diagnosis.empty())
+    text += wrapped(margin, (members.empty() ? "" : "If that is right: ") + round.diagnosis, kIndent);
+  return text + rivals_line(round, members, robot) + further_line(round);
 }
 
 std::string harmonics_lines(const Rounds& rounds, const Robot& robot) {
@@ -93,7 +114,9 @@ std::string harmonics_lines(const Rounds& rounds, const Robot& robot) {
   if (doubtful > 0) {
     text +=
         wrapped(std::string(kIndent - 1, ' '),
-                fmt::format("{} of them can hardly be told from other effects: see report.html", doubtful), kIndent);
+                fmt::format("{} of them cannot be distinguished from other effects with these poses: see report.html",
+                            doubtful),
+                kIndent);
   }
   return text;
 }
@@ -114,11 +137,23 @@ std::string added_lines(Rounds rounds, const Robot& robot) {
 std::string last_candidate(const LoopOutcome& loop, const Robot& robot) {
   if (loop.rounds.empty() || loop.rounds.back().verdict == Verdict::added) return {};
   const Round& last = loop.rounds.back();
-  if (last.effect.kind.empty()) return {};
+  if (last.effect.kind.empty() || last.implausible) return {};
   return wrapped("  tried last, not added:",
                  fmt::format("{}, p {}{}{}", effect_entry(last.effect, robot).name(), probability(last.p_family),
                              last.reason.empty() ? "" : ": ", last.reason),
                  4);
+}
+
+/// What the data hold that no real arm has: said, since it is neither an effect nor absent.
+std::string refused_lines(const LoopOutcome& loop, const Robot& robot) {
+  std::string text;
+  std::size_t refused = 0;
+  for (const Round& round : loop.rounds) {
+    if (!round.implausible || ++refused > kMostRefused) continue;
+    text += wrapped("  refused:", effect_entry(round.effect, robot).name() + ": " + round.reason, 4);
+  }
+  if (refused > kMostRefused) text += fmt::format("  {} more refused: see report.html\n", refused - kMostRefused);
+  return text;
 }
 
 std::string dropped_line(const LoopOutcome& loop, const Robot& robot) {
@@ -137,8 +172,9 @@ std::string loop_to_terminal(const LoopOutcome& loop, const Robot& described) {
   if (loop.stopped == StopReason::not_run) return {};
   const std::string closing = stop_sentence(word_of(loop.stopped)) + " " +
                               statistics_sentences({loop.lack_of_fit_p, loop.explained_share, loop.p_structure_left});
-  return added_lines(added_rounds(loop), described) + dropped_line(loop, described) + last_candidate(loop, described) +
-         wrapped(" ", closing, 4) + not_found_lines(loop, described) + unseen_line(loop) + decoys_line(loop);
+  return added_lines(added_rounds(loop), described) + refused_lines(loop, described) + dropped_line(loop, described) +
+         last_candidate(loop, described) + wrapped(" ", closing, 4) + not_found_lines(loop, described) +
+         untestable_line(loop) + unseen_line(loop) + decoys_line(loop);
 }
 
 }  // namespace demecal

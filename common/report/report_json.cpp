@@ -159,8 +159,18 @@ std::string to_json(const CalibrationReport& report) {
   return text_of(json, 2);
 }
 
-std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check) {
-  return text_of(Json{{"error_mm", by_set(errors)}, {"data_check", data_check_to_json(check)}}, -1);
+std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check,
+                           const std::vector<UnappliedEffect>& unapplied) {
+  Json effects = Json::array();
+  for (const UnappliedEffect& one : unapplied) {
+    effects.push_back({{"kind", one.kind},
+                       {"joint", one.joint < 0 ? Json(nullptr) : Json(one.joint + 1)},
+                       {"lacking", one.lacking},
+                       {"poses", one.poses},
+                       {"sentence", one.sentence()}});
+  }
+  const Json found = data_check_to_json(check);
+  return text_of(Json{{"error_mm", by_set(errors)}, {"data_check", found}, {"effects_not_applied", effects}}, -1);
 }
 
 }  // namespace demecal

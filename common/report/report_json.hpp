@@ -4,6 +4,7 @@
 #include <string>
 
 #include "report/calibration_report.hpp"
+#include "report/unapplied_effects.hpp"
 
 namespace demecal {
 
@@ -12,6 +13,7 @@ std::string to_json(const CalibrationReport& report);
 
 /// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "data_check": ...} on one
 /// line.
-std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check = {});
+std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check = {},
+                           const std::vector<UnappliedEffect>& unapplied = {});
 
 }  // namespace demecal

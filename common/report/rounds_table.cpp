@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* kHead =
     "<th scope=\"row\">round</th><th class=\"words\">verdict</th><th class=\"words\">effect</th><th>size</th>"
-    "<th>family-wise p</th><th>before, mm</th><th>after, mm</th><th>change</th><th class=\"words\">rivals these poses "
-    "hardly tell from it</th>";
+    "<th>family-wise p</th><th>before, mm</th><th>after, mm</th><th>change</th><th class=\"words\">cannot be "
+    "distinguished with these poses from</th>";
 
 std::string words(const std::string& cell, const char* look = "") {
   return fmt::format("<td class=\"words{}\">{}</td>", look, cell);
@@ -40,7 +40,12 @@ std::string rivals(const JsonValue& round) {
 std::string row(const JsonValue& round, std::size_t number) {
   const EffectEntry effect = effect_entry(round["effect"]);
   const auto before = round["validation_before_mm"].number(), after = round["validation_after_mm"].number();
-  const std::string named = escaped(effect.name()) + why(round["diagnosis"].text()) + why(round["reason"].text());
+  const std::string class_sentence = round["class_sentence"].text();
+  const std::string named =
+      (class_sentence.empty() ? escaped(effect.name())
+                              : "<b>" + escaped(class_sentence) + "</b>" +
+                                    why("In the model it stands as " + effect.name() + "; if that is right:")) +
+      why(round["diagnosis"].text()) + why(round["reason"].text());
   return fmt::format(
       "<tr><th scope=\"row\">{}</th>{}{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
       round["round"].count().value_or(number), words(badge(round["verdict"].text())), words(named, " wide"),

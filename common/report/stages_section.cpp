@@ -85,7 +85,7 @@ std::string index_line(const JsonValue& report) {
   if (!before || !after) return {};
   return fmt::format(
       "<p class=\"note\">Performance index, the sum of squared tool errors over the calibration poses: {} mm² with the "
-      "declared model, {} mm² with the joint corrections ({}).</p>\n",
+      "declared model, {} mm² with the final model, which model.yaml holds ({}).</p>\n",
       fixed(before, 3), fixed(after, 3), change(before, after));
 }
 

@@ -1,3 +1,4 @@
+#include "random/random_purpose.hpp"
 #include "simulation/poses.hpp"
 #include "simulation/simulated_robot.hpp"
 
@@ -6,9 +7,6 @@ namespace {
 
 /// Moves below this, rad or m, leave a gear where it was: they give a joint no direction.
 constexpr double kSmallestMove = 2e-3;
-
-/// What the random streams of a scenario are for. Apart, so that another noise leaves the poses as they are.
-constexpr std::uint64_t kPoses = 1, kNoise = 2, kPayload = 3, kRepeats = 4;
 
 ApproachSigns signs_of_move(const JointVector& from, const JointVector& to) {
   ApproachSigns signs(to.size());
@@ -38,10 +36,10 @@ class Tour {
  public:
   explicit Tour(const Scenario& scenario)
       : scenario_(scenario),
-        noise_{scenario.seed, kNoise},
-        payload_{scenario.seed, kPayload},
-        repeats_{scenario.seed, kRepeats} {
-    RandomStream random{scenario.seed, kPoses};
+        noise_{scenario.seed, number_of(SimulationPurpose::noise)},
+        payload_{scenario.seed, number_of(SimulationPurpose::payload)},
+        repeats_{scenario.seed, number_of(SimulationPurpose::repeats)} {
+    RandomStream random{scenario.seed, number_of(SimulationPurpose::poses)};
     poses_ = draw_poses(scenario, scenario.poses[0] + scenario.poses[1] + scenario.poses[2], random);
   }
 
@@ -70,7 +68,7 @@ class Tour {
   }
 
   const Scenario& scenario_;
-  RandomStream noise_, payload_, repeats_;
+  RandomStream noise_, payload_, repeats_;  ///< apart, so that another noise leaves the poses as they are
   std::vector<JointVector> poses_;
 };
 

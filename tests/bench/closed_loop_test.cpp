@@ -64,7 +64,7 @@ TEST_P(Kinds, PutIntoTheSimulatedArmWhatTheirLawSays) {
   const double left_mm = error_figures(model, data, poses_of(data, PoseSet::accept)).rms_mm;
   EXPECT_GT(nominal_mm, 0.0);
   EXPECT_LT(left_mm, 0.02 * nominal_mm) << words(*truth, data.robot);
-  EXPECT_NEAR(noise_floor_mm(scenario, data), 0.0, 1e-9);
+  EXPECT_NEAR(error_of_truth_mm(scenario, data), 0.0, 1e-9);
   EXPECT_TRUE(is_truth(*truth, *truth, data.robot, states_of(data, PoseSet::calibration)));
 }
 

@@ -140,6 +140,8 @@ TEST(LargestMotion, IsHowFarAnEffectStraysFromItsMean) {
   const Effect offset{.kind = "joint_offset", .joint = 1, .values = {0.1}};
   EXPECT_NEAR(largest_motion(offset, robot, states).turn_rad, 0.0, 1e-15);
   EXPECT_EQ(largest_motion(offset, robot, {}).turn_rad, 0.0);
+  EXPECT_NEAR(farthest_motion(offset, robot, states).turn_rad, 0.1, 1e-15);
+  EXPECT_NEAR(farthest_motion(backlash(2, 6e-4), robot, states).shift_m, 3e-4, 1e-15);
 }
 
 }  // namespace

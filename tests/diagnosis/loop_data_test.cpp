@@ -148,8 +148,8 @@ TEST(ClosedLoopData, GiveTheFloorWherePosesAreRepeated) {
   scenario.repeats = 3;
   const LoopResult result = run_loop(simulate(scenario), kZeroed, quick());
   expect_sound(result.outcome);
-  ASSERT_TRUE(result.outcome.noise_m && result.outcome.lack_of_fit_p && result.outcome.explained_share);
-  EXPECT_NEAR(*result.outcome.noise_m, kNoise_m, 5e-6);
+  ASSERT_TRUE(result.outcome.repeat_scatter_m && result.outcome.lack_of_fit_p && result.outcome.explained_share);
+  EXPECT_NEAR(*result.outcome.repeat_scatter_m, kNoise_m, 5e-6);
   EXPECT_LT(*result.outcome.lack_of_fit_p, 0.01);
   EXPECT_GT(*result.outcome.explained_share, 0.9);
   EXPECT_LT(*result.outcome.explained_share, 1.05);
@@ -157,7 +157,7 @@ TEST(ClosedLoopData, GiveTheFloorWherePosesAreRepeated) {
 
 TEST(ClosedLoopData, GiveNoFloorWithoutRepeats) {
   const LoopOutcome outcome = run_loop(simulate(loose_arm(parallel_arm(), 10)), kZeroed, quick()).outcome;
-  EXPECT_FALSE(outcome.noise_m || outcome.lack_of_fit_p || outcome.explained_share);
+  EXPECT_FALSE(outcome.repeat_scatter_m || outcome.lack_of_fit_p || outcome.explained_share);
 }
 
 TEST(ClosedLoopData, FarOutAreNamedAndDoNotDecide) {

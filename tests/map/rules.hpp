@@ -48,4 +48,8 @@ Violations check_shape(const Source& source);
 /// No file or folder is called util, helper, manager, misc, or, below common/, common.
 Violations check_names(const Source& source);
 
+/// No class, struct, union or enumeration has the full name of another in the sources, those of anonymous namespaces
+/// aside: where two files that meet in one program define a name differently, the linker takes one of both unasked.
+Violations check_types_once(const std::vector<Source>& sources);
+
 }  // namespace demecal::map

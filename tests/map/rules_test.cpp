@@ -140,5 +140,30 @@ TEST(NameRule, ForbidsNamesThatSayNothing) {
   }
 }
 
+const std::string kInbox = "namespace demecal {\nclass Inbox final : public Store {\n  struct Entry {};\n};\n}\n";
+
+TEST(TypeRule, FindsATypeThatTwoFilesDefine) {
+  for (const char* const other :
+       {"namespace demecal { struct Inbox { int a; }; }",
+        "namespace demecal {\nstruct Before {};\nenum class Inbox { a };\n}",
+        "namespace demecal { template <class T, class Rows = List<T>> class Inbox {}; }",
+        "namespace demecal { union Inbox {}; }",
+        "namespace demecal {\n#define OPEN {\nint f() { return 1; }\nenum Inbox : int { a };\n}"}) {
+    EXPECT_THAT(check_types_once({{"worker/inbox.hpp", kInbox}, {"common/transport/inbox.hpp", other}}), SizeIs(1))
+        << other;
+  }
+}
+
+TEST(TypeRule, LeavesApartWhatNoLinkerMixesUp) {
+  for (const char* const other :
+       {"namespace demecal { class Inbox; }", "namespace demecal { namespace { class Inbox {}; } }",
+        "namespace demecal::map { class Inbox {}; }", "namespace demecal { struct Outbox { struct Inbox {}; }; }",
+        "namespace demecal { void f() { struct Inbox {}; } }", "namespace demecal { // class Inbox {};\n}",
+        "namespace demecal { struct Entry {}; }", "namespace demecal { template <class Inbox> struct Box {}; }"}) {
+    EXPECT_THAT(check_types_once({{"worker/inbox.hpp", kInbox}, {"common/transport/inbox.hpp", other}}), IsEmpty())
+        << other;
+  }
+}
+
 }  // namespace
 }  // namespace demecal::map

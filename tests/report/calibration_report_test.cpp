@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
+#include "diagnosis/structure.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
@@ -30,6 +32,17 @@ TEST(NoiseFloor, IsTheStandardDeviationOfRepeatsPerAxis) {
   // 2400 degrees of freedom: the estimate's own standard deviation is 1.4 %.
   EXPECT_NEAR(*noise_floor_mm(repeated(400, 3, 5e-5)), 0.05, 0.05 * 0.06);
   EXPECT_NEAR(*noise_floor_mm(repeated(4, 2, 0.0)), 0.0, 1e-12);
+}
+
+TEST(NoiseFloor, IsOfTheRepeatsOfAllSetsWhateverTheLoopSays) {
+  DataSet data = repeated(40, 3, 5e-5);
+  for (std::size_t i = 0; i < data.poses.size(); ++i) data.poses[i].set = static_cast<PoseSet>(i / 3 % 3);
+  const double floor_mm = *noise_floor_mm(data);
+  for (MeasuredPose& pose : data.poses) pose.set = PoseSet::calibration;
+  EXPECT_EQ(*noise_floor_mm(data), floor_mm);
+  std::vector<std::size_t> all(data.poses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  EXPECT_NEAR(floor_mm, 1e3 * pure_error(data, all)->deviation_m, 1e-15);
 }
 
 TEST(NoiseFloor, IsUnknownWithoutRepeats) {

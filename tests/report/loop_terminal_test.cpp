@@ -51,12 +51,36 @@ TEST(LoopTerminal, HasALineForEveryEffectAddedWithItsFigures) {
 
 TEST(LoopTerminal, NamesRivalsAndTheMeasurementThatWouldSplitThem) {
   const std::string text = unbroken(shown(made_up_loop(5)));
-  EXPECT_THAT(text, HasSubstr("hardly told from: hysteresis, joint 2 (cosine 0.93)"));
+  EXPECT_THAT(text, HasSubstr("cannot be distinguished with these poses from: hysteresis, joint 2 (cosine 0.93)"));
   EXPECT_THAT(
       text, HasSubstr("measure next: 14 poses from both sides, with and without a payload, would tell the two apart."));
   LoopOutcome many = made_up_loop(1);
   many.rounds[0].rivals.assign(7, many.rounds[0].rivals[0]);
   EXPECT_THAT(unbroken(shown(many)), HasSubstr("; 4 more"));
+}
+
+TEST(LoopTerminal, NamesTheClassOfAnEffectThatThesePosesCannotTellFromAnother) {
+  LoopOutcome loop = made_up_loop(1);
+  Round& round = loop.rounds[0];
+  round.effect = {.kind = "sensor_scale", .joint = -1, .values = {-4.25e-4}};
+  round.rivals = {{{.kind = "geometry", .joint = 2}, 0.999, 0.3}, {{.kind = "drift", .joint = -1}, 0.94, 2.0}};
+  const std::string text = unbroken(shown(loop));
+  EXPECT_THAT(text, HasSubstr("1 link geometry of joint 3 or another -425 ppm"));
+  EXPECT_THAT(text, HasSubstr("Link geometry of joint 3 or instrument scale: these poses cannot tell. The model has it "
+                              "as sensor_scale. If that is right: " +
+                              round.diagnosis));
+  EXPECT_THAT(text, HasSubstr("cannot be distinguished with these poses from: drift (cosine 0.94)"));
+}
+
+TEST(LoopTerminal, SaysWhatTheDataHoldThatNoRealArmHas) {
+  LoopOutcome loop = made_up_loop(5);
+  loop.rounds.back().verdict = Verdict::rejected;
+  loop.rounds.back().implausible = true;
+  loop.rounds.back().reason = "the data show a unit coupling";
+  const std::string name = loop.rounds.back().effect.kind;
+  EXPECT_THAT(unbroken(shown(loop)), HasSubstr("refused: " + name));
+  EXPECT_THAT(unbroken(shown(loop)), HasSubstr(": the data show a unit coupling"));
+  EXPECT_THAT(shown(loop), Not(HasSubstr("tried last")));
 }
 
 TEST(LoopTerminal, GathersManyHarmonicsByJoint) {
@@ -97,6 +121,9 @@ TEST(LoopTerminal, SaysBelowWhatTheMissingEffectsAre) {
   loop.rounds.clear();
   loop.not_found = {{{.kind = "backlash", .joint = 1, .settings = {}, .form = "approach"}, 3.9e-5, "rad"}};
   EXPECT_THAT(shown(loop), HasSubstr("no backlash: joint 2 below 8 arcsec\n"));
+  loop.not_found[0].testable = false;
+  EXPECT_THAT(unbroken(shown(loop)), HasSubstr("not testable with these data: backlash of joint 2 (only implausibly"));
+  EXPECT_THAT(shown(loop), Not(HasSubstr("arcsec")));
   loop.not_found.assign(3, {{.kind = "gain", .joint = 0, .settings = {}}, std::nan(""), "1"});
   EXPECT_THAT(shown(loop), HasSubstr("3 more effects not found"));
 }
@@ -104,8 +131,8 @@ TEST(LoopTerminal, SaysBelowWhatTheMissingEffectsAre) {
 TEST(LoopTerminal, SaysWhatTheDataCannotShowAndHowTheControlsFared) {
   LoopOutcome loop = made_up_loop(5);
   const std::string text = unbroken(shown(loop));
-  EXPECT_THAT(text,
-              HasSubstr("cannot show: thermal_offset, thermal_length (no temperature column); drift (no time column)"));
+  EXPECT_THAT(text, HasSubstr("not testable with these data: thermal_offset, thermal_length (no temperature column); "
+                              "drift (no time column)"));
   EXPECT_THAT(text,
               HasSubstr("none of 2 decoys won; the best, backlash of joint 2 by shuffled approach signs, fell by 1.2"));
   loop.decoys[1].won = true;

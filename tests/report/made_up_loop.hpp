@@ -109,7 +109,7 @@ inline LoopOutcome made_up_loop(int harmonics) {
   loop.rounds.push_back(last);
   loop.dropped = {without_values(made_up_harmonic(4, 77.0, 0.0, 0.0))};
   add_limits(loop);
-  loop.noise_m = 5.13e-5;
+  loop.repeat_scatter_m = 5.13e-5;
   loop.lack_of_fit_p = 0.0004;
   loop.explained_share = 0.873;
   loop.p_structure_left = 0.42;

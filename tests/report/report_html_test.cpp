@@ -96,6 +96,12 @@ TEST(ReportPage, ShowsTheErrorsOfTheJsonRounded) {
   }
 }
 
+TEST(ReportPage, SaysTheIndexOfTheModelThatWasWritten) {
+  const std::string page = report_html(to_json(made_up_report()), "");
+  EXPECT_NE(page.find("mm² with the declared model, "), std::string::npos);
+  EXPECT_NE(page.find("mm² with the final model, which model.yaml holds ("), std::string::npos);
+}
+
 TEST(ReportPage, ShowsTheJointsOfTheJsonRounded) {
   const Json json = made_up_json();
   const auto rows = table_of(page_of(json), "joints");

@@ -32,7 +32,7 @@ LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::ve
   LoopFigures figures;
   figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
-  const double floor_mm = noise_floor_mm(scenario, data);
+  const double floor_mm = error_of_truth_mm(scenario, data);
   const DeclaredModel& declared = row_of(plan.kind).declared;
   const DiagnosedModel before = final_fit(data, declared, result.before),
                        after = final_fit(data, declared, result.model);

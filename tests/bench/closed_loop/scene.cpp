@@ -82,7 +82,7 @@ DataSet measured(const Scenario& scenario) {
   return data;
 }
 
-double noise_floor_mm(const Scenario& scenario, const DataSet& data) {
+double error_of_truth_mm(const Scenario& scenario, const DataSet& data) {
   const SimulatedRobot robot(scenario);
   const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
   double squares = 0.0;

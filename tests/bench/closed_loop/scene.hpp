@@ -17,6 +17,6 @@ Scenario clean_scene(const CasePlan& plan, const Robot& robot);
 DataSet measured(const Scenario& scenario);
 
 /// Root mean square, mm, of what is measured of the accept poses less what is true of them.
-double noise_floor_mm(const Scenario& scenario, const DataSet& data);
+double error_of_truth_mm(const Scenario& scenario, const DataSet& data);
 
 }  // namespace demecal::bench

@@ -1,16 +1,16 @@
-#include "worker/inbox.hpp"
+#include "worker/migrant_store.hpp"
 
 #include <algorithm>
 
 namespace demecal {
 
-void Inbox::put(const Migrants& migrants) {
+void MigrantStore::put(const Migrants& migrants) {
   auto& epochs = by_source_[migrants.island];
   epochs.try_emplace(migrants.epoch, migrants.individuals);
   if (epochs.size() > kEpochs) epochs.erase(epochs.begin());
 }
 
-void Inbox::copy(const Inbox& other, const std::vector<IslandKey>& sources, std::uint32_t epoch) {
+void MigrantStore::copy(const MigrantStore& other, const std::vector<IslandKey>& sources, std::uint32_t epoch) {
   for (const IslandKey& source : sources) {
     const auto found = other.by_source_.find(source);
     if (found == other.by_source_.end()) continue;
@@ -20,14 +20,14 @@ void Inbox::copy(const Inbox& other, const std::vector<IslandKey>& sources, std:
   }
 }
 
-bool Inbox::holds(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
+bool MigrantStore::holds(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
   return std::ranges::all_of(sources, [&](const IslandKey& source) {
     const auto epochs = by_source_.find(source);
     return epochs != by_source_.end() && epochs->second.contains(epoch);
   });
 }
 
-std::optional<Population> Inbox::collect(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
+std::optional<Population> MigrantStore::collect(const std::vector<IslandKey>& sources, std::uint32_t epoch) const {
   Population all;
   for (const IslandKey& source : sources) {
     const auto epochs = by_source_.find(source);
@@ -39,7 +39,8 @@ std::optional<Population> Inbox::collect(const std::vector<IslandKey>& sources, 
   return all;
 }
 
-Population Inbox::collect_new(const std::vector<IslandKey>& sources, std::map<IslandKey, std::uint32_t>& taken) const {
+Population MigrantStore::collect_new(const std::vector<IslandKey>& sources,
+                                     std::map<IslandKey, std::uint32_t>& taken) const {
   Population all;
   for (const IslandKey& source : sources) {
     const auto epochs = by_source_.find(source);

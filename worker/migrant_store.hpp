@@ -12,7 +12,7 @@ namespace demecal {
 /// Emigrants of one run by source island and epoch. Late and doubled ones change nothing: an island's emigrants of an
 /// epoch are the same whoever sends them. Of every source the last kEpochs are kept, whatever islands are here now:
 /// one that is behind may be handed over at any time.
-class Inbox {
+class MigrantStore {
  public:
   /// Many more than are kept elsewhere: what is taken in costs little, and saves an island from waiting in vain.
   static constexpr std::size_t kEpochs = 1024;
@@ -20,7 +20,7 @@ class Inbox {
   void put(const Migrants& migrants);
 
   /// Takes over what `other` has of `sources` from `epoch` on, and the last of each.
-  void copy(const Inbox& other, const std::vector<IslandKey>& sources, std::uint32_t epoch);
+  void copy(const MigrantStore& other, const std::vector<IslandKey>& sources, std::uint32_t epoch);
 
   /// Whether all that `sources` sent after completing `epoch` epochs is here.
   bool holds(const std::vector<IslandKey>& sources, std::uint32_t epoch) const;

@@ -1,0 +1,36 @@
+// What a program's streams of random numbers are for, one number each.
+#pragma once
+
+#include <cstdint>
+
+namespace demecal {
+
+/// The number that follows the seed in the name of a stream that serves the analysis of data. The numbers are part of
+/// every recorded result: new purposes take new ones. Islands name theirs by joint, deme and epoch.
+enum class RandomPurpose : std::uint64_t {
+  shuffled_approach = 1,     ///< of decoys
+  shuffled_temperature = 2,  ///< of decoys
+  gain_of_effect = 3,        ///< bootstrap bound of what one effect gains on the validation poses
+  resampled_effect = 4,      ///< scatter of an effect's coefficients
+  null_distribution = 5,     ///< permutations behind an effect's p-value
+  structure_test = 6,        ///< permutations behind the test for structure
+  gain_of_group = 7,         ///< bootstrap bound of what a group's effects gain together
+  further_measurement = 8,   ///< poses that would tell rivals apart
+  formula_null = 31,         ///< permuted poses in which formulas are sought as in the measured ones
+  proposed_poses = 32,       ///< poses worth measuring next
+  distal_sequence = 406,     ///< distal learning, one joint at a time
+  structure_search = 0x5354525543,
+};
+
+/// The number that follows the scenario's seed where data are simulated. Names have two parts here; those of the
+/// purposes above that share a number have three or four, so that even with one seed for both the streams are apart.
+enum class SimulationPurpose : std::uint64_t { poses = 1, noise = 2, payload = 3, repeats = 4 };
+
+constexpr std::uint64_t number_of(RandomPurpose purpose) {
+  return static_cast<std::uint64_t>(purpose);
+}
+constexpr std::uint64_t number_of(SimulationPurpose purpose) {
+  return static_cast<std::uint64_t>(purpose);
+}
+
+}  // namespace demecal
