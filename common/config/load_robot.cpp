@@ -93,7 +93,7 @@ Eigen::Vector3d read_gravity(const YamlNode& node) {
   return gravity_mps2;
 }
 
-JointVector read_home(const YamlNode& node, const Chain& chain) {
+JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
   const std::vector<double> values = node.numbers();
   if (std::ssize(values) != chain.size())
     node.fail(std::to_string(values.size()) + " numbers", "the robot has " + std::to_string(chain.size()) + " joints");
@@ -116,7 +116,7 @@ Robot robot_from(const YamlNode& node) {
   if (const YamlNode* links = node.find("links")) robot.masses = read_masses(*links, robot.chain.joints.size());
   if (const YamlNode* gravity = node.find("gravity_mps2")) robot.gravity_mps2 = read_gravity(*gravity);
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
-  if (const YamlNode* home = node.find("home_deg")) robot.home = read_home(*home, robot.chain);
+  if (const YamlNode* home = node.find("home_deg")) robot.home = read_declared_home(*home, robot.chain);
   return robot;
 }
 

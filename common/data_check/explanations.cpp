@@ -86,6 +86,16 @@ Explanation other_convention(Convention given) {
           }};
 }
 
+/// Some controllers report a joint against the ground, so that it moves with the joint before.
+Explanation reported_as_sum(int joint, int with, double factor) {
+  return {FindingKind::convention, joint,
+          fmt::format("joint {} is taken as q{} {} q{}, as where a controller reports it against the ground", joint + 1,
+                      joint + 1, factor > 0 ? "+" : "-", with + 1),
+          [=](Trial& trial) {
+            for (TrialRow& row : trial.rows) row.joints[joint] += factor * row.joints[with];
+          }};
+}
+
 Explanation mirrored() {
   return {FindingKind::mirrored, -1, "one axis of the positions is negated", [](Trial& trial) {
             for (TrialRow& row : trial.rows) row.point_m.y() = -row.point_m.y();
@@ -228,6 +238,10 @@ std::vector<Explanation> whole_set_explanations(const Chain& chain) {
   for (Explanation& one : unit_explanations(chain)) all.push_back(std::move(one));
   all.push_back(other_convention(chain.convention));
   all.push_back(mirrored());
+  for (int joint = 1; joint < chain.size(); ++joint)
+    for (const double factor : {1.0, -1.0})
+      if (is_revolute(chain, joint) && is_revolute(chain, joint - 1))
+        all.push_back(reported_as_sum(joint, joint - 1, factor));
   for (int joint = 0; joint < chain.size(); ++joint)
     for (const double by_deg : {90.0, -90.0, 180.0})
       if (is_revolute(chain, joint)) all.push_back(sign_and_offset(joint, by_deg));

@@ -20,8 +20,8 @@ struct Explanation {
 };
 
 /// Signs and offsets of 90 and 180 degrees of every joint, both together, pairs of joints exchanged, units of angles
-/// and lengths, the other Denavit-Hartenberg convention, and mirrored positions: the likelier of those that can mean
-/// the same come first.
+/// and lengths, the other Denavit-Hartenberg convention, mirrored positions, and joints reported as sums with the one
+/// before: the likelier of those that can mean the same come first.
 std::vector<Explanation> whole_set_explanations(const Chain& chain);
 
 /// An explanation (or several together) and how well the arm fits with it.

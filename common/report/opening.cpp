@@ -18,7 +18,8 @@ std::string subject(const JsonValue& report, const ErrorStages& errors) {
   std::string text;
   const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : " · ") + words; };
   if (const std::string job = report["job"].text(); !job.empty()) add("job " + escaped(job));
-  if (const std::string method = report["method"].text(); !method.empty()) add(escaped(method) + " learning");
+  if (const std::string method = report["method"].text(); method == "direct" || method == "distal")
+    add(method + " learning");
   for (std::size_t set = 0; set < errors.poses.size(); ++set) {
     if (errors.poses[set] > 0) add(counted(errors.poses[set], ErrorStages::kSets[set]));
   }
@@ -31,7 +32,9 @@ std::string role_of(std::size_t set) {
   return "The model was fitted to these same poses: no others were measured to judge it by.";
 }
 
-std::string headline(const ErrorStages& errors, const std::optional<Judgement>& judged) {
+std::string headline(const JsonValue& report, const ErrorStages& errors, const std::optional<Judgement>& judged) {
+  if (!judged && report["data_check"]["verdict"].text() == "contradiction")
+    return "<p class=\"headline\">Nothing was fitted, and no model was written.</p>\n";
   if (!judged) return "<p class=\"headline\">The report holds no tool error before and after calibration.</p>\n";
   const double before = *judged->before.mean_mm, after = *judged->after.mean_mm;
   const std::string how_much = change(before, after);
@@ -120,7 +123,7 @@ std::string opening(const JsonValue& report, const ErrorStages& errors) {
   const std::string robot = report["robot"].text();
   const std::optional<Judgement> judged = judgement(errors);
   return "<p class=\"soft\">Robot calibration</p>\n<h1>" + (robot.empty() ? "Unnamed robot" : escaped(robot)) +
-         "</h1>\n" + subject(report, errors) + banner(report) + data_check(report) + headline(errors, judged) +
+         "</h1>\n" + subject(report, errors) + banner(report) + data_check(report) + headline(report, errors, judged) +
          tiles(report, judged);
 }
 

@@ -5,7 +5,7 @@
 #include "disturbed_run.hpp"
 #include "in_memory_run.hpp"
 #include "mortal_transport.hpp"
-#include "worker/inbox.hpp"
+#include "worker/migrant_store.hpp"
 
 namespace demecal {
 namespace {
@@ -69,21 +69,21 @@ TEST(AsynchronousRun, TakesMigrantsIn) {
   EXPECT_GT(result.migrations, 0U);
 }
 
-TEST(Inbox, GivesTheNewestOfEachSourceOnce) {
+TEST(MigrantStore, GivesTheNewestOfEachSourceOnce) {
   const auto individual = [](double value) { return Individual{constant_tree(value), value}; };
-  Inbox inbox;
+  MigrantStore store;
   std::map<IslandKey, std::uint32_t> taken;
   const std::vector<IslandKey> sources{{0, 1}, {0, 2}};
-  EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
-  inbox.put({1, {0, 1}, 1, {individual(1)}});
-  inbox.put({1, {0, 1}, 3, {individual(3)}});
-  inbox.put({1, {0, 2}, 2, {individual(2)}});
-  EXPECT_EQ(inbox.collect_new(sources, taken), (Population{individual(3), individual(2)}));
-  EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
-  inbox.put({1, {0, 1}, 2, {individual(7)}});
-  EXPECT_TRUE(inbox.collect_new(sources, taken).empty());
-  inbox.put({1, {0, 2}, 4, {individual(4)}});
-  EXPECT_EQ(inbox.collect_new(sources, taken), Population{individual(4)});
+  EXPECT_TRUE(store.collect_new(sources, taken).empty());
+  store.put({1, {0, 1}, 1, {individual(1)}});
+  store.put({1, {0, 1}, 3, {individual(3)}});
+  store.put({1, {0, 2}, 2, {individual(2)}});
+  EXPECT_EQ(store.collect_new(sources, taken), (Population{individual(3), individual(2)}));
+  EXPECT_TRUE(store.collect_new(sources, taken).empty());
+  store.put({1, {0, 1}, 2, {individual(7)}});
+  EXPECT_TRUE(store.collect_new(sources, taken).empty());
+  store.put({1, {0, 2}, 4, {individual(4)}});
+  EXPECT_EQ(store.collect_new(sources, taken), Population{individual(4)});
 }
 
 TEST(AsynchronousRun, EndsWhateverBefallsIt) {

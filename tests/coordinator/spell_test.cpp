@@ -41,10 +41,10 @@ TEST(Spell, BreedsToTheBitWhatIslandsBreedInStep) {
   const CalibrationData data = busy_run();
   const Tenancies together = tenancies_of(data), in_step = tenancies_of(data);
   Spell(members_of(together), {}).breed(kLong, [] {});
-  Inbox inbox;
+  MigrantStore store;
   while (!in_step.begin()->second->finished()) {
-    for (const auto& [island, tenancy] : in_step) tenancy->run_epoch(tenancy->immigrants(inbox), [] {});
-    for (const auto& [island, tenancy] : in_step) inbox.put(tenancy->last_migrants());
+    for (const auto& [island, tenancy] : in_step) tenancy->run_epoch(tenancy->immigrants(store), [] {});
+    for (const auto& [island, tenancy] : in_step) store.put(tenancy->last_migrants());
   }
   for (const auto& [island, tenancy] : together) {
     EXPECT_TRUE(tenancy->finished());
@@ -92,12 +92,12 @@ TEST(Spell, EndsWhereAnIslandLacksMigrantsAndGoesOnWithThoseThatCame) {
   const std::shared_ptr<Tenancy> alone = all.begin()->second;
   Spell({{alone, false}}, {}).breed(kLong, [] {});
   ASSERT_EQ(alone->epoch(), 1U);
-  Inbox arrived;
+  MigrantStore arrived;
   for (const IslandKey& source : alone->sources()) {
     all.at(source)->run_epoch({}, [] {});
     arrived.put(all.at(source)->last_migrants());
   }
-  Inbox theirs;
+  MigrantStore theirs;
   theirs.copy(arrived, alone->sources(), alone->epoch());
   Spell({{alone, false}}, theirs).breed(kLong, [] {});
   EXPECT_EQ(alone->epoch(), 2U);

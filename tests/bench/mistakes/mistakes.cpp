@@ -123,6 +123,9 @@ std::vector<Mistake> mistakes() {
     Convention& convention = one.data.robot.chain.convention;
     convention = convention == Convention::standard_dh ? Convention::modified_dh : Convention::standard_dh;
   });
+  add(Kind::convention, "joint 3 reported against the ground", [](MistakenCase& one, RandomStream&) {
+    each_pose(one.data, [](MeasuredPose& pose) { pose.joints[2] -= pose.joints[1]; });
+  });
   add(Kind::rows_shifted, "points shifted by a few rows", [](MistakenCase& one, RandomStream& random) {
     shift_points(one.data, 0, 1 + static_cast<int>(random.index(5)));
   });
