@@ -121,7 +121,8 @@ class Check {
     for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) check_set(set);
     const PointPrediction predict{[this](const TrialRow& row) { return predicted_point(fit_, row); },
                                   [this](const TrialRow& row) { return fit_.deviations_off(row); }};
-    for (Finding& finding : find_single_poses(data_, whole_.rows, predict)) add(std::move(finding));
+    for (Finding& finding : find_single_poses(data_, whole_.rows, predict, kNotableShare * trial_.reach_m()))
+      add(std::move(finding));
   }
 
   void check_set(PoseSet set) {

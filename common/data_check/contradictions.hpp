@@ -13,7 +13,7 @@ namespace demecal {
 // standard deviation): five measured series of the shared data then leave .011 to .19 % of their reach at the median, a
 // cable-driven arm the most; simulated arms .002 to .023 %; mistakes of a whole set 2.8 % and more. Thus:
 inline constexpr double kImplausibleShare = 0.006;  ///< of the reach: more than this no real arm leaves
-inline constexpr double kNotableShare = 0.0008;     ///< of the reach: from here on explanations are tried
+inline constexpr double kNotableShare = 0.0008;  ///< of the reach: from here on explanations are tried, and poses named
 
 /// The rows of a data set for the check: all of them, and those calibration rows that explanations are tried on.
 struct CheckedRows {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "data_check/contradictions.hpp"
 #include "data_check/instrument.hpp"
 #include "data_check/single_poses.hpp"
 #include "fitting/median.hpp"
@@ -51,9 +52,10 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
   }
   if (errors.empty()) return;
   if (const auto other = find_other_frame(predicted, measured)) return check.findings.push_back(in_other_frame(*other));
+  const double least_m = kNotableShare * Trial{data.robot.chain, {data.robot.chain.tool_m}, rows, 1}.reach_m();
   const double deviation_m = std::max(median(errors) / kMedianLength, 1e-6);
   const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};
-  for (Finding& finding : find_single_poses(data, rows, predict)) check.findings.push_back(std::move(finding));
+  for (Finding& finding : find_single_poses(data, rows, predict, least_m)) check.findings.push_back(std::move(finding));
 }
 
 }  // namespace demecal

@@ -38,7 +38,7 @@ std::string amount_at(const Joint& joint, double value) {
 
 class Search {
  public:
-  Search(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict)
+  Search(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict, double least_m)
       : data_(data), rows_(rows), predict_(predict) {
     std::vector<double> errors, off;
     for (const TrialRow& row : rows) {
@@ -48,7 +48,7 @@ class Search {
     median_m_ = median(errors);
     const double far = std::max(kFarDeviations, kFarOverMost * quantile_of(off, 0.8));
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!(off[i] <= far)) far_.push_back({i, errors[i]});
+      if (!(off[i] <= far || errors[i] <= least_m)) far_.push_back({i, errors[i]});
   }
 
   std::vector<Finding> findings() {
@@ -218,10 +218,10 @@ class Search {
 }  // namespace
 
 std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<TrialRow>& rows,
-                                       const PointPrediction& predict) {
+                                       const PointPrediction& predict, double least_m) {
   constexpr std::size_t kFewest = 6;
   if (rows.size() < kFewest) return {};
-  return Search(data, rows, predict).findings();
+  return Search(data, rows, predict, least_m).findings();
 }
 
 }  // namespace demecal

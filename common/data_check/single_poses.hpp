@@ -16,11 +16,12 @@ struct PointPrediction {
   std::function<double(const TrialRow&)> deviations_off;  ///< how far off the row is, in standard deviations
 };
 
-/// A finding for each pose among `rows` (of any sets) that lies farther out than 8 standard deviations and than 3.5
-/// times the error which four in five poses keep: rows whose points fit each other's joints (a cycle of up to four),
-/// points that stand beside other joints too, one joint with another value (or two exchanged) by which the pose fits to
-/// within the noise and ten times better, and what is left as outliers, each with its error.
+/// A finding for each pose among `rows` (of any sets) that lies farther out than 8 standard deviations, than 3.5
+/// times what four in five poses keep, and than `least_m`, which good poses may err by: rows whose points fit each
+/// other's joints (a cycle of up to four), points that stand beside other joints too, one joint with another value (or
+/// two exchanged) by which the pose fits to within the noise and ten times better, and what is left as outliers, each
+/// with its error.
 std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<TrialRow>& rows,
-                                       const PointPrediction& predict);
+                                       const PointPrediction& predict, double least_m);
 
 }  // namespace demecal
