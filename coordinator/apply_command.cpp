@@ -7,6 +7,7 @@
 
 #include "config/files.hpp"
 #include "config/model_text.hpp"
+#include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
@@ -57,16 +58,10 @@ JointVector near_joints(const ApplyRequest& request, const Robot& robot) {
   const Chain& arm = robot.chain;
   if (request.near.empty()) return robot.home;
   if (std::ssize(request.near) != arm.size()) {
-    throw CLI::ValidationError("--near", std::to_string(request.near.size()) + " numbers; this arm has " +
-                                             std::to_string(arm.size()) + " joints");
+    throw ArgumentError("--near: " + std::to_string(request.near.size()) + " numbers; this arm has " +
+                        std::to_string(arm.size()) + " joints");
   }
-  JointVector joints(arm.size());
-  for (Eigen::Index i = 0; i < joints.size(); ++i) {
-    const double value = request.near[static_cast<std::size_t>(i)];
-    const bool revolute = arm.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
-    joints[i] = revolute ? radians(value) : metres(value);
-  }
-  return joints;
+  return joints_from_deg_or_mm(arm, request.near);
 }
 
 /// Throws unless `out` may be written: never the program itself, by whatever name; of other files those that this
@@ -74,17 +69,16 @@ JointVector near_joints(const ApplyRequest& request, const Robot& robot) {
 void require_writable(const ApplyRequest& request) {
   std::error_code none;
   if (std::filesystem::equivalent(request.program_file, request.out, none) || request.program_file == request.out) {
-    throw CLI::ValidationError("--out",
-                               request.out + " is the program itself, which is never overwritten; name another");
+    throw ArgumentError("--out: " + request.out + " is the program itself, which is never overwritten; name another");
   }
   if (request.force || !std::filesystem::exists(request.out, none)) return;
   if (std::filesystem::is_regular_file(request.out, none)) {
     const std::string there = read_file(request.out);
     if (marked_line(there) || there == read_file(request.program_file)) return;
   }
-  throw CLI::ValidationError("--out", request.out +
-                                          " is there already, and not a program that demecal corrected; name "
-                                          "another, or give --force to overwrite it");
+  throw ArgumentError("--out: " + request.out +
+                      " is there already, and not a program that demecal corrected; name "
+                      "another, or give --force to overwrite it");
 }
 
 /// Throws InputError where the program was corrected before.

@@ -29,7 +29,7 @@ bool refuses(const CheckedData& checked, bool force) {
   if (force || checked.check.verdict() != DataVerdict::contradiction) return false;
   fmt::print(
       stderr,
-      "{}: the data and the robot's description contradict each other:\n{}Nothing was fitted. Mend the files, or "
+      "{}: the data and the robot's description contradict each other:\n{}Nothing was fitted. Correct the files, or "
       "go on all the same with --force.\n",
       checked.data.file, data_check_to_terminal(checked.check));
   return true;

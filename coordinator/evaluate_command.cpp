@@ -7,7 +7,7 @@
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/known_arm.hpp"
-#include "data_check/fitted_model.hpp"
+#include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "report/data_check_text.hpp"

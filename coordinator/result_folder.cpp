@@ -12,7 +12,7 @@
 #include "config/model_text.hpp"
 #include "coordinator/argument_error.hpp"
 #include "coordinator/written_files.hpp"
-#include "data_check/fitted_model.hpp"
+#include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "report/history.hpp"
 #include "report/report_html.hpp"

@@ -97,12 +97,7 @@ JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
   const std::vector<double> values = node.numbers();
   if (std::ssize(values) != chain.size())
     node.fail(std::to_string(values.size()) + " numbers", "the robot has " + std::to_string(chain.size()) + " joints");
-  JointVector home(chain.size());
-  for (Eigen::Index i = 0; i < home.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    home[i] = chain.joints[at].type == JointType::revolute ? radians(values[at]) : metres(values[at]);
-  }
-  return home;
+  return joints_from_deg_or_mm(chain, values);
 }
 
 }  // namespace

@@ -27,18 +27,6 @@ struct ColumnGroup {
   std::vector<WrittenColumn> columns;
 };
 
-std::string set_name(PoseSet set) {
-  switch (set) {
-    case PoseSet::calibration:
-      return "calibration";
-    case PoseSet::validation:
-      return "validation";
-    case PoseSet::accept:
-      return "accept";
-  }
-  DEMECAL_CHECK(false, "set=" << static_cast<int>(set));
-}
-
 /// Whether the poses have the quantity: all or none of them must.
 template <typename Has>
 bool measured(const DataSet& data, const Has& has) {
@@ -125,7 +113,7 @@ std::vector<ColumnGroup> column_groups(const DataSet& data) {
       "distances=" << distances);
   const auto named = [](const MeasuredPose& pose) { return !pose.target.empty(); };
   std::vector<ColumnGroup> groups{
-      {"set", false, {{"set", [](const MeasuredPose& pose) { return set_name(pose.set); }}}},
+      {"set", false, {{"set", [](const MeasuredPose& pose) { return std::string(to_string(pose.set)); }}}},
       single("pose", "pose_id", &MeasuredPose::pose_id),
       joint_columns(data.robot.chain)};
   if (has(&MeasuredPose::position_m)) groups.push_back(position_columns());

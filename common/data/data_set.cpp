@@ -4,6 +4,19 @@
 
 namespace demecal {
 
+std::string_view to_string(PoseSet set) {
+  switch (set) {
+    case PoseSet::calibration:
+      return "calibration";
+    case PoseSet::validation:
+      return "validation";
+    case PoseSet::accept:
+      return "accept";
+  }
+  DEMECAL_CHECK(false, "set=" << static_cast<int>(set));
+  return "";
+}
+
 std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < data.poses.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "kinematics/chain.hpp"
 
@@ -11,6 +12,9 @@ namespace demecal {
 
 /// What a pose is used for: fitting, choosing, or the one final judgement.
 enum class PoseSet { calibration, validation, accept };
+
+/// As data sets and reports name it.
+std::string_view to_string(PoseSet set);
 
 /// -1, 0 or +1 per joint: the sign of its last motion before the pose.
 using ApproachSigns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxJoints, 1>;

@@ -1,8 +1,10 @@
-// The check of a data set against its robot: whether what was measured can be what this arm did, and if not, what fits.
+// The check of a data set against its robot, and once there is one against its model: whether what was measured can be
+// what this arm did, and if not, what fits.
 #pragma once
 
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
+#include "effects/corrected_robot.hpp"
 
 namespace demecal {
 
@@ -12,6 +14,10 @@ namespace demecal {
 /// description, single poses, joints and points that lack spread. A function of the data. Data sets without positions
 /// are checked for spread alone.
 DataCheck check_data(const DataSet& data);
+
+/// Adds the single poses (of all sets) that do not fit `robot`, a model of the data, to those that are named already.
+/// Where all poses fit `robot` in another frame only, as those of a later measurement do, it says that and no more.
+void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& check);
 
 /// Throws InputError where a joint stands far outside its limits in a pose that no finding names.
 void require_joint_limits(const DataSet& data, const DataCheck& check);

@@ -21,27 +21,9 @@ constexpr double kTukey = 6.0;            ///< deviations at which a row's weigh
 constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
 constexpr int kRegistrations = 8, kPlacingSteps = 6, kArmSteps = 8;
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
 double tukey_weight(double error_m, double deviation_m) {
   const double share = error_m / (kTukey * deviation_m);
   return share >= 1.0 ? 0.0 : (1 - share * share) * (1 - share * share);
-}
-
-/// The length that a vector of three standard normals stays below with probability `share` (Maxwell's distribution).
-double length_quantile(double share) {
-  double lower = 0.0, upper = 8.0;
-  for (int i = 0; i < 50; ++i) {
-    const double x = 0.5 * (lower + upper);
-    const double below =
-        std::erf(x / std::numbers::sqrt2) - std::sqrt(2.0 / std::numbers::pi) * x * std::exp(-0.5 * x * x);
-    (below < share ? lower : upper) = x;
-  }
-  return 0.5 * (lower + upper);
 }
 
 /// The scale as fit_base_and_tools states it.
@@ -88,7 +70,7 @@ void measure_errors(const Trial& trial, TrialFit& fit) {
     return;
   }
   fit.median_m = median(fit.error_m);
-  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.parameters / 3.0, fit.usual_m);
+  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.effective_parameters / 3.0, fit.usual_m);
 }
 
 /// Where the parameters of a trial stand in its normal equations: stations' bases, tools, links.
@@ -179,7 +161,7 @@ bool step_down(const Trial& trial, const Places& places, bool robust, TrialFit& 
   const Eigen::VectorXd step = factor.solve(normal.gradient);
   if (!step.allFinite()) return false;
   fit.covariance = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
-  fit.parameters = fit.covariance.cwiseProduct(by_points).sum();
+  fit.effective_parameters = fit.covariance.cwiseProduct(by_points).sum();
   move(fit, places, step);
   measure_errors(trial, fit);
   return true;
@@ -277,6 +259,17 @@ Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eige
   motion.linear() = svd.matrixU() * Eigen::Vector3d(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
   motion.translation() = to_mean - motion.linear() * from_mean;
   return motion;
+}
+
+double length_quantile(double share) {
+  double lower = 0.0, upper = 8.0;
+  for (int i = 0; i < 50; ++i) {
+    const double x = 0.5 * (lower + upper);
+    const double below =
+        std::erf(x / std::numbers::sqrt2) - std::sqrt(2.0 / std::numbers::pi) * x * std::exp(-0.5 * x * x);
+    (below < share ? lower : upper) = x;
+  }
+  return 0.5 * (lower + upper);
 }
 
 std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {

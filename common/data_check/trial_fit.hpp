@@ -42,7 +42,7 @@ struct TrialFit {
   double deviation_m = 0.0;     ///< standard deviation of a coordinate, as the errors show it; see fit_base_and_tools
   double rows_per_pose = 1.0;   ///< of the trial
   double usual_m = 0.0;         ///< standard deviation that fitted links of an arm of this size usually leave
-  double parameters = 0.0;      ///< that the points determined, as a number: priors hold the others
+  double effective_parameters = 0.0;  ///< that the points determined, as a number: priors hold the others
 
   /// The covariance, m^2, of the tool point that this fit predicts for a row: wide where the rows it was fitted to say
   /// nothing about it.
@@ -77,6 +77,9 @@ Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row);
 /// The rigid motion that brings points (columns) to measured ones at least weighted squares (Horn 1987).
 Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
                                         const Eigen::VectorXd& weights);
+
+/// The length that a vector of three standard normals stays below with probability `share` (Maxwell's distribution).
+double length_quantile(double share);
 
 /// About `count` of 0 .. `size` - 1 (all where there are no more), spread evenly over them, ascending.
 std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "errors/check.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 
@@ -24,6 +25,16 @@ double& Joint::parameter(LinkParameter which) {
 
 double Joint::parameter(LinkParameter which) const {
   return const_cast<Joint*>(this)->parameter(which);
+}
+
+JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> values) {
+  DEMECAL_CHECK(std::ssize(values) == chain.size(), values.size() << " values, " << chain.size() << " joints");
+  JointVector joints(chain.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    joints[static_cast<Eigen::Index>(i)] =
+        chain.joints[i].type == JointType::revolute ? radians(values[i]) : metres(values[i]);
+  }
+  return joints;
 }
 
 bool near_parallel_to_next(const Chain& chain, int joint, double tolerance_rad) {

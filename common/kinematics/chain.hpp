@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace demecal {
@@ -45,6 +46,9 @@ struct Chain {
 
   int size() const { return static_cast<int>(joints.size()); }
 };
+
+/// Joints stated in deg, mm where one slides: one value per joint.
+JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> values);
 
 /// Whether the axis of joint `joint` and that of its successor are parallel within `tolerance_rad` at nominal geometry,
 /// so that d of one is not separable from d of the other and Hayati's beta is needed. `joint` counts from 0; the last

@@ -8,13 +8,13 @@ namespace {
 /// Angles whose cubes vanish beside one: the closed forms below would divide zero by zero.
 constexpr double kSmall = 1e-5;
 
+}  // namespace
+
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;
   matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return matrix;
 }
-
-}  // namespace
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector_rad) {
   const double angle = vector_rad.norm();

@@ -5,6 +5,9 @@
 
 namespace demecal {
 
+/// The matrix whose product with w is v x w.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+
 /// The matrix that turns about `vector_rad` by its length.
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector_rad);
 

@@ -72,7 +72,7 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
     const PreparedPose& pose = prepared.poses[i];
     const Eigen::Vector3d false_m = pose.nominal_m - errors_m[i];
     if (!in_val2(raw, pose)) {
-      table.rows.push_back({0, {std::string(word_of(pose.commanded.set)), pose.id}});
+      table.rows.push_back({0, {std::string(to_string(pose.commanded.set)), pose.id}});
       add_mm(table.rows.back().fields, false_m);
       continue;
     }
@@ -86,7 +86,7 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
   }
   std::vector<WrittenFile> files;
   for (const CorrectedText& text : texts) {
-    files.push_back({free_name(files, std::string(word_of(raw.sets[text.entry].set))),
+    files.push_back({free_name(files, std::string(to_string(raw.sets[text.entry].set))),
                      replaced(text.source->text, text.source->program, text.targets)});
   }
   if (!table.rows.empty()) files.push_back({"corrected.csv", text_of(table)});
@@ -107,7 +107,7 @@ WrittenFile errors_file(const Prepared& prepared, FrameKind kind) {
   const std::vector<Eigen::Vector3d> errors_m = differences(prepared, kind);
   for (std::size_t i = 0; i < prepared.poses.size(); ++i) {
     const PreparedPose& pose = prepared.poses[i];
-    std::vector<std::string> fields{std::string(word_of(pose.commanded.set)), pose.id};
+    std::vector<std::string> fields{std::string(to_string(pose.commanded.set)), pose.id};
     add_mm(fields, pose.nominal_m);
     add_mm(fields, pose.nominal_m + errors_m[i]);
     add_mm(fields, errors_m[i]);

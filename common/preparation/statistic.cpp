@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "effects/error_figures.hpp"
-#include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
@@ -70,19 +69,6 @@ std::optional<FramesApart> apart(const Prepared& prepared) {
 }
 
 }  // namespace
-
-std::string_view word_of(PoseSet set) {
-  switch (set) {
-    case PoseSet::calibration:
-      return "calibration";
-    case PoseSet::validation:
-      return "validation";
-    case PoseSet::accept:
-      return "accept";
-  }
-  DEMECAL_CHECK(false, "set=" << static_cast<int>(set));
-  return "";
-}
 
 Statistic statistic_of(const RawMeasurements& raw, const Prepared& prepared) {
   Statistic statistic{.apart = apart(prepared), .fitted_to_calibration = prepared.fitted_to_calibration};

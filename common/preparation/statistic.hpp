@@ -38,9 +38,6 @@ struct Statistic {
 
 Statistic statistic_of(const RawMeasurements& raw, const Prepared& prepared);
 
-/// "calibration", "validation", "accept".
-std::string_view word_of(PoseSet set);
-
 /// A table of both frames side by side, and sentences about what they differ by; at most 100 columns.
 std::string statistic_table(const Statistic& statistic, const std::string& name);
 

@@ -27,11 +27,11 @@ std::string readings_sentence(const SetStatistic& set) {
   std::string text;
   if (set.spread_mm) {
     text += fmt::format("  {}: one reading is {:.3f} mm (standard deviation) off its pose's mean ({} readings).\n",
-                        word_of(set.set), *set.spread_mm, set.readings);
+                        to_string(set.set), *set.spread_mm, set.readings);
   }
   if (set.standard_error_mm) {
     text += fmt::format("  {}: by the cords' standard error a point is {:.3f} mm off (root mean square).\n",
-                        word_of(set.set), *set.standard_error_mm);
+                        to_string(set.set), *set.standard_error_mm);
   }
   return text;
 }
@@ -59,7 +59,7 @@ std::string statistic_table(const Statistic& statistic, const std::string& name)
   text += fmt::format("  {:<12}{:>6}  {:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>8}{:>8}\n", "set", "poses", "mean", "rms",
                       "P95", "max", "mean", "rms", "P95", "max");
   for (const SetStatistic& set : statistic.sets) {
-    text += fmt::format("  {:<12}{:>6}", word_of(set.set), set.poses) + figures_text(set.three_points) +
+    text += fmt::format("  {:<12}{:>6}", to_string(set.set), set.poses) + figures_text(set.three_points) +
             figures_text(set.best_fit) + '\n';
   }
   if (statistic.apart) text += frames_sentence(*statistic.apart);
@@ -78,12 +78,12 @@ std::string statistic_json(const Statistic& statistic, const std::string& name, 
                            const std::vector<std::string>& files) {
   Json json{{"name", name}, {"frame", frame}, {"sets", Json::object()}};
   for (const SetStatistic& set : statistic.sets) {
-    json["sets"][std::string(word_of(set.set))] = {{"poses", set.poses},
-                                                   {"readings", set.readings},
-                                                   {"spread_mm", json_of(set.spread_mm)},
-                                                   {"standard_error_mm", json_of(set.standard_error_mm)},
-                                                   {"three_points", json_of(set.three_points)},
-                                                   {"best_fit", json_of(set.best_fit)}};
+    json["sets"][std::string(to_string(set.set))] = {{"poses", set.poses},
+                                                     {"readings", set.readings},
+                                                     {"spread_mm", json_of(set.spread_mm)},
+                                                     {"standard_error_mm", json_of(set.standard_error_mm)},
+                                                     {"three_points", json_of(set.three_points)},
+                                                     {"best_fit", json_of(set.best_fit)}};
   }
   json["frames_apart"] = nullptr;
   if (const auto& apart = statistic.apart) {

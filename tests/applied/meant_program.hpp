@@ -3,11 +3,9 @@
 
 #include <sstream>
 
+#include "../programs/written_program.hpp"
 #include "calibrated_cell.hpp"
-#include "kinematics/rotation_vector.hpp"
-#include "kinematics/units.hpp"
 #include "programs/branches.hpp"
-#include "programs/read_program.hpp"
 
 namespace demecal {
 
@@ -22,71 +20,22 @@ struct MeantProgram {
   bool ordinary = true;  ///< its configuration is stated, all is in the measured range and away from singular joints
 };
 
-inline std::string numbers_text(std::span<const double> values, const std::string& separator = ", ") {
-  std::ostringstream text;
-  text.precision(9);
-  text << std::fixed;
-  for (std::size_t i = 0; i < values.size(); ++i) text << (i > 0 ? separator : "") << values[i];
-  return text.str();
-}
-
-inline std::string named_numbers(const std::vector<std::string>& names, const std::vector<double>& values) {
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i > 0 ? "," : "") + names[i] + ' ' + numbers_text({&values[i], 1});
-  }
-  return text;
-}
-
-inline std::vector<double> joint_degrees(const JointVector& joints) {
-  std::vector<double> values;
-  for (const double angle : joints) values.push_back(degrees(angle));
-  return values;
-}
-
-inline std::vector<double> millimetre_numbers(const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d point = 1e3 * pose.translation();
-  return {point.x(), point.y(), point.z()};
-}
-
-inline std::vector<double> quaternion_numbers(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond turn(pose.linear());
-  return {turn.w(), turn.x(), turn.y(), turn.z()};
-}
-
-inline std::vector<double> abc_numbers(const Eigen::Isometry3d& pose) {
-  const Eigen::Matrix3d& r = pose.linear();
-  return {degrees(std::atan2(r(1, 0), r(0, 0))), degrees(std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)))),
-          degrees(std::atan2(r(2, 1), r(2, 2)))};
-}
+inline constexpr int kDecimals = 9;
 
 inline std::string krl_pose(const Eigen::Isometry3d& pose) {
-  std::vector<double> values = millimetre_numbers(pose);
-  const std::vector<double> angles = abc_numbers(pose);
+  std::vector<double> values = in_mm(pose);
+  const std::vector<double> angles = abc(pose);
   values.insert(values.end(), angles.begin(), angles.end());
-  return named_numbers({"X", "Y", "Z", "A", "B", "C"}, values);
+  return named({"X", "Y", "Z", "A", "B", "C"}, values, kDecimals);
 }
 
 inline std::string rapid_pose(const Eigen::Isometry3d& pose) {
-  return "[" + numbers_text(millimetre_numbers(pose)) + "],[" + numbers_text(quaternion_numbers(pose)) + "]";
+  return "[" + listed(in_mm(pose), kDecimals) + "],[" + listed(wxyz(pose), kDecimals) + "]";
 }
 
 inline std::string ur_pose(const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d turn = vector_of(pose.linear());
-  return "p[" + numbers_text({pose.translation().data(), 3}) + ", " + numbers_text({turn.data(), 3}) + "]";
-}
-
-inline std::string turn_bits(const JointVector& joints) {
-  int bits = 0;
-  for (int joint = 0; joint < 6; ++joint) bits |= joints[joint] < 0.0 ? 1 << joint : 0;
-  return std::to_string(bits);
-}
-
-inline std::string quadrants_text(const JointVector& joints) {
-  std::string text = "[";
-  for (const int joint : {0, 3, 5})
-    text += std::to_string(static_cast<int>(std::floor(joints[joint] / 1.5707963268))) + ",";
-  return text + "0]";
+  return "p[" + listed({pose.translation().data(), 3}, kDecimals) + ", " + listed({turn.data(), 3}, kDecimals) + "]";
 }
 
 /// Writes one motion after another.
@@ -132,25 +81,25 @@ class ProgramWriter {
   }
 
   void joint_move(const JointVector& joints) {
-    const std::vector<double> angles = joint_degrees(joints);
+    const std::vector<double> angles = in_degrees(joints);
     const std::string number = std::to_string(meant.joints.size() + 1);
     switch (meant.language) {
       case Language::val2:
-        text_ << "#p[" << number << "] " << numbers_text(angles, " ") << '\n';
+        text_ << "#p[" << number << "] " << listed(angles, kDecimals, " ") << '\n';
         break;
       case Language::csv:
         csv_header("q", joints.size());
-        text_ << numbers_text(angles) << '\n';
+        text_ << listed(angles, kDecimals) << '\n';
         break;
       case Language::krl:
-        text_ << "PTP {" << named_numbers({"A1", "A2", "A3", "A4", "A5", "A6"}, angles) << "}\n";
+        text_ << "PTP {" << named({"A1", "A2", "A3", "A4", "A5", "A6"}, angles, kDecimals) << "}\n";
         break;
       case Language::rapid:
-        text_ << "  MoveAbsJ [[" << numbers_text(angles) << "],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine," << tool_name()
-              << ";\n";
+        text_ << "  MoveAbsJ [[" << listed(angles, kDecimals) << "],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,"
+              << tool_name() << ";\n";
         break;
       case Language::urscript:
-        text_ << " movej([" << numbers_text({joints.data(), 6}) << "], a=1)\n";
+        text_ << " movej([" << listed({joints.data(), 6}, kDecimals) << "], a=1)\n";
         break;
     }
     meant.joints.push_back(joints);
@@ -165,13 +114,14 @@ class ProgramWriter {
         break;
       case Language::csv:
         csv_header("x", 0);
-        text_ << numbers_text(millimetre_numbers(pose)) << ", " << numbers_text(quaternion_numbers(pose)) << '\n';
+        text_ << listed(in_mm(pose), kDecimals) << ", " << listed(wxyz(pose), kDecimals) << '\n';
         break;
       case Language::krl:
-        text_ << (line ? "LIN" : "PTP") << " {E6POS: " << krl_pose(pose) << ",S 2,T " << turn_bits(joints) << "}\n";
+        text_ << (line ? "LIN" : "PTP") << " {E6POS: " << krl_pose(pose) << ",S 2,T " << turns(joints) << "}\n";
         break;
       case Language::rapid:
-        text_ << (line ? "  MoveL [" : "  MoveJ [") << rapid_pose(pose) << "," << quadrants_text(joints)
+        text_ << (line ? "  MoveL [" : "  MoveJ [") << rapid_pose(pose) << ","
+              << "[" + configuration(joints) + "]"
               << ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine," << tool_name() << (meant.states_frame ? "\\WObj:=w1" : "")
               << ";\n";
         break;
@@ -196,7 +146,7 @@ class ProgramWriter {
  private:
   static std::string val2_pose(const Eigen::Isometry3d& pose) {
     const Eigen::Matrix3d axes = pose.linear();
-    return numbers_text({axes.data(), 9}, " ") + ' ' + numbers_text(millimetre_numbers(pose), " ");
+    return listed({axes.data(), 9}, kDecimals, " ") + ' ' + listed(in_mm(pose), kDecimals, " ");
   }
 
   std::string tool_name() const { return "t1"; }

@@ -6,7 +6,6 @@
 
 #include "../errors/complaint.hpp"
 #include "data_check/coverage.hpp"
-#include "data_check/fitted_model.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
 #include "mistaken_case.hpp"

@@ -36,6 +36,14 @@ class Applied {
     return run("demecal", arguments);
   }
 
+  void declare_home(const std::string& home_deg) {
+    const std::string model = job_.text("out/model.yaml"), robot = "\nrobot:\n";
+    const std::size_t place = model.find(robot);
+    ASSERT_NE(place, std::string::npos) << model;
+    std::ofstream(job_.path("out/model.yaml"), std::ios::binary)
+        << model.substr(0, place + robot.size()) << "  home_deg: [" << home_deg << "]\n"
+        << model.substr(place + robot.size());
+  }
   std::string path(const std::string& name) const { return job_.path(name); }
   std::string text(const std::string& name) const { return job_.text(name); }
   std::string result(const std::string& program) const { return job_.text("new-" + program); }
@@ -109,6 +117,19 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
 
   EXPECT_EQ(applied.apply("f.v2", kVal2, {"--language", "logo"}).code, 10);
   EXPECT_EQ(applied.apply("g.txt", "hello\n").code, 11);
+}
+
+TEST(Apply, ADeclaredHomeTellsTheConfigurationAsNearDoes) {
+  Applied applied;
+  const std::string unknown = "the arm's configuration is not known", home = "40,-30.5,140,5,-50,10.25";
+  EXPECT_NE(applied.apply("a.v2", kVal2).err.find(unknown), std::string::npos);
+  EXPECT_EQ(applied.apply("a.v2", kVal2, {"--near", home}).code, 0);
+  const std::string near = applied.result("a.v2");
+  ASSERT_NO_FATAL_FAILURE(applied.declare_home(home));
+  const Ended at_home = applied.apply("a.v2", kVal2);
+  EXPECT_EQ(at_home.code, 0) << at_home.err;
+  EXPECT_EQ(at_home.err.find(unknown), std::string::npos) << at_home.err;
+  EXPECT_EQ(applied.result("a.v2"), near);
 }
 
 }  // namespace
