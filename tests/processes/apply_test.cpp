@@ -121,12 +121,14 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
 
 TEST(Apply, ADeclaredHomeTellsTheConfigurationAsNearDoes) {
   Applied applied;
-  const std::string unknown = "the arm's configuration is not known", home = "40,-30.5,140,5,-50,10.25";
-  EXPECT_NE(applied.apply("a.v2", kVal2).err.find(unknown), std::string::npos);
-  EXPECT_EQ(applied.apply("a.v2", kVal2, {"--near", home}).code, 0);
+  const std::string unknown = "the arm's configuration is not known", home = "40,-30,188,0,-60,-136";
+  const std::string pose_alone = ".LOCATIONS\nmcp[1] 16384 0 0 0 -16384 0 0 0 -16384 9600 11200 -1600\n.END\n";
+  EXPECT_NE(applied.apply("a.v2", pose_alone).err.find(unknown), std::string::npos);
+  const Ended told = applied.apply("a.v2", pose_alone, {"--near", home});
+  EXPECT_EQ(told.err.find(unknown), std::string::npos) << told.err;
   const std::string near = applied.result("a.v2");
   ASSERT_NO_FATAL_FAILURE(applied.declare_home(home));
-  const Ended at_home = applied.apply("a.v2", kVal2);
+  const Ended at_home = applied.apply("a.v2", pose_alone);
   EXPECT_EQ(at_home.code, 0) << at_home.err;
   EXPECT_EQ(at_home.err.find(unknown), std::string::npos) << at_home.err;
   EXPECT_EQ(applied.result("a.v2"), near);
