@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "calibration/formula_candidates.hpp"
-#include "diagnosis/permutation.hpp"
 
 namespace demecal {
 namespace {
@@ -34,7 +33,6 @@ class Search {
 
  private:
   Found found_in(const Eigen::VectorXd& left, Sought sought) const;
-  Eigen::VectorXd permuted_left(RandomStream& random) const;
 
   const DiagnosisData& of_;
   const Evolve& evolve_;
@@ -56,20 +54,13 @@ Found Search::found_in(const Eigen::VectorXd& left, Sought sought) const {
   return all;
 }
 
-Eigen::VectorXd Search::permuted_left(RandomStream& random) const {
-  Eigen::VectorXd left = permuted(at_.fitted, at_.projection.left(), random);
-  const RowMatrix& basis = at_.projection.basis();
-  left -= basis * (basis.transpose() * left);
-  return left;
-}
-
 FormulaSearch Search::run(double family_error, RandomStream random) const {
   const Found found = found_in(at_.projection.left(), Sought::formulas);
   if (!found || found->empty() || found->front().fall_nats <= 0.0) return {};
   FormulaSearch result;
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.luck_nats.size() + 1 < searches) {
-    const Found luck = found_in(permuted_left(random), Sought::luck);
+    const Found luck = found_in(at_.projection.null_left(random), Sought::luck);
     if (!luck) return {};
     const double fall_nats = luck->empty() ? 0.0 : std::max(0.0, luck->front().fall_nats);
     if (fall_nats >= found->front().fall_nats) return {};

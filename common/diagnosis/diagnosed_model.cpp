@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/noise_model.hpp"
+#include "diagnosis/shared_errors.hpp"
+#include "fitting/median.hpp"
+#include "fitting/scatter.hpp"
 #include "fitting/triangular_factor.hpp"
 
 namespace demecal {
@@ -43,25 +47,28 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
   }
 }
 
-Eigen::VectorXd smooth_precision(const ModelColumns& columns, const Eigen::VectorXd& residual,
+/// `shared`: of unit variance; they come first, so that the rest of the factor is what is left without them.
+Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& shared, const Eigen::VectorXd& residual,
                                  const SmoothCorrections& smooth) {
   const Eigen::VectorXd& present = smooth.coefficients;
-  const Eigen::Index terms = present.size(), n = columns.fitted.cols();
+  const Eigen::Index terms = present.size(), n = columns.fitted.cols(), first = shared.cols();
   if (terms == 0) return {};
-  TriangularFactor factor(static_cast<int>(n) + 1);
+  TriangularFactor factor(static_cast<int>(first + n) + 1);
   const Eigen::VectorXd whole = residual + columns.fitted.rightCols(terms) * present;
-  factor.add(beside(columns.fitted, whole));
-  RowMatrix beliefs = RowMatrix::Zero(n - terms, n + 1);
+  factor.add(beside(shared, beside(columns.fitted, whole)));
+  RowMatrix beliefs = RowMatrix::Zero(first + n - terms, first + n + 1);
+  beliefs.topLeftCorner(first, first).setIdentity();
   for (Eigen::Index i = 0; i < n - terms; ++i) {
-    beliefs(i, i) = columns.precision[i];
-    beliefs(i, n) = -columns.precision[i] * columns.offset[i];
+    beliefs(first + i, first + i) = columns.precision[i];
+    beliefs(first + i, first + n) = -columns.precision[i] * columns.offset[i];
   }
   factor.add(beliefs);
-  return relevance(factor.factor(), smooth.families(), static_cast<double>(residual.size()));
+  const Eigen::MatrixXd left = factor.factor().bottomRightCorner(n + 1, n + 1);
+  return relevance(left, smooth.families(), static_cast<double>(residual.size()));
 }
 
 ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
-                           const ResidualField& fitted, const ResidualField& judging) {
+                           const ResidualField& fitted, const ResidualField& judging, const RowMatrix& shared) {
   ModelColumns columns{
       beside(fitted.declared, smooth.columns(fitted)), beside(judging.declared, smooth.columns(judging)), {}, {}};
   const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
@@ -70,8 +77,25 @@ ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, cons
   columns.offset.setZero(n + terms);
   columns.offset.head(n) = prior.offset;
   columns.offset.tail(terms) = smooth.coefficients;
-  columns.precision.tail(terms) = smooth_precision(columns, fitted.residual, smooth);
+  columns.precision.tail(terms) = smooth_precision(columns, shared, fitted.residual, smooth);
   return columns;
+}
+
+void append(ModelColumns& columns, const SharedErrors& shared) {
+  const Eigen::Index known = columns.precision.size(), more = shared.fitted.cols();
+  columns.fitted = beside(columns.fitted, shared.fitted);
+  columns.judging = beside(columns.judging, shared.judging);
+  columns.precision.conservativeResize(known + more);
+  columns.precision.tail(more).setOnes();
+  columns.offset.conservativeResize(known + more);
+  columns.offset.tail(more).setZero();
+}
+
+/// The share that weighed squares of normal rows have of their weights: those of far poses count less.
+double share_of_weighed_squares(double rows) {
+  const double u = 1.0 / std::pow(rejection_norm(static_cast<int>(rows)), 2);
+  return (1.0 - 2.0 * u * (rows + 2.0) + u * u * (rows + 2.0) * (rows + 4.0)) /
+         (1.0 - 2.0 * u * rows + u * u * rows * (rows + 2.0));
 }
 
 /// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
@@ -80,11 +104,13 @@ RowScales scales_of(const DiagnosisData& of, const Linearised& at, const RowScal
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     const RowCounts count = count_rows(of.data.poses[at.fitted.poses[i]]);
     Eigen::Index row = at.fitted.first_row[i];
+    const double share = share_of_weighed_squares(static_cast<double>(at.fitted.rows_of_pose(i)));
     for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
       if (present[kind] <= 0) continue;
       for (int k = 0; k < count[kind]; ++k, ++row) {
         squares[kind] += std::pow(at.projection.left()[row], 2);
-        freedom[kind] += std::pow(at.fitted.root_weight[i], 2) - at.projection.basis().row(row).squaredNorm();
+        const double free = std::pow(at.fitted.root_weight[i], 2) - at.projection.basis().row(row).squaredNorm();
+        freedom[kind] += share * free;
       }
     }
   }
@@ -116,14 +142,32 @@ void set_standard_errors(CorrectedRobot& robot, const Linearised& at) {
   }
 }
 
+/// A start's scales, which its few gross errors cannot have driven up.
+RowScales first_scales(const DiagnosisData& of, const Fit& start) {
+  const RowScales median = median_deviations(of.data, start.robot, observe(of.data, of.fitted, start.robot));
+  RowScales scales{start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind)
+    if (scales[kind] > 0.0) scales[kind] = std::max(kSmallestScale, std::min(scales[kind], median[kind]));
+  return scales;
+}
+
 }  // namespace
+
+RowMatrix unwhitened(const ResidualField& field, RowMatrix rows) {
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    if (field.within[pose].size() == 0) continue;
+    auto own = rows.middleRows(field.first_row[pose], field.rows_of_pose(pose));
+    own = (field.within[pose] * own).eval();
+  }
+  return rows;
+}
 
 DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start) {
   DiagnosedModel model;
   model.robot = start.robot;
   model.smooth =
       smooth_corrections(of.data, of.fitted, start.robot, of.declared.joint_corrections, of.declared.joint_offset);
-  model.scales = {start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
+  model.scales = first_scales(of, start);
   return model;
 }
 
@@ -132,15 +176,53 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   std::vector<ParameterId> ids = free_ids(of, model.robot, options);
   const ParameterSpace space(model.robot, ids);
   Prior prior = link_prior(space, nominal_robot(of.data), options);
-  ResidualField fitted = residual_field(of.data, of.fitted, space, model.scales, true);
-  ResidualField judging = residual_field(of.data, of.judging, space, model.scales, false);
+  ResidualField fitted = residual_field(of.data, of.fitted, space, model.scales, true, model.noise);
+  ResidualField judging = residual_field(of.data, of.judging, space, model.scales, false, model.noise);
   believe_effects_small(ids, model.robot, of.data.robot, fitted.states, prior);
-  const ModelColumns columns = model_columns(space, prior, model.smooth, fitted, judging);
+  const SharedErrors shared = shared_errors(model.noise, fitted, judging);
+  ModelColumns columns = model_columns(space, prior, model.smooth, fitted, judging, shared.fitted);
+  const Eigen::Index own = columns.precision.size();
+  append(columns, shared);
   Projection projection(columns, fitted.residual, judging.residual);
-  Eigen::VectorXd changes = projection.changes();
-  Eigen::MatrixXd covariance = projection.covariance();
-  return {std::move(ids),        std::move(fitted),  std::move(judging),
-          std::move(projection), std::move(changes), std::move(covariance)};
+  Eigen::VectorXd changes = projection.changes().head(own);
+  Eigen::MatrixXd covariance = projection.covariance().topLeftCorner(own, own);
+  Eigen::VectorXd errors = fitted.residual - columns.fitted.leftCols(own) * changes;
+  return {std::move(ids),     std::move(fitted),     std::move(judging),          std::move(projection),
+          std::move(changes), std::move(covariance), columns.precision.head(own), columns.offset.head(own),
+          std::move(errors)};
+}
+
+DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {
+  constexpr double kTakesPart = 0.3;  ///< root of a pose's weight
+  const Linearised at = linearise(of, model);
+  std::vector<Eigen::Index> taken, motions;
+  NoiseRows rows{.columns = {},
+                 .precision = at.precision,
+                 .offset = at.offset,
+                 .residual = {},
+                 .joint_motions = {},
+                 .first_row = {0},
+                 .group = {},
+                 .order = {}};
+  for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
+    if (at.fitted.root_weight[i] < kTakesPart) continue;
+    for (Eigen::Index row = at.fitted.first_row[i]; row < at.fitted.first_row[i + 1]; ++row) taken.push_back(row);
+    rows.first_row.push_back(std::ssize(taken));
+    rows.group.push_back(at.fitted.group[i]);
+    rows.order.push_back(static_cast<double>(at.fitted.poses[i]));
+  }
+  for (int joint = 0; joint < of.data.robot.chain.size(); ++joint) {
+    if (of.data.robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute)
+      motions.push_back(motion_column(joint, kTurnAboutZ));
+  }
+  const RowMatrix columns = beside(at.fitted.declared, model.smooth.columns(at.fitted));
+  rows.columns = unwhitened(at.fitted, columns)(taken, Eigen::all);
+  rows.residual = unwhitened(at.fitted, at.fitted.residual)(taken, 0);
+  rows.joint_motions = unwhitened(at.fitted, at.fitted.motions(Eigen::all, motions))(taken, Eigen::all);
+  const NoiseEstimate noise = estimate_noise(rows);
+  model.noise = noise.model;
+  for (double& scale : model.scales) scale *= noise.scale;
+  return model;
 }
 
 DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps) {
@@ -152,7 +234,7 @@ DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps)
     model.robot.corrections = model.smooth.corrections();
     set_standard_errors(model.robot, at);
     const RowScales before = std::exchange(model.scales, scales_of(of, at, model.scales));
-    const double gained = (at.fitted.residual - at.projection.left()).squaredNorm();
+    const double gained = (at.fitted.residual - at.errors).squaredNorm();
     if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(at.fitted.rows())) break;
   }
   return model;

@@ -12,11 +12,12 @@
 
 namespace demecal {
 
-/// One value of all the numbers of the model, and how its residuals scatter.
+/// One value of all the numbers of the model, and how measurements scatter about it.
 struct DiagnosedModel {
   CorrectedRobot robot;  ///< with its effects; corrections are those of `smooth`
   SmoothCorrections smooth;
   RowScales scales{};
+  NoiseModel noise{};  ///< beyond independent noise of these scales
 };
 
 /// The model's surroundings to first order: fields over the fitted and the judging poses, and the residual with all of
@@ -27,6 +28,9 @@ struct Linearised {
   Projection projection;
   Eigen::VectorXd changes;     ///< least-squares steps of `ids`, then of the smooth terms
   Eigen::MatrixXd covariance;  ///< of the same numbers, in rows of unit variance
+  Eigen::VectorXd precision;   ///< believed of the same numbers
+  Eigen::VectorXd offset;
+  Eigen::VectorXd errors;  ///< of the fitted rows, after `changes`: what the projection leaves and what poses share
 };
 
 /// What stays the same from step to step.
@@ -39,7 +43,14 @@ struct DiagnosisData {
 /// What a diagnosis begins with: the fitted model, its corrections the base of smooth terms where they are declared.
 DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start);
 
-/// Linearises at `model`. Smooth terms are believed to be near zero by automatic relevance determination, links to be
+/// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show.
+DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model);
+
+/// Rows of a field as they were before those of one pose were made independent.
+RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
+
+/// Linearises at `model`. What poses share by its noise is fitted beside it and then forgotten: with that the rows left
+/// are independent. Smooth terms are believed to be near zero by automatic relevance determination, links to be
 /// near their maker's figures.
 Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model);
 

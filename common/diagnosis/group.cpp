@@ -140,7 +140,7 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   round.validation_after_mm = mean(after);
   round.gain_lower_mm2 = gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
                                               whole_errors_mm(at_.judging, trial.judging_left, model_.scales),
-                                              random(RandomPurpose::gain_of_effect));
+                                              at_.judging.group, random(RandomPurpose::gain_of_effect));
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
   round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted);
@@ -172,9 +172,9 @@ void Group::take(Round round, const Projection::Trial& trial) {
   scan_.follow(columns_, at_.fitted, projection_);
   scores_ = scan_.scores();
   const auto errors = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
-  const double gain_mm2 = errors.empty()
-                              ? sure_gain_mm2_ + 1.0
-                              : gain_lower_bound_mm2(start_errors_mm_, errors, random(RandomPurpose::gain_of_group));
+  const double gain_mm2 = errors.empty() ? sure_gain_mm2_ + 1.0
+                                         : gain_lower_bound_mm2(start_errors_mm_, errors, at_.judging.group,
+                                                                random(RandomPurpose::gain_of_group));
   if (gain_mm2 <= sure_gain_mm2_) return;
   sure_gain_mm2_ = gain_mm2;
   sure_rounds_ = outcome_.rounds.size();

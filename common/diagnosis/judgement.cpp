@@ -23,7 +23,7 @@ double quantile(std::vector<double>& values, double share) {
   return *place;
 }
 
-/// X^T X and X^T (what X explains and what is left) of one pose.
+/// X^T X and X^T (what X explains and what is left) of one pose and its repeats.
 struct PoseSums {
   Eigen::MatrixXd gram;
   Eigen::VectorXd moment;
@@ -31,13 +31,19 @@ struct PoseSums {
 
 std::vector<PoseSums> pose_sums(const ResidualField& field, const Projection::Trial& trial,
                                 const Eigen::VectorXd& left) {
-  std::vector<PoseSums> sums;
+  std::map<std::size_t, PoseSums> sums;
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
     const auto columns = trial.fitted.middleRows(field.first_row[pose], field.rows_of_pose(pose));
     const auto rows = left.segment(field.first_row[pose], field.rows_of_pose(pose));
-    sums.push_back({columns.transpose() * columns, columns.transpose() * rows});
+    auto [at, fresh] = sums.try_emplace(field.group[pose]);
+    if (fresh)
+      at->second = {Eigen::MatrixXd::Zero(columns.cols(), columns.cols()), Eigen::VectorXd::Zero(columns.cols())};
+    at->second.gram += columns.transpose() * columns;
+    at->second.moment += columns.transpose() * rows;
   }
-  return sums;
+  std::vector<PoseSums> all;
+  for (auto& [first, sum] : sums) all.push_back(std::move(sum));
+  return all;
 }
 
 Eigen::VectorXd solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) {
@@ -78,7 +84,9 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
     const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
     const bool position = data.poses[field.poses[pose]].position_m && scales[kPosition] > 0;
-    const double norm = left.segment(first, position ? 3 : count).norm();
+    Eigen::VectorXd rows = left.segment(first, count);
+    if (field.within[pose].size() > 0) rows = field.within[pose] * rows;
+    const double norm = rows.head(position ? 3 : count).norm();
     errors.push_back(position ? 1e3 * scales[kPosition] * norm
                               : 1e3 * std::max(scales[kDistance], 1e-9) * norm / std::sqrt(static_cast<double>(count)));
   }
@@ -96,18 +104,20 @@ std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::Vec
 }
 
 double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
-                            RandomStream random) {
+                            const std::vector<std::size_t>& group, RandomStream random) {
   if (before_mm.empty()) return 0.0;
   const double threshold = 4.0 * median(before_mm);
-  std::vector<double> falls;
+  std::map<std::size_t, double> falls_of_groups;
   for (std::size_t i = 0; i < before_mm.size(); ++i) {
-    falls.push_back(huber_square(before_mm[i], threshold) - huber_square(after_mm[i], threshold));
+    falls_of_groups[group[i]] += huber_square(before_mm[i], threshold) - huber_square(after_mm[i], threshold);
   }
+  std::vector<double> falls;
+  for (const auto& [first, fall] : falls_of_groups) falls.push_back(fall);
   std::vector<double> means;
   for (int draw = 0; draw < kGainDraws; ++draw) {
     double sum = 0.0;
     for (std::size_t i = 0; i < falls.size(); ++i) sum += falls[random.index(falls.size())];
-    means.push_back(sum / static_cast<double>(falls.size()));
+    means.push_back(sum / static_cast<double>(before_mm.size()));
   }
   return quantile(means, 0.05);
 }

@@ -9,18 +9,19 @@
 
 namespace demecal {
 
-/// The tool error of every judging pose, mm: of its position rows or, where there are none, the root mean square of
-/// all.
+/// The tool error of every judging pose, mm, less what it shares with its neighbours: of its position rows or, where
+/// there are none, the root mean square of all.
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
                                    const DataSet& data);
 
 /// The same of everything a pose measured, whitened: as far off as position alone would be were all its rows positions.
 std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
 
-/// The one-sided 95 % bootstrap bound of the mean fall of the squared error, mm^2, over resampled poses. Errors beyond
-/// four times the median (before) count linearly, so that one outlier does not decide. Zero where there are no poses.
+/// The one-sided 95 % bootstrap bound of the mean fall of the squared error, mm^2, over resampled poses; those with one
+/// number in `group` are drawn together. Errors beyond four times the median (before) count linearly, so that one
+/// outlier does not decide. Zero where there are no poses.
 double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
-                            RandomStream random);
+                            const std::vector<std::size_t>& group, RandomStream random);
 
 /// The largest motion that an effect's ripple, load or side makes of any place over the states: how far it strays from
 /// its own mean there, rad for turns, m for shifts.

@@ -113,7 +113,7 @@ DataSet Knowledge::predicted(std::vector<MeasuredPose> stops) const {
 ResidualField Knowledge::field(const DataSet& predicted) const {
   std::vector<std::size_t> poses(predicted.poses.size());
   std::iota(poses.begin(), poses.end(), 0);
-  return residual_field(predicted, poses, ParameterSpace(model_.robot, at_.ids), model_.scales, false);
+  return residual_field(predicted, poses, ParameterSpace(model_.robot, at_.ids), model_.scales, false, model_.noise);
 }
 
 RowMatrix Knowledge::model_columns(const ResidualField& field) const {

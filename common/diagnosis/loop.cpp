@@ -17,6 +17,7 @@ namespace {
 constexpr int kSteps = 12;      ///< of Gauss and Newton, from the declared fit
 constexpr int kStepsAgain = 3;  ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
+constexpr double kOutlier = 0.05;                    ///< root of a pose's weight below which it counts as far out
 constexpr std::size_t kMostPosesForFormulas = 5000;  ///< thousands of formulas over more take minutes
 
 class ClosedLoop {
@@ -31,6 +32,7 @@ class ClosedLoop {
   void measure_pure_error(const Linearised& at);
   GroupRules rules() const;
   std::vector<bool> not_to_try() const;
+  void estimate_noise();
   void note_decoys(const Group& group, const GroupOutcome& outcome);
   bool run_group(const Linearised& at);
   bool gained_enough(const GroupOutcome& outcome) const;
@@ -90,15 +92,23 @@ void ClosedLoop::make_candidates(const Linearised& at) {
   columns_.pack();
 }
 
+/// How measurements scatter, and the model's numbers by that; twice, since either depends on the other.
+void ClosedLoop::estimate_noise() {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds && options_.noise; ++round)
+    model_ = refined(of_, with_noise_estimated(of_, std::move(model_)), kStepsAgain);
+}
+
 void ClosedLoop::measure_pure_error(const Linearised& at) {
   const auto pure = pure_error(of_.data, of_.fitted);
   if (!pure) return;
   outcome_.repeat_scatter_m = pure->deviation_m;
+  const RowMatrix errors = unwhitened(at.fitted, at.errors);
   double squares = 0.0, freedom = 0.0;
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (!of_.data.poses[at.fitted.poses[i]].position_m) continue;
     const Eigen::Index first = at.fitted.first_row[i];
-    squares += at.projection.left().segment(first, 3).squaredNorm();
+    squares += errors.middleRows(first, 3).squaredNorm();
     freedom += 3.0 - at.projection.basis().middleRows(first, 3).squaredNorm();
   }
   squares *= std::pow(model_.scales[kPosition], 2);
@@ -174,6 +184,7 @@ bool ClosedLoop::run_group(const Linearised& at) {
 LoopResult ClosedLoop::run(DiagnosedModel start) {
   LoopResult result;
   model_ = refined(of_, std::move(start), kSteps);
+  estimate_noise();
   result.before = model_;
   Linearised at = linearise(of_, model_);
   make_candidates(at);
@@ -190,6 +201,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
     const std::size_t held = result.model.robot.effects.size();
     if (model_.robot.effects.size() != held) {
       model_ = refined(of_, std::move(model_), kStepsAgain);
+      estimate_noise();
       at = take_back_needless(of_, model_, candidates_, outcome_);
       result.model = model_;
       p_structure_ = structure(at);
@@ -251,7 +263,7 @@ void ClosedLoop::finish(const Linearised& at) {
       not_found_beyond({of_.data.robot, model_.robot, at, candidates_, columns_, outcome_.rounds}, null_maxima_,
                        {options_.family_error, options_.permutations}, random(RandomPurpose::null_distribution));
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
-    if (at.fitted.root_weight[i] < 0.5) outcome_.outliers.push_back(at.fitted.poses[i]);
+    if (at.fitted.root_weight[i] < kOutlier) outcome_.outliers.push_back(at.fitted.poses[i]);
   }
 }
 

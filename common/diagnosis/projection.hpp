@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "diagnosis/residual_field.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal {
 
@@ -44,6 +45,17 @@ class Projection {
   /// Sum of squares left, beliefs included, and degrees of freedom of the fitted rows.
   double squares() const { return left_.squaredNorm() + beliefs_left_.squaredNorm(); }
   double freedom() const;
+  /// Over the rows of beliefs: one a column of the model it was made from, zero where nothing is believed.
+  const RowMatrix& beliefs_basis() const { return beliefs_basis_; }
+  const Eigen::VectorXd& beliefs_left() const { return beliefs_left_; }
+  /// What independent noise alone would leave of the fitted rows: normal, turned at random in the space of residuals,
+  /// its sum of squares (beliefs included) that of the residual (a rotation test: Langsrud, 2005).
+  Eigen::VectorXd null_left(RandomStream& random) const;
+  /// Standard normal rows, and rows of beliefs where anything is believed, before the model is fitted to them.
+  struct NullRows {
+    Eigen::VectorXd rows, beliefs;
+  };
+  NullRows null_rows(RandomStream& random) const;
 
   /// What of new columns the model does not explain: their coefficients' least-squares values and what adding them
   /// leaves of either residual.
@@ -65,6 +77,7 @@ class Projection {
   RowMatrix basis_, judging_basis_, beliefs_basis_;
   Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
   Eigen::VectorXd left_, judging_left_, beliefs_left_, changes_;
+  std::vector<bool> believed_;
 };
 
 }  // namespace demecal

@@ -1,8 +1,9 @@
 #include "diagnosis/residual_field.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
-
-#include "fitting/least_squares.hpp"
+#include <map>
+#include <set>
 
 namespace demecal {
 namespace {
@@ -26,9 +27,39 @@ Twists place_twists(const std::vector<Eigen::Isometry3d>& places, const Eigen::I
   return twists;
 }
 
-double root_huber_weight(double norm, int rows) {
-  const double threshold = huber_threshold(rows);
-  return norm > threshold ? std::sqrt(threshold / norm) : 1.0;
+double root_bisquare_weight(double norm, int rows) {
+  const double share = norm / rejection_norm(rows);
+  return share < 1.0 ? 1.0 - share * share : 0.0;
+}
+
+/// The root of what the joints' scatter adds to the independent noise of a pose's rows.
+Eigen::MatrixXd covariance_root(const ResidualField& field, Eigen::Index first, Eigen::Index count, double joint_rad,
+                                const Chain& chain) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(count, count);
+  for (int joint = 0; joint < chain.size(); ++joint) {
+    if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
+    const Eigen::VectorXd motion = joint_rad * field.motions.block(first, motion_column(joint, kTurnAboutZ), count, 1);
+    covariance += motion * motion.transpose();
+  }
+  return covariance.llt().matrixL();
+}
+
+/// Makes the rows first .. first + count - 1 independent.
+void whiten(ResidualField& field, Eigen::Index first, Eigen::Index count, const Eigen::MatrixXd& root) {
+  const auto lower = root.triangularView<Eigen::Lower>();
+  const auto apply = [&](auto&& rows) { rows = lower.solve(Eigen::MatrixXd(rows)); };
+  apply(field.residual.segment(first, count));
+  apply(field.declared.middleRows(first, count));
+  apply(field.motions.middleRows(first, count));
+}
+
+/// The first pose of each id and target.
+void find_repeats(const DataSet& data, ResidualField& field) {
+  std::map<std::pair<std::string, std::string>, std::size_t> first;
+  for (std::size_t i = 0; i < field.poses.size(); ++i) {
+    const MeasuredPose& pose = data.poses[field.poses[i]];
+    field.group.push_back(pose.pose_id.empty() ? i : first.try_emplace({pose.pose_id, pose.target}, i).first->second);
+  }
 }
 
 /// The rows of a pose in use, and the scale of each.
@@ -68,8 +99,17 @@ RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
   return both;
 }
 
+// The squares of these norms grow by nearly 4 a row from the usual 4.685 of one row; 95 % efficient for 1 to 6 rows.
+double rejection_norm(int rows) {
+  return std::sqrt(18.0 + 4.0 * rows);
+}
+
+std::size_t distinct_poses(const ResidualField& field) {
+  return std::set<std::size_t>(field.group.begin(), field.group.end()).size();
+}
+
 ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
-                             const RowScales& scales, bool robust) {
+                             const RowScales& scales, bool robust, const NoiseModel& noise) {
   const CorrectedRobot& robot = space.reference();
   const std::vector<Observation> observations = observe(data, poses, robot);
   const ModelPoint point = space.at(Eigen::VectorXd::Zero(space.size()));
@@ -82,24 +122,34 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
     if (used.empty()) continue;
     scaled_rows(data, space, point, observation, scales, rows);
     const auto count = static_cast<Eigen::Index>(used.size());
-    const double weight = robust ? root_huber_weight(rows.residual.norm(), static_cast<int>(count)) : 1.0;
     const Eigen::Index first = field.first_row.back();
-    field.residual.segment(first, count) = weight * rows.residual;
-    field.declared.middleRows(first, count) = -weight * rows.jacobian;
+    field.residual.segment(first, count) = rows.residual;
+    field.declared.middleRows(first, count) = -rows.jacobian;
     const Stop stop(pose);
     const Eigen::Vector3d tool = rows.motion.predicted.translation();
     const Twists twists = place_twists(real_places(robot, stop), robot.sensor_from_base, tool);
     const auto measured = measurement_jacobian(rows.motion.predicted, data, pose);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto& [row, scale] = used[static_cast<std::size_t>(i)];
-      field.motions.row(first + i).noalias() = (weight / scale) * measured.row(row) * twists;
+      field.motions.row(first + i).noalias() = (1.0 / scale) * measured.row(row) * twists;
     }
+    field.within.emplace_back();
+    if (noise.joint_rad > 0.0) {
+      field.within.back() = covariance_root(field, first, count, noise.joint_rad, data.robot.chain);
+      whiten(field, first, count, field.within.back());
+    }
+    const double norm = field.residual.segment(first, count).norm();
+    const double weight = robust ? root_bisquare_weight(norm, static_cast<int>(count)) : 1.0;
+    field.residual.segment(first, count) *= weight;
+    field.declared.middleRows(first, count) *= weight;
+    field.motions.middleRows(first, count) *= weight;
     field.poses.push_back(observation.pose);
     field.root_weight.push_back(weight);
     field.first_row.push_back(first + count);
     field.states.push_back(arm_state(data.robot, stop));
     field.states.back().tool_in_sensor_m = tool;
   }
+  find_repeats(data, field);
   return field;
 }
 

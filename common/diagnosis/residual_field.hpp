@@ -17,16 +17,27 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// Two matrices of equally many rows as one.
 RowMatrix beside(const RowMatrix& left, const RowMatrix& right);
 
-/// Rows are in units of what their kind scatters, and those of poses far out are scaled down by the root of their Huber
-/// weight. A model change `c` changes the residual to residual - columns * c.
+/// How rows scatter beyond independent noise of unit variance, in the units of RowScales.
+struct NoiseModel {
+  double joint_rad = 0.0;    ///< standard deviation of every revolute joint, new at every visit
+  double repeats = 0.0;      ///< of the error that repeats of one pose share, over that of independent noise
+  double order = 0.0;        ///< the same of an error that poses measured one after another share
+  double correlation = 0.0;  ///< of that error from one pose to the next (autoregressive of first order)
+};
+
+/// Rows are in units of what their kind scatters; those of one pose are made independent of unit variance where joints
+/// scatter too, and those of poses far out are scaled down by the root of their weight (Tukey's bisquare of the pose's
+/// norm, 95 % efficient). A model change `c` changes the residual to residual - columns * c.
 struct ResidualField {
   std::vector<std::size_t> poses;       ///< in the data set
+  std::vector<std::size_t> group;       ///< per pose: the first of `poses` that has its id and target
   std::vector<Eigen::Index> first_row;  ///< of each pose, and one past the last: poses + 1
   std::vector<double> root_weight;      ///< one per pose
   Eigen::VectorXd residual;             ///< measured minus predicted
   RowMatrix declared;                   ///< rows x free parameters of the model
   RowMatrix motions;                    ///< rows x 6 (n + 2): per unit motion, see motion_column
   std::vector<ArmState> states;         ///< one per pose
+  std::vector<Eigen::MatrixXd> within;  ///< per pose: root (lower) of the covariance of its scaled rows; empty: none
 
   Eigen::Index rows() const { return residual.size(); }
   Eigen::Index rows_of_pose(std::size_t i) const { return first_row[i + 1] - first_row[i]; }
@@ -39,9 +50,15 @@ inline Eigen::Index motion_column(int place, int axis) {
   return 6 * (place - kSensorPlace) + axis;
 }
 
+/// The norm of a pose with `rows` rows of unit variance at and beyond which it has no weight.
+double rejection_norm(int rows);
+
+/// How many poses of a field are not repeats of others.
+std::size_t distinct_poses(const ResidualField& field);
+
 /// The field of `robot` over `poses`, its free parameters those of `space` (whose reference is `robot`). Poses that
-/// measured nothing in use are left out. `robust`: far poses are scaled down.
+/// measured nothing in use are left out. `robust`: far poses are scaled down. Of `noise` the joints' scatter counts.
 ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
-                             const RowScales& scales, bool robust);
+                             const RowScales& scales, bool robust, const NoiseModel& noise = {});
 
 }  // namespace demecal

@@ -3,8 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-
-#include "diagnosis/permutation.hpp"
+#include <limits>
 
 namespace demecal {
 namespace {
@@ -18,7 +17,7 @@ Scan::Scan(const EffectColumns& columns, const std::vector<double>& name_nats, c
     : spans_(columns.spans()),
       name_nats_(name_nats),
       rows_(static_cast<double>(field.rows())),
-      poses_(static_cast<double>(field.poses.size())) {
+      poses_(static_cast<double>(distinct_poses(field))) {
   whole_.reserve(spans_.size());
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     const RowMatrix dense = columns.dense(field, i);
@@ -37,7 +36,7 @@ void Scan::follow(const EffectColumns& columns, const ResidualField& field, cons
   along_.conservativeResize(Eigen::NoChange, model.rank());
   along_.rightCols(fresh) = products.leftCols(fresh);
   moment_ = products.col(fresh);
-  squares_ = model.left().squaredNorm();
+  squares_ = model.squares();
   invert(columns.spans());
 }
 
@@ -90,18 +89,24 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
 
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                       int count, RandomStream random) const {
-  const RowMatrixF basis = model.basis().cast<float>();
+  const RowMatrixF basis = model.basis().cast<float>(), beliefs_basis = model.beliefs_basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
   std::vector<double> maxima;
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
-    Eigen::MatrixXf shuffled(field.rows(), now);
-    for (Eigen::Index i = 0; i < now; ++i) shuffled.col(i) = permuted(field, model.left(), random).cast<float>();
-    const RowMatrixF rows = shuffled;
-    const Eigen::MatrixXf explained = basis.transpose() * rows;
+    Eigen::MatrixXf drawn(field.rows(), now), beliefs(beliefs_basis.rows(), now);
+    for (Eigen::Index i = 0; i < now; ++i) {
+      const Projection::NullRows noise = model.null_rows(random);
+      drawn.col(i) = noise.rows.cast<float>();
+      beliefs.col(i) = noise.beliefs.cast<float>();
+    }
+    const RowMatrixF rows = drawn;
+    const Eigen::MatrixXf explained = basis.transpose() * rows + beliefs_basis.transpose() * beliefs;
     const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();
     const Eigen::VectorXd squares =
-        (rows.colwise().squaredNorm() - explained.colwise().squaredNorm()).transpose().cast<double>();
+        (rows.colwise().squaredNorm() + beliefs.colwise().squaredNorm() - explained.colwise().squaredNorm())
+            .transpose()
+            .cast<double>();
     for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_fall(moments.col(i), squares[i]));
   }
   std::sort(maxima.begin(), maxima.end());
@@ -109,9 +114,10 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
 }
 
 double Scan::best_fall(const Eigen::VectorXd& moments, double squares) const {
-  double best = 0.0;
+  double best = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const auto moment = moments.segment(spans_[k].first, spans_[k].count);
+    if (grams_[k].rank == 0) continue;
     best = std::max(best, fall_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
   }
   return best;

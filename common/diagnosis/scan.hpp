@@ -35,8 +35,8 @@ class Scan {
   /// beyond the model too; `products`: columns^T direction; `square`: its squared length.
   std::vector<double> cosines(const Eigen::MatrixXd& products, double square) const;
 
-  /// The largest fall_nats of any candidate, for each of `count` permutations of whole poses' residuals (Freedman and
-  /// Lane, 1983), ascending: nothing is refitted. Poses with equally many rows change places.
+  /// The largest fall_nats of any candidate, ascending, over `count` draws of independent noise in place of the
+  /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005).
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                   int count, RandomStream random) const;
 

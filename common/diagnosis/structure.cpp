@@ -119,18 +119,17 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
 
 /// Every pose's residual as an error of each joint: poses x joints, columns of unit norm.
 Eigen::MatrixXd joint_errors(const ResidualField& field, const std::vector<std::size_t>& poses,
-                             const std::vector<std::size_t>& from, const Eigen::VectorXd& residual,
-                             const Chain& chain) {
+                             const Eigen::VectorXd& residual, const Chain& chain) {
   Eigen::MatrixXd errors(static_cast<Eigen::Index>(poses.size()), chain.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Index first = field.first_row[poses[i]];
-    const Eigen::Index count = std::min(field.rows_of_pose(poses[i]), field.rows_of_pose(from[i]));
-    const auto other = residual.segment(field.first_row[from[i]], count);
+    const Eigen::Index count = field.rows_of_pose(poses[i]);
+    const auto rows = residual.segment(first, count);
     for (int joint = 0; joint < chain.size(); ++joint) {
       const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
       const auto column = field.motions.block(first, motion_column(joint, revolute ? 5 : 2), count, 1);
       const double length = column.norm();
-      errors(static_cast<Eigen::Index>(i), joint) = length > 1e-12 ? column.col(0).dot(other) / length : 0.0;
+      errors(static_cast<Eigen::Index>(i), joint) = length > 1e-12 ? column.col(0).dot(rows) / length : 0.0;
     }
   }
   for (Eigen::Index joint = 0; joint < errors.cols(); ++joint) {
@@ -157,28 +156,26 @@ Eigen::VectorXd agreements(const Eigen::MatrixXd& errors, const std::vector<Pair
 
 }  // namespace
 
-double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int permutations,
+double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
                          RandomStream random) {
   const std::vector<std::size_t> poses = evenly_spaced(field.poses.size());
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);
   if (all.empty()) return 1.0;
-  std::vector<std::size_t> from = poses;
-  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, from, model.left(), chain), all);
-  Eigen::MatrixXd null(seen.size(), permutations);
-  for (int i = 0; i < permutations; ++i) {
-    for (std::size_t k = from.size(); k > 1; --k) std::swap(from[k - 1], from[random.index(k)]);
-    null.col(i) = agreements(joint_errors(field, poses, from, model.left(), chain), all);
+  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.left(), chain), all);
+  Eigen::MatrixXd null(seen.size(), draws);
+  for (int i = 0; i < draws; ++i) {
+    null.col(i) = agreements(joint_errors(field, poses, model.null_left(random), chain), all);
   }
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =
-      ((null.colwise() - mean).rowwise().squaredNorm() / std::max(1, permutations - 1)).cwiseSqrt().cwiseMax(1e-12);
+      ((null.colwise() - mean).rowwise().squaredNorm() / std::max(1, draws - 1)).cwiseSqrt().cwiseMax(1e-12);
   const double largest = ((seen - mean).cwiseQuotient(deviation)).maxCoeff();
   int beyond = 0;
-  for (int i = 0; i < permutations; ++i) {
+  for (int i = 0; i < draws; ++i) {
     beyond += (null.col(i) - mean).cwiseQuotient(deviation).maxCoeff() >= largest;
   }
-  return (1.0 + beyond) / (1.0 + permutations);
+  return (1.0 + beyond) / (1.0 + draws);
 }
 
 }  // namespace demecal

@@ -11,10 +11,10 @@ namespace demecal {
 /// The p-value of an omnibus test for dependence. The residual of every pose is taken as an error of each joint in
 /// turn; for each joint and each circumstance (every joint's value, approach, torque, payload, temperature, time, and
 /// every pair of joint values) poses that are neighbours in that circumstance are asked whether their errors agree more
-/// than chance would have it. The largest agreement, each in units of its own scatter under `permutations` permutations
-/// of whole poses' residuals, is compared with the largest of each permutation: family-wise. At most 1000 poses take
-/// part, evenly spaced.
-double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int permutations,
+/// than chance would have it. The largest agreement, each in units of its own scatter under `draws` of noise in place
+/// of the whitened residual (a rotation test), is compared with the largest of each draw: family-wise. At most 1000
+/// poses take part, evenly spaced.
+double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
                          RandomStream random);
 
 /// Repeats of a pose give the pure error, whatever the model.

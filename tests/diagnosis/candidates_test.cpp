@@ -10,7 +10,6 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/formula_library.hpp"
-#include "diagnosis/permutation.hpp"
 #include "diagnosis/rivals.hpp"
 #include "measured_arm.hpp"
 
@@ -229,25 +228,6 @@ TEST(Rivals, AFormulaIsNoRivalOfItselfWithAPhase) {
   EXPECT_TRUE(rivals[0].effect.same_law_as(effects[2]));
   const Projection::Trial wave = model.trial(columns.dense(field, 1), columns.dense(field, 1));
   EXPECT_FALSE(rivals_of(1, wave, candidates, scan.scores(), scan, columns, field).empty());
-}
-
-TEST(Permuted, DealsWholePosesPartsOutAnew) {
-  RandomStream stream{88, 10};
-  const KnownArm arm = measured(stream, 30);
-  const ResidualField field = field_of(arm, {});
-  const Eigen::VectorXd rows = Eigen::VectorXd::LinSpaced(field.rows(), 0.0, 1.0);
-  RandomStream random{5};
-  const Eigen::VectorXd dealt = permuted(field, rows, random);
-  std::multiset<double> before(rows.begin(), rows.end()), after(dealt.begin(), dealt.end());
-  EXPECT_EQ(before, after);
-  int moved = 0;
-  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
-    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-    const auto part = dealt.segment(first, count);
-    moved += part[0] != rows[first];
-    for (Eigen::Index i = 1; i < count; ++i) EXPECT_NEAR(part[i] - part[i - 1], rows[1] - rows[0], 1e-12);
-  }
-  EXPECT_GT(moved, 20);
 }
 
 TEST(Rivals, AreCandidatesThatExplainTheSame) {

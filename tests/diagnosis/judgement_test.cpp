@@ -11,6 +11,12 @@
 namespace demecal {
 namespace {
 
+std::vector<std::size_t> each_alone(std::size_t poses) {
+  std::vector<std::size_t> groups(poses);
+  std::iota(groups.begin(), groups.end(), 0);
+  return groups;
+}
+
 TEST(ToolErrors, AreLengthsOfPositionRowsInMillimetres) {
   RandomStream stream{87, 1};
   KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
@@ -40,9 +46,9 @@ TEST(WholeErrors, AreThoseOfPositionWhereNothingElseWasMeasured) {
 
 TEST(GainBound, IsTheGainWhereEveryPoseGainsTheSame) {
   const std::vector<double> before(40, 0.5), after(40, 0.3);
-  EXPECT_NEAR(gain_lower_bound_mm2(before, after, RandomStream{1}), 0.25 - 0.09, 1e-12);
-  EXPECT_EQ(gain_lower_bound_mm2(before, before, RandomStream{1}), 0.0);
-  EXPECT_EQ(gain_lower_bound_mm2({}, {}, RandomStream{1}), 0.0);
+  EXPECT_NEAR(gain_lower_bound_mm2(before, after, each_alone(before.size()), RandomStream{1}), 0.25 - 0.09, 1e-12);
+  EXPECT_EQ(gain_lower_bound_mm2(before, before, each_alone(before.size()), RandomStream{1}), 0.0);
+  EXPECT_EQ(gain_lower_bound_mm2({}, {}, {}, RandomStream{1}), 0.0);
 }
 
 TEST(GainBound, IsBelowTheTrueGainNineteenTimesInTwenty) {
@@ -55,7 +61,8 @@ TEST(GainBound, IsBelowTheTrueGainNineteenTimesInTwenty) {
       before.push_back(std::sqrt(1.0 + 0.1 * stream.normal()));
       after.push_back(std::sqrt(0.95 + 0.1 * stream.normal()));
     }
-    below += gain_lower_bound_mm2(before, after, RandomStream{87, 4, static_cast<std::uint64_t>(set)}) < 0.05;
+    below += gain_lower_bound_mm2(before, after, each_alone(before.size()),
+                                  RandomStream{87, 4, static_cast<std::uint64_t>(set)}) < 0.05;
   }
   EXPECT_GE(below, 0.91 * kSets);
   EXPECT_LE(below, 0.98 * kSets);
@@ -65,7 +72,24 @@ TEST(GainBound, IsNotDecidedByOnePoseFarOut) {
   std::vector<double> before(30, 1.0), after(30, 1.05);
   before[7] = 20.0;
   after[7] = 19.0;
-  EXPECT_LT(gain_lower_bound_mm2(before, after, RandomStream{1}), 0.0);
+  EXPECT_LT(gain_lower_bound_mm2(before, after, each_alone(before.size()), RandomStream{1}), 0.0);
+}
+
+TEST(GainBound, RepeatsAreDrawnTogether) {
+  std::vector<double> before, after;
+  std::vector<std::size_t> alone, together;
+  RandomStream stream{87, 9};
+  for (int pose = 0; pose < 10; ++pose) {
+    const double fall = 0.02 + 0.1 * stream.normal();
+    for (int repeat = 0; repeat < 4; ++repeat) {
+      alone.push_back(before.size());
+      together.push_back(static_cast<std::size_t>(4 * pose));
+      before.push_back(1.0);
+      after.push_back(std::sqrt(1.0 - fall));
+    }
+  }
+  EXPECT_LT(gain_lower_bound_mm2(before, after, together, RandomStream{1}),
+            gain_lower_bound_mm2(before, after, alone, RandomStream{1}));
 }
 
 struct Noisy {

@@ -158,23 +158,5 @@ TEST(Scan, NullIsAFunctionOfItsSeedAndAscends) {
   EXPECT_NE(maxima, scan.null_maxima(at.columns, at.field, model, 70, RandomStream{2}));
 }
 
-TEST(Scan, OnlyPosesWithEquallyManyRowsChangePlaces) {
-  RandomStream stream{84, 8};
-  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
-  measure_anyhow(arm, stream, {.noise_m = 5e-5}, 1);
-  measure_anyhow(arm, stream, {.noise_m = 5e-5, .noise_rad = 1e-4, .orientation = true}, 1);
-  arm.data.anchors_m = {random_vector(stream, 3.0), random_vector(stream, 3.0)};
-  measure_anyhow(arm, stream, {.noise_m = 5e-5, .position = false}, 1);
-  const ResidualField field = field_of(arm, {});
-  const EffectColumns columns =
-      columns_of({{.kind = "gain", .joint = 1}, {.kind = "gain", .joint = 3}}, arm.data.robot, field);
-  const Projection model = projection_of(field);
-  const Scan scan(columns, {-10.0, -10.0}, field, model);
-  const auto best = static_cast<float>(best_fall(scan));
-  EXPECT_GT(best, 5.0F);
-  const std::vector<double> maxima = scan.null_maxima(columns, field, model, 20, RandomStream{1});
-  EXPECT_THAT(std::vector<float>(maxima.begin(), maxima.end()), Each(FloatNear(best, 1e-3F)));
-}
-
 }  // namespace
 }  // namespace demecal

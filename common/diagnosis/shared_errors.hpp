@@ -1,0 +1,20 @@
+// Errors that several poses share, as columns beside a model's own: with them in it the other rows are independent.
+#pragma once
+
+#include <span>
+
+#include "diagnosis/residual_field.hpp"
+
+namespace demecal {
+
+/// Columns of unit variance each: random effects, marginalised where they are believed to be zero within one.
+struct SharedErrors {
+  RowMatrix fitted, judging;
+};
+
+/// What repeats of one pose have in common, and what drifts in the order of measuring, of the components that `noise`
+/// has; `judging` poses share it with `fitted` ones. The order of measuring is that of the data set. Drift is followed
+/// by at most 64 functions an axis; of more than 200 repeated poses the error is not modelled.
+SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& judging);
+
+}  // namespace demecal
