@@ -136,7 +136,7 @@ std::vector<NoiseFigure> noise_figures(const std::vector<NoisyCaseFigures>& case
   taking.add_share("cases refused, or without a model", [](const auto& one) {
     return one.clean.refused || one.clean.failed || (one.bad && (one.bad->refused || one.bad->failed));
   });
-  taking.add("seconds a case, median", taking.size(), quantile(seconds_of(cases), 0.5));
+  taking.add("processor seconds a case, median", taking.size(), quantile(seconds_of(cases), 0.5));
   return taking.take();
 }
 

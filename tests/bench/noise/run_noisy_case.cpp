@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <numeric>
 #include <set>
 
@@ -12,6 +11,7 @@
 #include "coordinator/diagnose.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/coverage.hpp"
+#include "engine/thread_seconds.hpp"
 #include "errors/input_error.hpp"
 #include "noisy_measurement.hpp"
 
@@ -24,6 +24,11 @@ constexpr double kOfIntervals = 3.0;                                       ///< 
 
 constexpr std::array<const char*, 6> kInjectedKinds{"backlash",      "compliance",  "coupling",
                                                     "gear_harmonic", "axis_wobble", "thermal_offset"};
+
+/// Kinds follow each other in turn, shifted after every second turn, so that each meets every arm.
+const char* kind_of(int number) {
+  return kInjectedKinds[static_cast<std::size_t>(number + number / 12) % kInjectedKinds.size()];
+}
 
 class NoisyCase {
  public:
@@ -50,7 +55,7 @@ class NoisyCase {
 
   /// What `demecal diagnose --force` does with the data, and how well; the truth is that of `scenario`.
   DiagnosisFigures diagnosed(DataSet data, const Scenario& scenario) const {
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = engine::thread_seconds();
     DiagnosisFigures figures;
     take_out_copies(data);
     figures.refused = check_data(data).verdict() == DataVerdict::contradiction;
@@ -70,7 +75,7 @@ class NoisyCase {
     } catch (const InputError&) {
       figures.failed = true;
     }
-    figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    figures.seconds = engine::thread_seconds() - begin;
     return figures;
   }
 
@@ -96,7 +101,7 @@ class NoisyCase {
     std::ranges::copy_if(figures.clean.not_found, std::back_inserter(testable), &NotFound::testable);
     const std::vector<ArmState> states = states_of(data, PoseSet::calibration);
     RandomStream random{one_.seed, kInjected};
-    const std::string kind = kInjectedKinds[static_cast<std::size_t>(one_.number) % kInjectedKinds.size()];
+    const std::string kind = kind_of(one_.number);
     const std::optional<Effect> at_limit = draw_truth(
         kind, testable, data.robot, states,
         [](const NotFound& measure, const Effect&) { return measure.smallest_detectable; }, random, {1.0, 1.0});

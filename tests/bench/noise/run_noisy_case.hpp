@@ -18,7 +18,7 @@ struct DiagnosisFigures {
   std::vector<Round> rounds{};
   std::vector<Effect> effects{};  ///< of the model
   std::vector<NotFound> not_found{};
-  double seconds = 0.0;
+  double seconds = 0.0;  ///< of processor time
 };
 
 /// An effect that was put in, and what became of it.
