@@ -19,7 +19,7 @@ bool Bound::kept_by(double value) const {
 
 void write_bound(std::ostream& out, const std::string& name, double value, const Bound& bound) {
   const char* verdict = !bound.holds() ? "" : bound.kept_by(value) ? "kept" : "MISSED";
-  fmt::print(out, "{:<52}{:>9.3f}   {:<13}{}\n", name, value, bound_text(bound), verdict);
+  fmt::print(out, "{:<64}{:>9.3f}   {:<13}{}\n", name, value, bound_text(bound), verdict);
 }
 
 }  // namespace demecal::bench

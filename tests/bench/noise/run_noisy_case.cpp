@@ -41,7 +41,7 @@ class NoisyCase {
     const DataSet data = measured_noisily(one_, scenario_);
     NoisyCaseFigures figures{.plan = one_, .arm = data.robot.name, .clean = diagnosed(data, scenario_)};
     figures.false_effects = static_cast<int>(
-        std::ranges::count_if(figures.clean.effects, [&](const Effect& effect) { return !is_of_instrument(effect); }));
+        std::ranges::count_if(figures.clean.effects, [&](const Effect& effect) { return !is_there(effect); }));
     if (one_.condition.fault != Fault::none) spoil(data, figures);
     if (one_.condition.question == Question::power) inject_at({0.5, 1.0}, data, figures);
     if (one_.condition.question == Question::intervals) inject_at({kOfIntervals}, data, figures);
@@ -49,7 +49,9 @@ class NoisyCase {
   }
 
  private:
-  bool is_of_instrument(const Effect& effect) const {
+  /// Whether the arm of the case, or its instrument, has the effect although the model lacks it.
+  bool is_there(const Effect& effect) const {
+    if (effect.kind == "backlash" && effect.joint == 1) return one_.condition.fault != Fault::none;
     return effect.kind == "drift" && (one_.condition.noise == Noise::warming || one_.condition.noise == Noise::drift);
   }
 

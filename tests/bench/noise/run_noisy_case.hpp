@@ -34,7 +34,7 @@ struct NoisyCaseFigures {
   NoiseCase plan;
   std::string arm;
   DiagnosisFigures clean;  ///< of bad poses: with the good values in their place
-  int false_effects = 0;   ///< of `clean`; a drift is none where the instrument drifts
+  int false_effects = 0;   ///< of `clean`; a drift is none where the instrument drifts, nor the backlash of bad poses
   std::optional<DiagnosisFigures> bad{};
   std::optional<bool> bad_poses_named{};   ///< all, with the fault in any set
   std::vector<InjectedEffect> injected{};  ///< none: nothing of the case's kind is testable
