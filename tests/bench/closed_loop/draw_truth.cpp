@@ -9,7 +9,6 @@
 namespace demecal::bench {
 namespace {
 
-constexpr double kLeastFactor = 2.0, kMostFactor = 4.0;
 constexpr int kLowestRatio = 10, kHighestRatio = 160;
 constexpr double kLargestTurn_rad = 0.01, kLargestShift_m = 0.01;
 
@@ -111,11 +110,11 @@ Effect draw_at(const std::string& kind, const NotFound& measure, const Robot& ro
 }  // namespace
 
 std::optional<Effect> draw_truth(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
-                                 const std::vector<ArmState>& states, const JustDetectable& just,
-                                 RandomStream& random) {
+                                 const std::vector<ArmState>& states, const JustDetectable& just, RandomStream& random,
+                                 const SizeRange& sizes) {
   for (const NotFound& measure : shuffled(kind == kOutside ? "coupling" : kind, detectable, random)) {
     Effect effect = draw_at(kind, measure, robot, states, random);
-    scale(effect, random.real(kLeastFactor, kMostFactor) * just(measure, effect));
+    scale(effect, random.real(sizes.least, sizes.most) * just(measure, effect));
     if (is_possible(effect, robot, states)) return effect;
   }
   return std::nullopt;

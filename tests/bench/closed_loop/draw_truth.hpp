@@ -14,12 +14,19 @@ namespace demecal::bench {
 /// By how much an effect must be multiplied to be just detectable, where that kind and joint are detectable as named.
 using JustDetectable = std::function<double(const NotFound&, const Effect&)>;
 
-/// An effect of `kind` at a random joint of those at which `detectable` names it: coefficients in a random direction, 2
-/// to 4 times as long as that direction must be to be just detectable. Ratios are whole numbers from 10 to 160; other
+/// How large effects are drawn, in multiples of what is just detectable.
+struct SizeRange {
+  double least = 2.0;
+  double most = 4.0;
+};
+
+/// An effect of `kind` at a random joint of those at which `detectable` names it: coefficients in a random direction,
+/// of a random size in `sizes`. Ratios are whole numbers from 10 to 160; other
 /// joints, orders and forms are drawn; formulas are measured by the couplings of their joint. Joints that would go more
 /// than 10 mrad (10 mm) astray at any of `states` are passed over: no arm does. Nothing where no joint is left.
 std::optional<Effect> draw_truth(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,
-                                 const std::vector<ArmState>& states, const JustDetectable& just, RandomStream& random);
+                                 const std::vector<ArmState>& states, const JustDetectable& just, RandomStream& random,
+                                 const SizeRange& sizes = {});
 
 /// The effects of a case: one, or two of different kinds for pairs; fewer where nothing could be drawn.
 std::vector<Effect> draw_truths(const std::string& kind, const std::vector<NotFound>& detectable, const Robot& robot,

@@ -5,26 +5,24 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bound.hpp"
+
 namespace demecal::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-void write_bound(std::ostream& out, const char* name, double value, const char* sign, double bound) {
-  const bool kept = sign[0] == '<' ? value <= bound : value >= bound;
-  fmt::print(out, "{:<44}{:>8.3f}   {} {:<6.2f} {}\n", name, value, sign, bound, kept ? "kept" : "MISSED");
-}
-
 void write_bounds(std::ostream& out, const Summary& row) {
   if (row.kind == kClean) {
-    write_bound(out, "clean: share with an effect added", share(row.cases - row.named, row.cases), "<=", 0.05);
+    write_bound(out, "clean: share with an effect added", share(row.cases - row.named, row.cases), {.at_most = 0.05});
   } else if (row.kind == kPair) {
-    write_bound(out, "pair: share with both found", share(row.named, row.cases), ">=", 0.90);
+    write_bound(out, "pair: share with both found", share(row.named, row.cases), {.at_least = 0.90});
   } else if (row.kind == "single") {
-    write_bound(out, "single: share named, where it can be", share(row.named_eligible, row.eligible), ">=", 0.95);
-    write_bound(out, "single: share named or among the rivals", share(row.in_class, row.cases), ">=", 0.98);
-    write_bound(out, "single: error after over floor, median", quantile(row.after_over_floor, 0.5), "<=", 1.05);
-    write_bound(out, "single: error after over floor, 95 %", quantile(row.after_over_floor, 0.95), "<=", 1.15);
+    write_bound(out, "single: share named, where it can be", share(row.named_eligible, row.eligible),
+                {.at_least = 0.95});
+    write_bound(out, "single: share named or among the rivals", share(row.in_class, row.cases), {.at_least = 0.98});
+    write_bound(out, "single: error after over floor, median", quantile(row.after_over_floor, 0.5), {.at_most = 1.05});
+    write_bound(out, "single: error after over floor, 95 %", quantile(row.after_over_floor, 0.95), {.at_most = 1.15});
   }
 }
 

@@ -52,24 +52,28 @@ Eigen::Isometry3d sensor_place(RandomStream random) {
 
 }  // namespace
 
-Scenario clean_scene(const CasePlan& plan, const Robot& robot) {
+Scenario varied_scene(std::uint64_t seed, const Robot& robot) {
   Scenario scenario;
-  scenario.name = plan.kind + ' ' + std::to_string(plan.number);
-  scenario.robot_file = plan.robot_file;
   scenario.robot = robot;
-  scenario.seed = plan.seed();
+  scenario.seed = seed;
   scenario.by_joints = true;
   scenario.joint_ranges = moderate_ranges(robot.chain);
   scenario.poses = kPoses;
-  scenario.sensor_from_base = sensor_place(RandomStream{scenario.seed, kPlace});
+  scenario.sensor_from_base = sensor_place(RandomStream{seed, kPlace});
   scenario.noise_m = kNoise_m;
   scenario.payloads_kg = {0.0, 3.0};
   scenario.seconds_per_pose = 20.0;
   scenario.temperature = TemperatureCourse{.lower_celsius = 18.0, .upper_celsius = 30.0, .period_s = 1700.0};
   scenario.reference_celsius = 24.0;
-  if (row_of(plan.kind).smooth_errors) {
-    scenario.joint_errors = smooth_errors(robot.chain.size(), RandomStream{scenario.seed, kSmooth});
-  }
+  scenario.joint_errors = smooth_errors(robot.chain.size(), RandomStream{seed, kSmooth});
+  return scenario;
+}
+
+Scenario clean_scene(const CasePlan& plan, const Robot& robot) {
+  Scenario scenario = varied_scene(plan.seed(), robot);
+  scenario.name = plan.kind + ' ' + std::to_string(plan.number);
+  scenario.robot_file = plan.robot_file;
+  if (!row_of(plan.kind).smooth_errors) scenario.joint_errors.clear();
   return scenario;
 }
 
