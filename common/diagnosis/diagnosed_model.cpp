@@ -68,7 +68,8 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& s
 }
 
 ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
-                           const ResidualField& fitted, const ResidualField& judging, const RowMatrix& shared) {
+                           const Eigen::VectorXd& kept_precision, const ResidualField& fitted,
+                           const ResidualField& judging, const RowMatrix& shared) {
   ModelColumns columns{
       beside(fitted.declared, smooth.columns(fitted)), beside(judging.declared, smooth.columns(judging)), {}, {}};
   const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
@@ -77,7 +78,8 @@ ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, cons
   columns.offset.setZero(n + terms);
   columns.offset.head(n) = prior.offset;
   columns.offset.tail(terms) = smooth.coefficients;
-  columns.precision.tail(terms) = smooth_precision(columns, shared, fitted.residual, smooth);
+  columns.precision.tail(terms) =
+      kept_precision.size() == terms ? kept_precision : smooth_precision(columns, shared, fitted.residual, smooth);
   return columns;
 }
 
@@ -180,7 +182,7 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   ResidualField judging = residual_field(of.data, of.judging, space, model.scales, false, model.noise);
   believe_effects_small(ids, model.robot, of.data.robot, fitted.states, prior);
   const SharedErrors shared = shared_errors(model.noise, fitted, judging);
-  ModelColumns columns = model_columns(space, prior, model.smooth, fitted, judging, shared.fitted);
+  ModelColumns columns = model_columns(space, prior, model.smooth, model.precision, fitted, judging, shared.fitted);
   const Eigen::Index own = columns.precision.size();
   append(columns, shared);
   Projection projection(columns, fitted.residual, judging.residual);
@@ -190,6 +192,19 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   return {std::move(ids),     std::move(fitted),     std::move(judging),          std::move(projection),
           std::move(changes), std::move(covariance), columns.precision.head(own), columns.offset.head(own),
           std::move(errors)};
+}
+
+DiagnosedModel with_noise_supposed(const DiagnosisData& of, DiagnosedModel model) {
+  constexpr double kShare = 0.6;  ///< of the scales, and of each kind
+  constexpr double kUsualLever_m = 0.7, kCorrelation = 0.9;
+  const double scale_m = model.scales[kPosition] > 0 ? model.scales[kPosition] : model.scales[kDistance];
+  const auto joints = std::max<double>(1.0, of.data.robot.chain.size());
+  for (double& scale : model.scales) scale *= kShare;
+  model.noise = {.joint_rad = kShare * scale_m / kUsualLever_m / std::sqrt(joints),
+                 .repeats = 1.0,
+                 .order = 1.0,
+                 .correlation = kCorrelation};
+  return model;
 }
 
 DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {

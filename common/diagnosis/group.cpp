@@ -56,6 +56,13 @@ Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Lineari
   }
 }
 
+std::vector<double> Group::decoys_p_left() const {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (candidates_[i].disguise != Disguise::none) all.push_back(family_p_value(null_maxima_, scores_[i].fall_nats));
+  return all;
+}
+
 RandomStream Group::random(RandomPurpose purpose) const {
   return RandomStream{rules_.seed, number_of(purpose), static_cast<std::uint64_t>(rules_.group),
                       outcome_.rounds.size()};

@@ -51,6 +51,8 @@ class Group {
   GroupOutcome run(const std::function<bool(const Round&)>& watch);
   /// The best fall in description length of every decoy, in candidates' order.
   const std::vector<double>& decoy_falls() const { return decoy_falls_; }
+  /// In the same order: how often noise alone explains as much as the decoy does beside what run() added.
+  std::vector<double> decoys_p_left() const;
 
  private:
   std::optional<std::size_t> best() const;

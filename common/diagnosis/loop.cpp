@@ -95,7 +95,9 @@ void ClosedLoop::make_candidates(const Linearised& at) {
 /// How measurements scatter, and the model's numbers by that; twice, since either depends on the other.
 void ClosedLoop::estimate_noise() {
   constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds && options_.noise; ++round)
+  if (!options_.noise) return;
+  if (group_ == 0) model_ = refined(of_, with_noise_supposed(of_, std::move(model_)), 1);
+  for (int round = 0; round < kRounds - (group_ > 0); ++round)
     model_ = refined(of_, with_noise_estimated(of_, std::move(model_)), kStepsAgain);
 }
 
@@ -146,6 +148,7 @@ void ClosedLoop::note_decoys(const Group& group, const GroupOutcome& outcome) {
     Decoy& decoy = outcome_.decoys[i];
     decoy.best_fall_nats = std::max(decoy.best_fall_nats, group.decoy_falls()[i]);
     decoy.won = decoy.won || outcome.winning_decoy == decoy.name;
+    decoy.p_left = group.decoys_p_left()[i];
   }
 }
 
@@ -256,6 +259,8 @@ void ClosedLoop::leave_out_own_forms() {
 
 void ClosedLoop::finish(const Linearised& at) {
   outcome_.p_structure_left = p_structure_;
+  outcome_.noise = model_.noise;
+  outcome_.independent_m = model_.scales[kPosition];
   describe_added();
   leave_out_own_forms();
   look_further();

@@ -8,16 +8,17 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace demecal {
 namespace {
 
-constexpr Eigen::Index kMostRows = 450;  ///< in an estimate: a likelihood costs their cube
+constexpr Eigen::Index kMostRows = 360;  ///< in an estimate: a likelihood costs their cube
 constexpr std::size_t kRuns = 3;         ///< of poses, where not all take part
 constexpr double kLikelier = 0.5;        ///< nats that a component must make the residuals likelier by
 constexpr double kLikelierInOrder = 2.0;
 constexpr std::array kCorrelations{0.5, 0.8, 0.9, 0.95, 0.98, 0.995};
-constexpr std::array kVariances{0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0};
+constexpr std::array kVariances{0.01, 0.1, 1.0, 10.0, 100.0};
 
 /// The poses of a field that take part: all, or as many as kMostRows allow, in kRuns runs.
 std::vector<std::size_t> taking_part(const NoiseRows& rows) {
@@ -193,13 +194,18 @@ double likeliest(const std::function<double(double)>& minus_twice_log) {
   double lower = std::log(kVariances[best == 0 ? 0 : best - 1]),
          upper = std::log(kVariances[std::min(best + 1, kVariances.size() - 1)]);
   constexpr double kGolden = 0.618034;
-  constexpr int kSteps = 5;
+  constexpr int kSteps = 6;
+  double a = upper - kGolden * (upper - lower), b = lower + kGolden * (upper - lower);
+  double at_a = minus_twice_log(std::exp(a)), at_b = minus_twice_log(std::exp(b));
   for (int step = 0; step < kSteps; ++step) {
-    const double a = upper - kGolden * (upper - lower), b = lower + kGolden * (upper - lower);
-    if (minus_twice_log(std::exp(a)) < minus_twice_log(std::exp(b))) {
-      upper = b;
+    if (at_a < at_b) {
+      upper = std::exchange(b, a);
+      a = upper - kGolden * (upper - lower);
+      at_b = std::exchange(at_a, minus_twice_log(std::exp(a)));
     } else {
-      lower = a;
+      lower = std::exchange(a, b);
+      b = lower + kGolden * (upper - lower);
+      at_a = std::exchange(at_b, minus_twice_log(std::exp(b)));
     }
   }
   return std::exp(0.5 * (lower + upper));
@@ -241,6 +247,10 @@ class Components {
     estimate(RestrictedLikelihood::order, kLikelierInOrder);
   }
 
+  bool others_than_joints() const {
+    return variances[RestrictedLikelihood::repeats] > 0.0 || variances[RestrictedLikelihood::order] > 0.0;
+  }
+
   std::array<double, 3> variances{};
   double correlation = 0.0;
 
@@ -263,8 +273,8 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
   components.estimate(RestrictedLikelihood::joints, kLikelier);
   if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
   if (likelihood.neighbourhood() > kInOrder) components.estimate_order();
-  const auto several = std::ranges::count_if(components.variances, [](double variance) { return variance > 0.0; }) > 1;
-  if (several) {
+  constexpr int kSweeps = 2;  // components take from one another
+  for (int sweep = 0; sweep < kSweeps && components.others_than_joints(); ++sweep) {
     components.estimate(RestrictedLikelihood::joints, kLikelier);
     if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
     if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, kLikelierInOrder);

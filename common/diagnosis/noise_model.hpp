@@ -26,7 +26,7 @@ struct NoiseEstimate {
 
 /// The components of variance of which the residuals are likeliest, the model's numbers integrated out (restricted
 /// maximum likelihood; Patterson and Thompson, 1971). A component is zero where it makes the residuals hardly likelier.
-/// At most some 450 rows take part, in three runs of poses.
+/// At most some 360 rows take part, in three runs of poses.
 NoiseEstimate estimate_noise(const NoiseRows& rows);
 
 }  // namespace demecal

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/residual_field.hpp"
 #include "effects/corrected_robot.hpp"
 #include "effects/effect.hpp"
 
@@ -67,6 +68,7 @@ struct Unseen {
 struct Decoy {
   std::string name;             ///< "backlash of joint 2 by shuffled approach signs"
   double best_fall_nats = 0.0;  ///< over all groups
+  double p_left = 1.0;          ///< how often noise alone explains as much as it does once nothing real is added any more
   bool won = false;
 };
 
@@ -84,6 +86,8 @@ struct LoopOutcome {
   std::optional<double> lack_of_fit_p;     ///< of the F test against repeats, before the loop
   std::optional<double> explained_share;   ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
   double p_structure_left = 1.0;           ///< of the omnibus test at the end
+  NoiseModel noise;                        ///< of the measurements about the model at the end
+  double independent_m = 0.0;              ///< standard deviation of the positions' independent noise
   int candidates = 0;                      ///< effects tried in every round
   int permutations = 0;
 };

@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-constexpr double kLeastMotion_rad = 1e-3;
+constexpr double kLeastMotion_rad = 0.052;  ///< 3 deg: less shows no shape
 constexpr int kHighestDegree = 8;
 constexpr int kHighestHarmonic = 3;
 constexpr double kGone = 1e8;  ///< belief in zero, in scaled units, of a term that is out for good
@@ -43,15 +43,47 @@ Tree legendre(int degree, const Tree& t) {
   return tree;
 }
 
-void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool offset_declared) {
+/// At most `most` terms: polynomials and waves in turn, the slower ones first.
+void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool offset_declared, std::size_t most) {
   const Tree t = unit_variable(range);
-  for (int degree = offset_declared ? 1 : 0; degree <= kHighestDegree; ++degree)
-    smooth.terms.push_back({joint, legendre(degree, t), degree});
+  std::vector<SmoothTerm> terms;
+  const auto add_degree = [&](int degree) {
+    if (degree <= kHighestDegree) terms.push_back({joint, legendre(degree, t), degree});
+  };
+  if (!offset_declared) add_degree(0);
+  add_degree(1);
   for (int n = 1; n <= kHighestHarmonic; ++n) {
     const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
-    smooth.terms.push_back({joint, apply(Primitive::cosine, angle), kHighestDegree + n});
-    smooth.terms.push_back({joint, apply(Primitive::sine, angle), kHighestDegree + n});
+    terms.push_back({joint, apply(Primitive::cosine, angle), kHighestDegree + n});
+    terms.push_back({joint, apply(Primitive::sine, angle), kHighestDegree + n});
+    add_degree(2 * n);
+    add_degree(2 * n + 1);
   }
+  add_degree(kHighestDegree);
+  if (terms.size() > most) terms.resize(most);
+  std::ranges::stable_sort(terms, {}, &SmoothTerm::family);
+  std::ranges::move(terms, std::back_inserter(smooth.terms));
+}
+
+/// Values more than a tenth of a degree apart.
+std::size_t distinct_values(std::vector<double> angles) {
+  constexpr double kSame_rad = 1.7e-3;
+  std::ranges::sort(angles);
+  std::size_t count = 0;
+  double last = -1e9;
+  for (const double angle : angles) {
+    if (angle - last < kSame_rad) continue;
+    ++count;
+    last = angle;
+  }
+  return count;
+}
+
+/// How far most of the values spread: from their 5 % to their 95 % quantile.
+double usual_range(std::vector<double> angles) {
+  std::ranges::sort(angles);
+  const std::size_t beyond = angles.size() / 20;
+  return angles[angles.size() - 1 - beyond] - angles[beyond];
 }
 
 double value_at(const SmoothCorrections& smooth, const SmoothTerm& term, double theta) {
@@ -163,8 +195,10 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
     const auto [lower, upper] = std::minmax_element(angles.begin(), angles.end());
     if (lower == angles.end()) continue;
     smooth.ranges[at] = {*lower, *upper};
-    const bool moves = link.type == JointType::revolute && *upper - *lower > kLeastMotion_rad;
-    if (declared && moves) add_terms(smooth, joint, smooth.ranges[at], offset_declared);
+    const bool moves = link.type == JointType::revolute && usual_range(angles) > kLeastMotion_rad;
+    constexpr std::size_t kValuesPerTerm = 3;
+    if (declared && moves)
+      add_terms(smooth, joint, smooth.ranges[at], offset_declared, distinct_values(angles) / kValuesPerTerm);
   }
   smooth.coefficients.setZero(static_cast<Eigen::Index>(smooth.terms.size()));
   return smooth;

@@ -42,6 +42,7 @@ Line run_line(const DiagnosisFigures& run, const Robot& robot) {
           {"clean_after_mm", run.clean_after_mm},
           {"seconds", run.seconds},
           {"effects", effects_json(run.effects, robot)},
+          {"noise", {run.noise.joint_rad, run.noise.repeats, run.noise.order, run.noise.correlation, run.independent_m}},
           {"rounds", rounds_json(run.rounds, robot)}};
 }
 

@@ -72,6 +72,8 @@ class NoisyCase {
       figures.clean_after_mm = clean_error_mm(one_, diagnosis.model.robot, fresh);
       figures.effects = diagnosis.model.robot.effects;
       figures.rounds = diagnosis.result.loop.rounds;
+      figures.noise = diagnosis.result.loop.noise;
+      figures.independent_m = diagnosis.result.loop.independent_m;
       figures.not_found = diagnosis.result.loop.not_found;
       if (!figures.rounds.empty()) figures.first_p = figures.rounds.front().p_family;
     } catch (const InputError&) {
