@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/formula_candidates.hpp"
+#include "diagnosis/null_noise.hpp"
 
 namespace demecal {
 namespace {
@@ -58,9 +59,10 @@ FormulaSearch Search::run(double family_error, RandomStream random) const {
   const Found found = found_in(at_.projection.left(), Sought::formulas);
   if (!found || found->empty() || found->front().fall_nats <= 0.0) return {};
   FormulaSearch result;
+  const NullNoise noise(at_.fitted, at_.projection);
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.luck_nats.size() + 1 < searches) {
-    const Found luck = found_in(at_.projection.null_left(random), Sought::luck);
+    const Found luck = found_in(noise.left(random), Sought::luck);
     if (!luck) return {};
     const double fall_nats = luck->empty() ? 0.0 : std::max(0.0, luck->front().fall_nats);
     if (fall_nats >= found->front().fall_nats) return {};

@@ -194,23 +194,13 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
           std::move(errors)};
 }
 
-DiagnosedModel with_noise_supposed(const DiagnosisData& of, DiagnosedModel model) {
-  constexpr double kShare = 0.6;  ///< of the scales, and of each kind
-  constexpr double kUsualLever_m = 0.7, kCorrelation = 0.9;
-  const double scale_m = model.scales[kPosition] > 0 ? model.scales[kPosition] : model.scales[kDistance];
-  const auto joints = std::max<double>(1.0, of.data.robot.chain.size());
-  for (double& scale : model.scales) scale *= kShare;
-  model.noise = {.joint_rad = kShare * scale_m / kUsualLever_m / std::sqrt(joints),
-                 .repeats = 1.0,
-                 .order = 1.0,
-                 .correlation = kCorrelation};
-  return model;
-}
-
 DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {
   constexpr double kTakesPart = 0.3;  ///< root of a pose's weight
+  constexpr double kLeastTerm_rad = 1e-4;
+  constexpr Eigen::Index kEnoughRows = 40;
   const Linearised at = linearise(of, model);
   std::vector<Eigen::Index> taken, motions;
+  std::vector<double> over_weight;
   NoiseRows rows{.columns = {},
                  .precision = at.precision,
                  .offset = at.offset,
@@ -221,7 +211,10 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
                  .order = {}};
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (at.fitted.root_weight[i] < kTakesPart) continue;
-    for (Eigen::Index row = at.fitted.first_row[i]; row < at.fitted.first_row[i + 1]; ++row) taken.push_back(row);
+    for (Eigen::Index row = at.fitted.first_row[i]; row < at.fitted.first_row[i + 1]; ++row) {
+      taken.push_back(row);
+      over_weight.push_back(1.0 / at.fitted.root_weight[i]);
+    }
     rows.first_row.push_back(std::ssize(taken));
     rows.group.push_back(at.fitted.group[i]);
     rows.order.push_back(static_cast<double>(at.fitted.poses[i]));
@@ -230,12 +223,31 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
     if (of.data.robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute)
       motions.push_back(motion_column(joint, kTurnAboutZ));
   }
+  // All terms count, chosen or not: what a choice among them explains by chance is not taken for less noise. Nothing is
+  // believed of them, where enough rows are left: beliefs keep the scale of the noise from changing.
+  const Eigen::Index terms = model.smooth.coefficients.size(), columns_count = at.precision.size();
+  if (terms > 0) {
+    const double usual_rad = std::sqrt(model.smooth.coefficients.squaredNorm() / static_cast<double>(terms));
+    const double rows_of_pose = static_cast<double>(at.fitted.rows()) / static_cast<double>(at.fitted.poses.size());
+    const auto distinct = static_cast<Eigen::Index>(rows_of_pose * static_cast<double>(distinct_poses(at.fitted)));
+    const bool enough = distinct - columns_count > std::max<Eigen::Index>(kEnoughRows, distinct / 4);
+    rows.precision.tail(terms).setConstant(enough ? 0.0 : 1.0 / std::max(kLeastTerm_rad, usual_rad));
+    rows.offset.tail(terms) = model.smooth.coefficients;
+  }
+  const Eigen::VectorXd unweighed = Eigen::Map<const Eigen::VectorXd>(over_weight.data(), std::ssize(over_weight));
   const RowMatrix columns = beside(at.fitted.declared, model.smooth.columns(at.fitted));
-  rows.columns = unwhitened(at.fitted, columns)(taken, Eigen::all);
-  rows.residual = unwhitened(at.fitted, at.fitted.residual)(taken, 0);
-  rows.joint_motions = unwhitened(at.fitted, at.fitted.motions(Eigen::all, motions))(taken, Eigen::all);
+  const auto as_measured = [&](const RowMatrix& all) {
+    return RowMatrix(unweighed.asDiagonal() * RowMatrix(unwhitened(at.fitted, all)(taken, Eigen::all)));
+  };
+  rows.columns = as_measured(columns);
+  rows.residual = as_measured(at.fitted.residual);
+  rows.joint_motions = as_measured(at.fitted.motions(Eigen::all, motions));
   const NoiseEstimate noise = estimate_noise(rows);
   model.noise = noise.model;
+  std::vector<std::size_t> places = of.fitted;
+  places.insert(places.end(), of.judging.begin(), of.judging.end());
+  model.noise.fast = unfollowed_variance(model.noise, places);
+  model.noise_estimated = true;
   for (double& scale : model.scales) scale *= noise.scale;
   return model;
 }
@@ -248,7 +260,8 @@ DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps)
     model.smooth.coefficients += at.changes.tail(model.smooth.coefficients.size());
     model.robot.corrections = model.smooth.corrections();
     set_standard_errors(model.robot, at);
-    const RowScales before = std::exchange(model.scales, scales_of(of, at, model.scales));
+    const RowScales before = model.scales;
+    if (!model.noise_estimated) model.scales = scales_of(of, at, model.scales);
     const double gained = (at.fitted.residual - at.errors).squaredNorm();
     if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(at.fitted.rows())) break;
   }

@@ -17,8 +17,9 @@ struct DiagnosedModel {
   CorrectedRobot robot;  ///< with its effects; corrections are those of `smooth`
   SmoothCorrections smooth;
   RowScales scales{};
-  NoiseModel noise{};  ///< beyond independent noise of these scales
-  Eigen::VectorXd precision{};  ///< of the smooth terms, where they are to stay as they were chosen; else empty
+  NoiseModel noise{};            ///< beyond independent noise of these scales
+  bool noise_estimated = false;  ///< together with the scales, which then stay as they are
+  Eigen::VectorXd precision{};   ///< of the smooth terms, where they are to stay as they were chosen; else empty
 };
 
 /// The model's surroundings to first order: fields over the fitted and the judging poses, and the residual with all of
@@ -43,10 +44,6 @@ struct DiagnosisData {
 
 /// What a diagnosis begins with: the fitted model, its corrections the base of smooth terms where they are declared.
 DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start);
-
-/// The model with noise supposed of every kind, as much of each, that makes up what its scales say: smooth terms that
-/// are only noise of another kind than independent do not then look like errors of the arm.
-DiagnosedModel with_noise_supposed(const DiagnosisData& of, DiagnosedModel model);
 
 /// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show.
 DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model);

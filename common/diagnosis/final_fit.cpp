@@ -26,7 +26,6 @@ double capped_index_m2(const DiagnosisData& of, const CorrectedRobot& robot) {
 
 }  // namespace
 
-
 std::vector<std::size_t> poses_of_last_fit(const DataSet& data) {
   std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   if (poses_of(data, PoseSet::accept).empty()) return poses;

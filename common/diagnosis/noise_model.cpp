@@ -261,9 +261,8 @@ class Components {
   double least_;
 };
 
-}  // namespace
-
-NoiseEstimate estimate_noise(const NoiseRows& rows) {
+/// One estimate, in which what is believed of the model has the scale of the rows.
+NoiseEstimate estimate_in_scale(const NoiseRows& rows) {
   constexpr Eigen::Index kFewest = 12;  ///< degrees of freedom below which nothing can be told
   constexpr double kInOrder = 1.0;      ///< lag-one products, in their own scatter, that are worth a closer look
   const std::vector<std::size_t> poses = taking_part(rows);
@@ -286,6 +285,26 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
                     .order = std::sqrt(order),
                     .correlation = order > 0.0 ? components.correlation : 0.0},
           .scale = scale};
+}
+
+}  // namespace
+
+NoiseEstimate estimate_noise(const NoiseRows& rows) {
+  constexpr int kMostRounds = 3;
+  constexpr double kSettled = 0.1;
+  NoiseEstimate whole = estimate_in_scale(rows);
+  if ((rows.precision.array() == 0.0).all()) return whole;
+  NoiseRows scaled = rows;
+  double last = whole.scale;
+  for (int round = 1; round < kMostRounds && std::abs(std::log(last)) > kSettled; ++round) {
+    scaled.columns /= last;
+    scaled.residual /= last;
+    scaled.joint_motions /= last;
+    const NoiseEstimate next = estimate_in_scale(scaled);
+    last = next.scale;
+    whole = {.model = next.model, .scale = whole.scale * last};
+  }
+  return whole;
 }
 
 }  // namespace demecal

@@ -68,7 +68,7 @@ struct Unseen {
 struct Decoy {
   std::string name;             ///< "backlash of joint 2 by shuffled approach signs"
   double best_fall_nats = 0.0;  ///< over all groups
-  double p_left = 1.0;          ///< how often noise alone explains as much as it does once nothing real is added any more
+  double p_left = 1.0;  ///< how often noise alone explains as much as it does once nothing real is added any more
   bool won = false;
 };
 

@@ -57,24 +57,6 @@ double Projection::freedom() const {
   return static_cast<double>(left_.size()) - basis_.squaredNorm();
 }
 
-Projection::NullRows Projection::null_rows(RandomStream& random) const {
-  NullRows drawn{Eigen::VectorXd(left_.size()), Eigen::VectorXd::Zero(beliefs_left_.size())};
-  for (double& value : drawn.rows) value = random.normal();
-  for (std::size_t i = 0; i < believed_.size(); ++i) {
-    if (believed_[i]) drawn.beliefs[static_cast<Eigen::Index>(i)] = random.normal();
-  }
-  return drawn;
-}
-
-Eigen::VectorXd Projection::null_left(RandomStream& random) const {
-  NullRows drawn = null_rows(random);
-  const Eigen::VectorXd along = basis_.transpose() * drawn.rows + beliefs_basis_.transpose() * drawn.beliefs;
-  drawn.rows -= basis_ * along;
-  drawn.beliefs -= beliefs_basis_ * along;
-  const double whole = drawn.rows.squaredNorm() + drawn.beliefs.squaredNorm();
-  return whole > 0 ? Eigen::VectorXd(std::sqrt(squares() / whole) * drawn.rows) : drawn.rows;
-}
-
 Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& judging) const {
   Trial result;
   const Eigen::MatrixXd along = basis_.transpose() * fitted;

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 
 #include "diagnosis/residual_field.hpp"
-#include "random/random_stream.hpp"
 
 namespace demecal {
 
@@ -48,14 +47,8 @@ class Projection {
   /// Over the rows of beliefs: one a column of the model it was made from, zero where nothing is believed.
   const RowMatrix& beliefs_basis() const { return beliefs_basis_; }
   const Eigen::VectorXd& beliefs_left() const { return beliefs_left_; }
-  /// What independent noise alone would leave of the fitted rows: normal, turned at random in the space of residuals,
-  /// its sum of squares (beliefs included) that of the residual (a rotation test: Langsrud, 2005).
-  Eigen::VectorXd null_left(RandomStream& random) const;
-  /// Standard normal rows, and rows of beliefs where anything is believed, before the model is fitted to them.
-  struct NullRows {
-    Eigen::VectorXd rows, beliefs;
-  };
-  NullRows null_rows(RandomStream& random) const;
+  /// Of the same rows: whether anything is believed.
+  const std::vector<bool>& believed() const { return believed_; }
 
   /// What of new columns the model does not explain: their coefficients' least-squares values and what adding them
   /// leaves of either residual.

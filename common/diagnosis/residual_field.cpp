@@ -32,13 +32,14 @@ double root_bisquare_weight(double norm, int rows) {
   return share < 1.0 ? 1.0 - share * share : 0.0;
 }
 
-/// The root of what the joints' scatter adds to the independent noise of a pose's rows.
-Eigen::MatrixXd covariance_root(const ResidualField& field, Eigen::Index first, Eigen::Index count, double joint_rad,
-                                const Chain& chain) {
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(count, count);
+/// The root of the covariance that a pose's rows have by themselves.
+Eigen::MatrixXd covariance_root(const ResidualField& field, Eigen::Index first, Eigen::Index count,
+                                const NoiseModel& noise, const Chain& chain) {
+  Eigen::MatrixXd covariance = (1.0 + noise.fast) * Eigen::MatrixXd::Identity(count, count);
   for (int joint = 0; joint < chain.size(); ++joint) {
     if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
-    const Eigen::VectorXd motion = joint_rad * field.motions.block(first, motion_column(joint, kTurnAboutZ), count, 1);
+    const Eigen::VectorXd motion =
+        noise.joint_rad * field.motions.block(first, motion_column(joint, kTurnAboutZ), count, 1);
     covariance += motion * motion.transpose();
   }
   return covariance.llt().matrixL();
@@ -134,11 +135,21 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
       field.motions.row(first + i).noalias() = (1.0 / scale) * measured.row(row) * twists;
     }
     field.within.emplace_back();
-    if (noise.joint_rad > 0.0) {
-      field.within.back() = covariance_root(field, first, count, noise.joint_rad, data.robot.chain);
+    Eigen::VectorXd in_deviations = rows.residual;
+    if (noise.joint_rad > 0.0 || noise.fast > 0.0) {
+      field.within.back() = covariance_root(field, first, count, noise, data.robot.chain);
       whiten(field, first, count, field.within.back());
+      in_deviations = field.residual.segment(first, count);
     }
-    const double norm = field.residual.segment(first, count).norm();
+    // What poses share may be the larger part of how far one is out.
+    const double shared = noise.repeats * noise.repeats + noise.order * noise.order - noise.fast;
+    if (shared > 0.0) {
+      const Eigen::MatrixXd root =
+          field.within.back().size() > 0 ? field.within.back() : Eigen::MatrixXd::Identity(count, count);
+      const Eigen::MatrixXd whole = root * root.transpose() + shared * Eigen::MatrixXd::Identity(count, count);
+      in_deviations = whole.llt().matrixL().solve(rows.residual);
+    }
+    const double norm = in_deviations.norm();
     const double weight = robust ? root_bisquare_weight(norm, static_cast<int>(count)) : 1.0;
     field.residual.segment(first, count) *= weight;
     field.declared.middleRows(first, count) *= weight;

@@ -23,6 +23,7 @@ struct NoiseModel {
   double repeats = 0.0;      ///< of the error that repeats of one pose share, over that of independent noise
   double order = 0.0;        ///< the same of an error that poses measured one after another share
   double correlation = 0.0;  ///< of that error from one pose to the next (autoregressive of first order)
+  double fast = 0.0;  ///< the part of order^2 that changes too fast to be followed: independent from pose to pose
 };
 
 /// Rows are in units of what their kind scatters; those of one pose are made independent of unit variance where joints

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/null_noise.hpp"
+
 namespace demecal {
 namespace {
 
@@ -91,14 +93,15 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
                                       int count, RandomStream random) const {
   const RowMatrixF basis = model.basis().cast<float>(), beliefs_basis = model.beliefs_basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
+  const NullNoise noise(field, model);
   std::vector<double> maxima;
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
     Eigen::MatrixXf drawn(field.rows(), now), beliefs(beliefs_basis.rows(), now);
     for (Eigen::Index i = 0; i < now; ++i) {
-      const Projection::NullRows noise = model.null_rows(random);
-      drawn.col(i) = noise.rows.cast<float>();
-      beliefs.col(i) = noise.beliefs.cast<float>();
+      const NullNoise::Rows rows = noise.draw(random);
+      drawn.col(i) = rows.fitted.cast<float>();
+      beliefs.col(i) = rows.beliefs.cast<float>();
     }
     const RowMatrixF rows = drawn;
     const Eigen::MatrixXf explained = basis.transpose() * rows + beliefs_basis.transpose() * beliefs;

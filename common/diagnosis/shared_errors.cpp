@@ -100,6 +100,15 @@ RowMatrix columns_of_drift(const Drift& drift, const ResidualField& field) {
 
 }  // namespace
 
+double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t> places) {
+  if (noise.order <= 0.0 || places.empty()) return 0.0;
+  const auto [first, last] = std::ranges::minmax_element(places);
+  const Drift drift(noise, static_cast<double>(*first), static_cast<double>(*last));
+  double followed = 0.0;
+  for (const std::size_t place : places) followed += drift.at(static_cast<double>(place)).squaredNorm();
+  return std::max(0.0, noise.order * noise.order - followed / static_cast<double>(places.size()));
+}
+
 SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& judging) {
   SharedErrors shared{RowMatrix(fitted.rows(), 0), RowMatrix(judging.rows(), 0)};
   if (noise.repeats > 0.0) {

@@ -12,6 +12,10 @@ struct SharedErrors {
   RowMatrix fitted, judging;
 };
 
+/// The part of noise.order^2 that the functions of shared_errors() for poses at `places` in the order of measuring do
+/// not follow, as NoiseModel::fast has it.
+double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t> places);
+
 /// What repeats of one pose have in common, and what drifts in the order of measuring, of the components that `noise`
 /// has; `judging` poses share it with `fitted` ones. The order of measuring is that of the data set. Drift is followed
 /// by at most 64 functions an axis; of more than 200 repeated poses the error is not modelled.

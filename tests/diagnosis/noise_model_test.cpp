@@ -74,7 +74,8 @@ TEST(NoiseModel, ComponentsAreFoundAboutAsLargeAsTheyAre) {
     joints += found.model.joint_rad / joint_rad / kDraws;
     repeats += found.model.repeats / 2.0 / kDraws;
     scale += found.scale / 1.3 / kDraws;
-    std::printf("DEBUG %g %g %g %g %g\n", found.model.joint_rad / joint_rad, found.model.repeats, found.scale, found.model.order, found.model.correlation);
+    std::printf("DEBUG %g %g %g %g %g\n", found.model.joint_rad / joint_rad, found.model.repeats, found.scale,
+                found.model.order, found.model.correlation);
     EXPECT_LT(found.model.order, 1.0);
   }
   EXPECT_NEAR(joints, 1.0, 0.15);

@@ -35,15 +35,16 @@ Line rounds_json(const std::vector<Round>& rounds, const Robot& robot) {
 }
 
 Line run_line(const DiagnosisFigures& run, const Robot& robot) {
-  return {{"refused", run.refused},
-          {"failed", run.failed},
-          {"first_p", run.first_p},
-          {"clean_before_mm", run.clean_before_mm},
-          {"clean_after_mm", run.clean_after_mm},
-          {"seconds", run.seconds},
-          {"effects", effects_json(run.effects, robot)},
-          {"noise", {run.noise.joint_rad, run.noise.repeats, run.noise.order, run.noise.correlation, run.independent_m}},
-          {"rounds", rounds_json(run.rounds, robot)}};
+  return {
+      {"refused", run.refused},
+      {"failed", run.failed},
+      {"first_p", run.first_p},
+      {"clean_before_mm", run.clean_before_mm},
+      {"clean_after_mm", run.clean_after_mm},
+      {"seconds", run.seconds},
+      {"effects", effects_json(run.effects, robot)},
+      {"noise", {run.noise.joint_rad, run.noise.repeats, run.noise.order, run.noise.correlation, run.independent_m}},
+      {"rounds", rounds_json(run.rounds, robot)}};
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ struct DiagnosisFigures {
   double first_p = 1.0;  ///< family-wise, of the first round; 1 where there was none
   double clean_before_mm = 0.0, clean_after_mm = 0.0;  ///< without and with the effects found, after the same last fit
   std::vector<Round> rounds{};
+  NoiseModel noise{};             ///< as the loop tells it
+  double independent_m = 0.0;     ///< standard deviation of positions beside it
   std::vector<Effect> effects{};  ///< of the model
   std::vector<NotFound> not_found{};
   double seconds = 0.0;  ///< of processor time
