@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/noise_model.hpp"
 #include "diagnosis/shared_errors.hpp"
 #include "fitting/median.hpp"
 #include "fitting/scatter.hpp"
@@ -190,66 +189,7 @@ Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
   Eigen::MatrixXd covariance = projection.covariance().topLeftCorner(own, own);
   Eigen::VectorXd errors = fitted.residual - columns.fitted.leftCols(own) * changes;
   return {std::move(ids),     std::move(fitted),     std::move(judging),          std::move(projection),
-          std::move(changes), std::move(covariance), columns.precision.head(own), columns.offset.head(own),
-          std::move(errors)};
-}
-
-DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {
-  constexpr double kTakesPart = 0.3;  ///< root of a pose's weight
-  constexpr double kLeastTerm_rad = 1e-4;
-  constexpr Eigen::Index kEnoughRows = 40;
-  const Linearised at = linearise(of, model);
-  std::vector<Eigen::Index> taken, motions;
-  std::vector<double> over_weight;
-  NoiseRows rows{.columns = {},
-                 .precision = at.precision,
-                 .offset = at.offset,
-                 .residual = {},
-                 .joint_motions = {},
-                 .first_row = {0},
-                 .group = {},
-                 .order = {}};
-  for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
-    if (at.fitted.root_weight[i] < kTakesPart) continue;
-    for (Eigen::Index row = at.fitted.first_row[i]; row < at.fitted.first_row[i + 1]; ++row) {
-      taken.push_back(row);
-      over_weight.push_back(1.0 / at.fitted.root_weight[i]);
-    }
-    rows.first_row.push_back(std::ssize(taken));
-    rows.group.push_back(at.fitted.group[i]);
-    rows.order.push_back(static_cast<double>(at.fitted.poses[i]));
-  }
-  for (int joint = 0; joint < of.data.robot.chain.size(); ++joint) {
-    if (of.data.robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute)
-      motions.push_back(motion_column(joint, kTurnAboutZ));
-  }
-  // All terms count, chosen or not: what a choice among them explains by chance is not taken for less noise. Nothing is
-  // believed of them, where enough rows are left: beliefs keep the scale of the noise from changing.
-  const Eigen::Index terms = model.smooth.coefficients.size(), columns_count = at.precision.size();
-  if (terms > 0) {
-    const double usual_rad = std::sqrt(model.smooth.coefficients.squaredNorm() / static_cast<double>(terms));
-    const double rows_of_pose = static_cast<double>(at.fitted.rows()) / static_cast<double>(at.fitted.poses.size());
-    const auto distinct = static_cast<Eigen::Index>(rows_of_pose * static_cast<double>(distinct_poses(at.fitted)));
-    const bool enough = distinct - columns_count > std::max<Eigen::Index>(kEnoughRows, distinct / 4);
-    rows.precision.tail(terms).setConstant(enough ? 0.0 : 1.0 / std::max(kLeastTerm_rad, usual_rad));
-    rows.offset.tail(terms) = model.smooth.coefficients;
-  }
-  const Eigen::VectorXd unweighed = Eigen::Map<const Eigen::VectorXd>(over_weight.data(), std::ssize(over_weight));
-  const RowMatrix columns = beside(at.fitted.declared, model.smooth.columns(at.fitted));
-  const auto as_measured = [&](const RowMatrix& all) {
-    return RowMatrix(unweighed.asDiagonal() * RowMatrix(unwhitened(at.fitted, all)(taken, Eigen::all)));
-  };
-  rows.columns = as_measured(columns);
-  rows.residual = as_measured(at.fitted.residual);
-  rows.joint_motions = as_measured(at.fitted.motions(Eigen::all, motions));
-  const NoiseEstimate noise = estimate_noise(rows);
-  model.noise = noise.model;
-  std::vector<std::size_t> places = of.fitted;
-  places.insert(places.end(), of.judging.begin(), of.judging.end());
-  model.noise.fast = unfollowed_variance(model.noise, places);
-  model.noise_estimated = true;
-  for (double& scale : model.scales) scale *= noise.scale;
-  return model;
+          std::move(changes), std::move(covariance), columns.precision.head(own), std::move(errors)};
 }
 
 DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps) {

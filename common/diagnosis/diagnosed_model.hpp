@@ -31,8 +31,7 @@ struct Linearised {
   Eigen::VectorXd changes;     ///< least-squares steps of `ids`, then of the smooth terms
   Eigen::MatrixXd covariance;  ///< of the same numbers, in rows of unit variance
   Eigen::VectorXd precision;   ///< believed of the same numbers
-  Eigen::VectorXd offset;
-  Eigen::VectorXd errors;  ///< of the fitted rows, after `changes`: what the projection leaves and what poses share
+  Eigen::VectorXd errors;      ///< of the fitted rows, after `changes`: what the projection leaves and what poses share
 };
 
 /// What stays the same from step to step.
@@ -44,9 +43,6 @@ struct DiagnosisData {
 
 /// What a diagnosis begins with: the fitted model, its corrections the base of smooth terms where they are declared.
 DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start);
-
-/// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show.
-DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model);
 
 /// Rows of a field as they were before those of one pose were made independent.
 RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);

@@ -11,6 +11,7 @@
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/further.hpp"
 #include "diagnosis/group.hpp"
+#include "diagnosis/noise_estimation.hpp"
 #include "diagnosis/structure.hpp"
 
 namespace demecal {

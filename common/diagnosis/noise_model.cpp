@@ -55,7 +55,7 @@ class RestrictedLikelihood {
   Eigen::MatrixXd covariance(const std::array<double, 3>& variances) const;
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> model_;
-  Eigen::Index rows_ = 0, beliefs_ = 0, freedom_ = 0;
+  Eigen::Index rows_ = 0, freedom_ = 0;
   Eigen::VectorXd left_;
   std::array<Eigen::MatrixXd, 3> covariance_;
   std::vector<Eigen::Index> first_row_;
@@ -72,26 +72,15 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   }
   rows_ = std::ssize(taken);
   first_row_.push_back(rows_);
-  std::vector<Eigen::Index> believed;
-  for (Eigen::Index i = 0; i < rows.precision.size(); ++i)
-    if (rows.precision[i] > 0.0) believed.push_back(i);
-  beliefs_ = std::ssize(believed);
-  Eigen::MatrixXd model = Eigen::MatrixXd::Zero(rows_ + beliefs_, rows.columns.cols());
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(rows_ + beliefs_);
-  model.topRows(rows_) = rows.columns(taken, Eigen::all);
-  values.head(rows_) = rows.residual(taken);
-  for (Eigen::Index i = 0; i < beliefs_; ++i) {
-    const Eigen::Index number = believed[static_cast<std::size_t>(i)];
-    model(rows_ + i, number) = rows.precision[number];
-    values[rows_ + i] = -rows.precision[number] * rows.offset[number];
-  }
+  const Eigen::MatrixXd model = rows.columns(taken, Eigen::all);
+  const Eigen::VectorXd values = rows.residual(taken);
   const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
   model_.setThreshold(1e-9);
   model_.compute(model * norms.cwiseInverse().asDiagonal());
-  freedom_ = rows_ + beliefs_ - model_.rank();
+  freedom_ = rows_ - model_.rank();
   left_ = beyond_model(values);
   const Eigen::Index joints_count = rows.joint_motions.cols();
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(rows_ + beliefs_, joints_count * std::ssize(poses));
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(rows_, joints_count * std::ssize(poses));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Index count = first_row_[i + 1] - first_row_[i];
     motions.block(first_row_[i], static_cast<Eigen::Index>(i) * joints_count, count, joints_count) =
@@ -105,7 +94,7 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   std::erase_if(members, [](const auto& group) { return group.second.size() < 2; });
   if (!members.empty()) {
     constexpr Eigen::Index kRowsShared = 6;
-    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_ + beliefs_, kRowsShared * std::ssize(members));
+    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kRowsShared * std::ssize(members));
     Eigen::Index column = 0;
     for (const auto& [first, repeated] : members) {
       for (const std::size_t pose : repeated) {
@@ -118,7 +107,7 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
     covariance_[repeats] = together * together.transpose();
   }
   // What is left of the rows themselves tells whether neighbours in order are alike, before anything is estimated.
-  Eigen::VectorXd padded = Eigen::VectorXd::Zero(rows_ + beliefs_);
+  Eigen::VectorXd padded = Eigen::VectorXd::Zero(rows_);
   padded.tail(freedom_) = left_;
   padded.applyOnTheLeft(model_.householderQ());
   double products = 0.0, squares = 0.0;
@@ -131,7 +120,7 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   neighbourhood_ = squares > 0.0 ? products / std::sqrt(squares) : 0.0;
 }
 
-/// What of columns (over rows and beliefs) the model cannot follow: freedom x columns.
+/// What of columns the model cannot follow: freedom x columns.
 Eigen::MatrixXd RestrictedLikelihood::beyond_model(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd turned = columns;
   turned.applyOnTheLeft(model_.householderQ().adjoint());
@@ -150,7 +139,7 @@ void RestrictedLikelihood::set_correlation(double from_pose_to_pose) {
   }
   const Eigen::MatrixXd root = alike.llt().matrixL();
   constexpr Eigen::Index kAxes = 3;
-  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_ + beliefs_, kAxes * poses);
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kAxes * poses);
   for (Eigen::Index i = 0; i < poses; ++i) {
     const auto pose = static_cast<std::size_t>(i);
     const Eigen::Index count = std::min(kAxes, first_row_[pose + 1] - first_row_[pose]);
@@ -261,8 +250,9 @@ class Components {
   double least_;
 };
 
-/// One estimate, in which what is believed of the model has the scale of the rows.
-NoiseEstimate estimate_in_scale(const NoiseRows& rows) {
+}  // namespace
+
+NoiseEstimate estimate_noise(const NoiseRows& rows) {
   constexpr Eigen::Index kFewest = 12;  ///< degrees of freedom below which nothing can be told
   constexpr double kInOrder = 1.0;      ///< lag-one products, in their own scatter, that are worth a closer look
   const std::vector<std::size_t> poses = taking_part(rows);
@@ -285,26 +275,6 @@ NoiseEstimate estimate_in_scale(const NoiseRows& rows) {
                     .order = std::sqrt(order),
                     .correlation = order > 0.0 ? components.correlation : 0.0},
           .scale = scale};
-}
-
-}  // namespace
-
-NoiseEstimate estimate_noise(const NoiseRows& rows) {
-  constexpr int kMostRounds = 3;
-  constexpr double kSettled = 0.1;
-  NoiseEstimate whole = estimate_in_scale(rows);
-  if ((rows.precision.array() == 0.0).all()) return whole;
-  NoiseRows scaled = rows;
-  double last = whole.scale;
-  for (int round = 1; round < kMostRounds && std::abs(std::log(last)) > kSettled; ++round) {
-    scaled.columns /= last;
-    scaled.residual /= last;
-    scaled.joint_motions /= last;
-    const NoiseEstimate next = estimate_in_scale(scaled);
-    last = next.scale;
-    whole = {.model = next.model, .scale = whole.scale * last};
-  }
-  return whole;
 }
 
 }  // namespace demecal

@@ -7,11 +7,9 @@
 
 namespace demecal {
 
-/// What an estimate of the noise is made from: rows before any whitening, poses of weight 0 left out.
+/// What an estimate of the noise is made from: rows before any whitening.
 struct NoiseRows {
-  RowMatrix columns;          ///< rows x numbers of the model
-  Eigen::VectorXd precision;  ///< believed of these numbers, as ModelColumns has it
-  Eigen::VectorXd offset;
+  RowMatrix columns;  ///< rows x numbers of the model
   Eigen::VectorXd residual;
   RowMatrix joint_motions;              ///< rows x revolute joints, per rad
   std::vector<Eigen::Index> first_row;  ///< of each pose, and one past the last

@@ -48,14 +48,14 @@ void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool
   const Tree t = unit_variable(range);
   std::vector<SmoothTerm> terms;
   const auto add_degree = [&](int degree) {
-    if (degree <= kHighestDegree) terms.push_back({joint, legendre(degree, t), degree});
+    if (degree <= kHighestDegree) terms.push_back({joint, legendre(degree, t), 0, degree});
   };
   if (!offset_declared) add_degree(0);
   add_degree(1);
   for (int n = 1; n <= kHighestHarmonic; ++n) {
     const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
-    terms.push_back({joint, apply(Primitive::cosine, angle), kHighestDegree + n});
-    terms.push_back({joint, apply(Primitive::sine, angle), kHighestDegree + n});
+    terms.push_back({joint, apply(Primitive::cosine, angle), n, kHighestDegree + n});
+    terms.push_back({joint, apply(Primitive::sine, angle), n, kHighestDegree + n});
     add_degree(2 * n);
     add_degree(2 * n + 1);
   }

@@ -13,7 +13,8 @@ namespace demecal {
 struct SmoothTerm {
   int joint = 0;  ///< from 0
   Tree formula;
-  int family = 0;  ///< the same for terms of one degree, or of one harmonic, of all joints
+  int harmonic = 0;  ///< cycles a turn of a wave; 0: a polynomial
+  int family = 0;    ///< the same for terms of one degree, or of one harmonic, of all joints
 };
 
 /// Corrections g_j(theta) = base_j(theta) + sum of coefficient * term over every revolute joint that moves. Terms are

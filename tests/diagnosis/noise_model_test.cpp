@@ -28,8 +28,6 @@ NoisyArm noisy_arm(RandomStream& stream, int poses, int repeats = 1) {
   }
   made.field = field_of(made.arm, {.registration = true, .joint_offset = true});
   made.rows = {.columns = made.field.declared,
-               .precision = Eigen::VectorXd::Zero(made.field.declared.cols()),
-               .offset = Eigen::VectorXd::Zero(made.field.declared.cols()),
                .residual = {},
                .joint_motions = RowMatrix(made.field.rows(), 6),
                .first_row = made.field.first_row,
@@ -74,8 +72,6 @@ TEST(NoiseModel, ComponentsAreFoundAboutAsLargeAsTheyAre) {
     joints += found.model.joint_rad / joint_rad / kDraws;
     repeats += found.model.repeats / 2.0 / kDraws;
     scale += found.scale / 1.3 / kDraws;
-    std::printf("DEBUG %g %g %g %g %g\n", found.model.joint_rad / joint_rad, found.model.repeats, found.scale,
-                found.model.order, found.model.correlation);
     EXPECT_LT(found.model.order, 1.0);
   }
   EXPECT_NEAR(joints, 1.0, 0.15);
