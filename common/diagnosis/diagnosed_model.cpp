@@ -124,6 +124,18 @@ RowScales scales_of(const DiagnosisData& of, const Linearised& at, const RowScal
   return scales;
 }
 
+/// `after` in its own proportions, as large as `before`.
+RowScales with_common_scale_of(const RowScales& before, RowScales after) {
+  double logs = 0.0, kinds = 0.0;
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    if (before[kind] <= 0.0) continue;
+    logs += std::log(after[kind] / before[kind]);
+    kinds += 1.0;
+  }
+  for (double& scale : after) scale *= std::exp(-logs / std::max(kinds, 1.0));
+  return after;
+}
+
 bool settled(const RowScales& before, const RowScales& after) {
   constexpr double kSettled = 0.02;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
@@ -201,7 +213,8 @@ DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps)
     model.robot.corrections = model.smooth.corrections();
     set_standard_errors(model.robot, at);
     const RowScales before = model.scales;
-    if (!model.noise_estimated) model.scales = scales_of(of, at, model.scales);
+    model.scales = scales_of(of, at, model.scales);
+    if (model.noise_estimated) model.scales = with_common_scale_of(before, model.scales);
     const double gained = (at.fitted.residual - at.errors).squaredNorm();
     if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(at.fitted.rows())) break;
   }

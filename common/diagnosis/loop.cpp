@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "diagnosis/backward.hpp"
@@ -99,31 +97,9 @@ void ClosedLoop::make_candidates(const Linearised& at) {
 void ClosedLoop::estimate_noise() {
   constexpr int kRounds = 2;
   if (!options_.noise) return;
-  const auto dbg = [&](const char* what) {
-    if (!std::getenv("DBG")) return;
-    const Linearised at = linearise(of_, model_);
-    int terms = 0;
-    double motion = 0;
-    for (double c : model_.smooth.coefficients) {
-      terms += std::abs(c) > 1e-6;
-      motion += c * c;
-    }
-    int kept = 0;
-    for (Eigen::Index i = static_cast<Eigen::Index>(at.ids.size()); i < at.precision.size(); ++i)
-      kept += at.precision[i] < 1e6;
-    std::fprintf(stderr,
-                 "%s: scale %g um joint %g urad repeats %g order %g rho %g; terms %d kept %d rms coefficient %g mrad; "
-                 "squares %g freedom %g errors %g\n",
-                 what, 1e6 * model_.scales[0], 1e6 * model_.noise.joint_rad, model_.noise.repeats, model_.noise.order,
-                 model_.noise.correlation, terms, kept, 1e3 * std::sqrt(motion), at.projection.squares(),
-                 at.projection.freedom(), at.errors.squaredNorm());
-  };
-  dbg("start");
   for (int round = 0; round < kRounds - (group_ > 0); ++round) {
     model_ = with_noise_estimated(of_, std::move(model_));
-    dbg("estimated");
     model_ = refined(of_, std::move(model_), kStepsAgain);
-    dbg("refined");
   }
 }
 

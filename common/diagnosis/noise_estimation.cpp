@@ -63,6 +63,15 @@ std::vector<Eigen::Index> columns_of(const Linearised& at, const SmoothCorrectio
   return columns;
 }
 
+/// What the terms do whose columns are not among `moving`: with too few poses to tell, it counts as noise.
+Eigen::VectorXd at_rest(const RowMatrix& columns, const std::vector<Eigen::Index>& moving,
+                        const SmoothCorrections& smooth) {
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(columns.cols());
+  numbers.tail(smooth.coefficients.size()) = smooth.coefficients;
+  for (const Eigen::Index column : moving) numbers[column] = 0.0;
+  return columns * numbers;
+}
+
 }  // namespace
 
 DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {
@@ -75,8 +84,9 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
       motions.push_back(motion_column(joint, kTurnAboutZ));
   }
   const RowMatrix columns = beside(at.fitted.declared, model.smooth.columns(at.fitted));
-  NoiseRows rows{.columns = taken.of(columns(Eigen::all, columns_of(at, model.smooth))),
-                 .residual = taken.of(at.fitted.residual),
+  const std::vector<Eigen::Index> moving = columns_of(at, model.smooth);
+  NoiseRows rows{.columns = taken.of(columns(Eigen::all, moving)),
+                 .residual = taken.of(at.fitted.residual + at_rest(columns, moving, model.smooth)),
                  .joint_motions = taken.of(at.fitted.motions(Eigen::all, motions)),
                  .first_row = {0},
                  .group = {},

@@ -26,8 +26,9 @@ KnownArm stanford(RandomStream& stream, int poses) {
 
 TEST(SmoothCorrections, HaveTermsForEveryTurningJointThatMoves) {
   RandomStream stream{85, 1};
-  KnownArm arm = stanford(stream, 20);
+  KnownArm arm = stanford(stream, 60);
   for (MeasuredPose& pose : arm.data.poses) pose.joints[4] = 0.7;
+  arm.data.poses[3].joints[4] = 0.72;  // off by itself, it does not make the joint one that moves
   const SmoothCorrections smooth = smooth_corrections(arm.data, all_poses(arm.data), arm.truth, true);
   std::vector<int> terms(6, 0);
   for (const SmoothTerm& term : smooth.terms) ++terms[static_cast<std::size_t>(term.joint)];
@@ -35,6 +36,17 @@ TEST(SmoothCorrections, HaveTermsForEveryTurningJointThatMoves) {
   EXPECT_EQ(smooth.coefficients, Eigen::VectorXd::Zero(4 * kTermsPerJoint));
   for (const JointCorrection& correction : smooth.corrections()) EXPECT_TRUE(correction.is_neutral());
   EXPECT_TRUE(smooth_corrections(arm.data, all_poses(arm.data), arm.truth, false).terms.empty());
+}
+
+TEST(SmoothCorrections, HaveATermForEveryThirdValueAtMostTheSlowOnesFirst) {
+  RandomStream stream{85, 11};
+  const KnownArm arm = stanford(stream, 12);
+  const SmoothCorrections smooth = smooth_corrections(arm.data, all_poses(arm.data), arm.truth, true, true);
+  std::vector<std::pair<int, int>> of_first;
+  for (const SmoothTerm& term : smooth.terms)
+    if (term.joint == 0) of_first.emplace_back(term.harmonic, term.harmonic > 0 ? 0 : term.family);
+  EXPECT_THAT(of_first, ::testing::UnorderedElementsAre(std::pair(0, 1), std::pair(0, 2), std::pair(1, 0),
+                                                        std::pair(1, 0)));
 }
 
 TEST(SmoothCorrections, TermsAreOfSizeOneWithinTheRange) {
