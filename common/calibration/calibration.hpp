@@ -20,6 +20,7 @@ struct Preparation {
   JointTargets targets;                 ///< of the calibration poses; empty where no corrections are declared
   std::vector<JointTraining> training;  ///< one per joint that gets islands
   CorrectionOptions corrections;
+  TargetOptions target_options{};
 };
 
 /// Fits the declared model and computes what the joints should learn. Throws InputError naming the data file where
@@ -30,7 +31,12 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
 /// declared numbers and the effects' coefficients are fitted again, from wherever the data's frame is. Nothing is made
 /// ready for evolution. `model` must have this arm's joints and a tool for every target. Throws InputError as
 /// prepare().
-Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model);
+Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model,
+                         const TargetOptions& target_options = {});
+
+/// What the joints of the calibration poses do beyond `model` without its corrections. Where the preparation wants
+/// posterior targets, its corrections are the errors learnt so far.
+JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model);
 
 /// What the validation poses said of a model while they were unseen: before the last fit took them in too. rms, mm.
 struct UnseenValidation {
