@@ -9,6 +9,7 @@
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/prediction_interval.hpp"
 
 namespace demecal {
 
@@ -38,10 +39,11 @@ Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, con
 /// posterior targets, its corrections are the errors learnt so far.
 JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model);
 
-/// What the validation poses said of a model while they were unseen: before the last fit took them in too. rms, mm.
+/// What the validation poses said of a model while they were unseen: before the last fit took them in too.
 struct UnseenValidation {
-  double before_mm = 0.0;  ///< of what the closed loop started from
-  double after_mm = 0.0;
+  double before_mm = 0.0;         ///< rms, of what the closed loop started from
+  double after_mm = 0.0;          ///< rms, of what it ended with
+  PredictionInterval interval{};  ///< of what it ended with
 };
 
 struct Calibration {
