@@ -43,6 +43,7 @@ CommandModel command_model_of(const CalibratedModel& model, const ApplyRequest& 
   const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
   CommandModel commands = with_certainty(command_model(model.nominal, robot, bounds_of(model), tool_m), robot,
                                          model.posterior, model.measured, registration);
+  commands.interval = model.interval;
   if (!model.posterior || model.measured.empty()) {
     commands.notes.push_back(
         request.model_file +

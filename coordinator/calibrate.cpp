@@ -6,6 +6,7 @@
 #include "calibration/closed_calibration.hpp"
 #include "calibration/function_stages.hpp"
 #include "calibration/model_posterior.hpp"
+#include "calibration/prediction_scores.hpp"
 #include "coordinator/distal_learning.hpp"
 #include "coordinator/evolutions.hpp"
 #include "coordinator/loop_display.hpp"
@@ -105,6 +106,7 @@ CalibratedModel model_of(const DataSet& data, const Job& job, const Calibration&
           .estimates = calibration.estimates,
           .joints = calibration.joints,
           .posterior = posterior_of(data, job.declared, calibration),
+          .interval = interval_of(data, job.declared, calibration),
           .measured = measured_ranges(data, calibration),
           .data_name = data.name,
           .data_sha256 = data.sha256,

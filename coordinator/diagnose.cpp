@@ -22,7 +22,7 @@ Preparation start_of(const DataSet& data, const Job& job, const std::optional<Ca
   require_same_nominal_arm(*known, data);
   CorrectedRobot model = known->robot;
   model.described = data.robot;
-  return prepare_from(data, job.declared, model);
+  return prepare_from(data, job.declared, model, job.targets);
 }
 
 }  // namespace

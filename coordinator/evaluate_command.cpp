@@ -42,7 +42,9 @@ ExitCode run(const EvaluateRequest& request) {
   const std::vector<UnappliedEffect> unapplied = unapplied_effects(robot, data);
   for (const UnappliedEffect& one : unapplied) fmt::print(stderr, "{}: {}\n", data.file, one.sentence());
   const ErrorBySet errors = errors_by_set(robot, data);
-  fmt::print("{}", request.json ? errors_to_json(errors, checked.check, unapplied) : errors_to_terminal(errors));
+  const std::vector<PoseErrorLine> poses = pose_errors(data, model, robot, nullptr);
+  fmt::print("{}", request.json ? errors_to_json(errors, checked.check, unapplied, poses)
+                                : errors_to_terminal(errors) + intervals_to_terminal(poses, model.interval));
   return ExitCode::done;
 }
 

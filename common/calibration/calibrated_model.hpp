@@ -20,8 +20,9 @@ struct CalibratedModel {
   CorrectedRobot robot;
   std::vector<ParameterEstimate> estimates;
   std::vector<JointSummary> joints;
-  std::optional<Posterior> posterior{};  ///< nothing in models of old versions
-  std::vector<Interval> measured{};      ///< of every joint, where it stood in the fitted poses; none in old models
+  std::optional<Posterior> posterior{};          ///< nothing in models of old versions
+  std::optional<PredictionInterval> interval{};  ///< nothing in models of old versions
+  std::vector<Interval> measured{};  ///< of every joint, where it stood in the fitted poses; none in old models
   /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
   KnownFunctions functions{};
   std::string data_name;

@@ -9,6 +9,7 @@
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/prediction_interval.hpp"
 
 namespace demecal {
 
@@ -20,6 +21,7 @@ struct Preparation {
   JointTargets targets;                 ///< of the calibration poses; empty where no corrections are declared
   std::vector<JointTraining> training;  ///< one per joint that gets islands
   CorrectionOptions corrections;
+  TargetOptions target_options{};
 };
 
 /// Fits the declared model and computes what the joints should learn. Throws InputError naming the data file where
@@ -30,12 +32,18 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
 /// declared numbers and the effects' coefficients are fitted again, from wherever the data's frame is. Nothing is made
 /// ready for evolution. `model` must have this arm's joints and a tool for every target. Throws InputError as
 /// prepare().
-Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model);
+Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model,
+                         const TargetOptions& target_options = {});
 
-/// What the validation poses said of a model while they were unseen: before the last fit took them in too. rms, mm.
+/// What the joints of the calibration poses do beyond `model` without its corrections. Where the preparation wants
+/// posterior targets, its corrections are the errors learnt so far.
+JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model);
+
+/// What the validation poses said of a model while they were unseen: before the last fit took them in too.
 struct UnseenValidation {
-  double before_mm = 0.0;  ///< of what the closed loop started from
-  double after_mm = 0.0;
+  double before_mm = 0.0;         ///< rms, of what the closed loop started from
+  double after_mm = 0.0;          ///< rms, of what it ended with
+  PredictionInterval interval{};  ///< of what it ended with
 };
 
 struct Calibration {

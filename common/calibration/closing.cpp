@@ -93,7 +93,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
                      .joints = {},
                      .unseen = {}};
   JointTargets now;
-  if (has_corrections(result.robot)) now = joint_targets(data, fitted, without_corrections(result.robot));
+  if (has_corrections(result.robot)) now = targets_about(data, preparation, result.robot);
   result.joints = joint_summaries(preparation.targets, now, result.robot);
   for (JointSummary& summary : result.joints) {
     if (summary.kept) continue;
@@ -107,7 +107,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
 Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
   Preparation again = first;
   again.declared.robot = without_corrections(model);
-  again.targets = joint_targets(data, poses_of(data, PoseSet::calibration), again.declared.robot);
+  again.targets = targets_about(data, first, model);
   again.training = training_tables(again.declared.robot.chain, again.targets, first.corrections);
   return again;
 }

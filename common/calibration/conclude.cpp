@@ -59,7 +59,9 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   bool any = false;
   for (const JointChoice& choice : selection.choices) any = any || choice.kept;
   if (any) refit(data, job, deciding, options, result);
-  result.joints = joint_summaries(preparation.targets, preparation.targets, result.robot);
+  const bool exact = preparation.target_options.kind == TargetKind::exact || !any;
+  result.joints = joint_summaries(
+      preparation.targets, exact ? preparation.targets : targets_about(data, preparation, result.robot), result.robot);
   for (JointSummary& summary : result.joints) {
     if (!summary.kept) summary.note = why_neutral(job, selection, data, summary.joint);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/correction_options.hpp"
+#include "calibration/target_options.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/parameters.hpp"
 #include "fitting/declared_model.hpp"
@@ -64,6 +65,7 @@ struct Job {
   DeclaredModel declared{.registration = true, .joint_corrections = true};
   GpParameters gp;
   CorrectionOptions corrections;
+  TargetOptions targets;
   IslandOptions islands;
   ClosedLoopOptions closed_loop;
   DistalOptions distal;

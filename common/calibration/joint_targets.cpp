@@ -3,11 +3,15 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "calibration/joint_posterior.hpp"
 #include "effects/measurement.hpp"
 
 namespace demecal {
 namespace {
+
+constexpr double kPrismaticPerRevolute_m = 0.2;
 
 /// Half the arm's stretched length: makes metres and radians of like size for the singular values.
 double characteristic_length_m(const Chain& chain) {
@@ -65,30 +69,80 @@ JointVector difference(const Chain& chain, const JointVector& to, const JointVec
   return change;
 }
 
-}  // namespace
+struct PoseTarget {
+  JointVector error;
+  double weight = 1.0;
+};
 
-JointTargets joint_targets(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
-  JointTargets targets;
-  targets.branches = branches_of(data, poses, robot.chain);
-  InverseOptions options;
-  options.length_m = characteristic_length_m(robot.chain);
-  for (const std::size_t index : poses) {
-    const MeasuredPose& pose = data.poses[index];
+/// Makes the target of one pose after another.
+class Exact {
+ public:
+  Exact(const DataSet& data, const CorrectedRobot& robot) : data_(data), robot_(robot) {
+    options_.length_m = characteristic_length_m(robot.chain);
+  }
+
+  PoseTarget operator()(std::size_t index, std::vector<SingularPose>& singular) const {
+    const MeasuredPose& pose = data_.poses[index];
     const Stop stop(pose);
     const PoseFunction model = [&](const JointVector& q) {
-      return robot.predict_with_jacobian(stop.with_joints(q), pose.target);
+      return robot_.predict_with_jacobian(stop.with_joints(q), pose.target);
     };
-    const InverseSolution solution = inverse(model, goal(robot, data, pose), pose.joints, options);
-    const double weight = pose_weight(solution, options);
-    if (weight < 1.0) targets.singular.push_back({index, solution.smallest_singular, solution.status});
-    JointVector commanded = pose.joints;
+    const InverseSolution solution = inverse(model, goal(robot_, data_, pose), pose.joints, options_);
+    const double weight = pose_weight(solution, options_);
+    if (weight < 1.0) singular.push_back({index, solution.smallest_singular, solution.status});
+    return {difference(robot_.chain, solution.q, pose.joints), weight};
+  }
+
+ private:
+  const DataSet& data_;
+  const CorrectedRobot& robot_;
+  InverseOptions options_;
+};
+
+JointBelief belief_of(const Chain& chain, const TargetRule& rule) {
+  JointBelief belief{Eigen::VectorXd::Constant(chain.size(), rule.options.joint_error_rad), rule.mean};
+  for (int joint = 0; joint < chain.size(); ++joint) {
+    if (chain.joints[static_cast<std::size_t>(joint)].type == JointType::prismatic)
+      belief.deviation[joint] *= kPrismaticPerRevolute_m;
+  }
+  return belief;
+}
+
+std::vector<PoseTarget> posterior_targets(const DataSet& data, std::span<const std::size_t> poses,
+                                          const CorrectedRobot& robot, const TargetRule& rule) {
+  const JointBelief belief = belief_of(robot.chain, rule);
+  const RowScales scales = measurement_scales(data, poses, robot, belief, rule.residuals);
+  std::vector<PoseTarget> targets;
+  for (const std::size_t index : poses) {
+    const MeasuredPose& pose = data.poses[index];
+    const std::optional<JointVector> errors = most_probable_errors(data, pose, robot, belief, scales);
+    targets.push_back(errors ? PoseTarget{*errors} : PoseTarget{JointVector::Zero(pose.joints.size()), 0.0});
+  }
+  return targets;
+}
+
+}  // namespace
+
+JointTargets joint_targets(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot,
+                           const TargetRule& rule) {
+  JointTargets targets;
+  targets.branches = branches_of(data, poses, robot.chain);
+  std::vector<PoseTarget> found;
+  if (rule.options.kind == TargetKind::posterior) {
+    found = posterior_targets(data, poses, robot, rule);
+  } else {
+    const Exact exact(data, robot);
+    for (const std::size_t index : poses) found.push_back(exact(index, targets.singular));
+  }
+  for (std::size_t row = 0; row < poses.size(); ++row) {
+    JointVector commanded = data.poses[poses[row]].joints;
     for (int joint = 0; joint < robot.chain.size(); ++joint) {
       commanded[joint] = targets.branches[static_cast<std::size_t>(joint)](commanded[joint]);
     }
-    targets.poses.push_back(index);
+    targets.poses.push_back(poses[row]);
     targets.commanded.push_back(commanded);
-    targets.error.push_back(difference(robot.chain, solution.q, pose.joints));
-    targets.weight.push_back(weight);
+    targets.error.push_back(found[row].error);
+    targets.weight.push_back(found[row].weight);
   }
   return targets;
 }

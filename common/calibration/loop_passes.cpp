@@ -45,6 +45,10 @@ LoopOutcome joined(LoopOutcome earlier, LoopOutcome later) {
   later.rounds.insert(later.rounds.begin(), earlier.rounds.begin(), earlier.rounds.end());
   later.dropped.insert(later.dropped.begin(), earlier.dropped.begin(), earlier.dropped.end());
   later.decoys = joined(std::move(earlier.decoys), later.decoys);
+  if (later.independent_m == 0.0) {
+    later.noise = earlier.noise;
+    later.independent_m = earlier.independent_m;
+  }
   if (earlier.lack_of_fit_p) later.lack_of_fit_p = earlier.lack_of_fit_p;
   later.explained_share = joined(earlier.explained_share, later.explained_share);
   return later;
@@ -55,6 +59,7 @@ void tell_of(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& des
     if (round.verdict != Verdict::added) continue;
     if (const Effect* effect = held(model, round.effect)) {
       round.effect = *effect;
+      if (!effect->standard_errors.empty()) round.interval = intervals_of(*effect);
       round.diagnosis = law_of(*effect).diagnosis(*effect, described);
       round.formula = law_of(*effect).formula(*effect, described);
     } else {

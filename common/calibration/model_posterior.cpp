@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/final_fit.hpp"
 #include "fitting/scatter.hpp"
@@ -85,22 +86,22 @@ Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
+FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& robot,
+                                 const std::vector<std::size_t>& poses) {
   constexpr double kLeastTerm = 1e-7;  ///< rad
-  const std::vector<std::size_t> poses = fitted_poses(data, calibration);
-  const CorrectedRobot& robot = calibration.robot;
-  DiagnosedModel model{robot, smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset),
-                       scatter_of(data, robot, observe(data, poses, robot))};
+  DiagnosedModel model;
+  model.robot = robot;
+  model.smooth = smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset);
+  model.scales = scatter_of(data, robot, observe(data, poses, robot));
   const Linearised at = linearise({data, declared, poses, {}}, model);
-  Eigen::MatrixXd covariance = row_variance(at.projection) * at.covariance;
+  const double variance = row_variance(at.projection);
+  Eigen::MatrixXd covariance = variance * at.covariance;
   widen(at, covariance);
-  Posterior posterior;
-  std::vector<Eigen::Index> kept;
-  for (std::size_t i = 0; i < at.ids.size(); ++i) {
-    if (is_of_base(at.ids[i])) continue;
-    posterior.ids.push_back(at.ids[i]);
-    kept.push_back(static_cast<Eigen::Index>(i));
-  }
+  FittedPosterior fitted{{at.ids, {}, {}}, model.scales};
+  for (double& scale : fitted.scatter) scale *= std::sqrt(variance);
+  Posterior& posterior = fitted.posterior;
+  std::vector<Eigen::Index> kept(at.ids.size());
+  std::iota(kept.begin(), kept.end(), Eigen::Index{0});
   for (std::size_t i = 0; i < model.smooth.terms.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(at.ids.size() + i);
     if (!(covariance(row, row) > kLeastTerm * kLeastTerm)) continue;
@@ -110,7 +111,11 @@ Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const
     kept.push_back(row);
   }
   posterior.factor = triangular_root(covariance(kept, kept));
-  return posterior;
+  return fitted;
+}
+
+Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
+  return fitted_posterior(data, declared, calibration.robot, fitted_poses(data, calibration)).posterior;
 }
 
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration) {

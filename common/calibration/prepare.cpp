@@ -1,11 +1,15 @@
 #include "calibration/calibration.hpp"
+#include "calibration/closing.hpp"
+#include "diagnosis/diagnosed_model.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/scatter.hpp"
 
 namespace demecal {
 namespace {
 
 /// Below it a formula per joint fits anything.
 constexpr std::size_t kLeastPoses = 6;
+constexpr int kSteps = 12;  ///< of Gauss and Newton
 
 void require_poses(std::size_t poses, const DataSet& data, const Job& job) {
   if (!job.declared.joint_corrections || poses >= kLeastPoses) return;
@@ -27,12 +31,43 @@ CorrectedRobot placed_in_frame(const DataSet& data, std::span<const std::size_t>
   return data.frame == Frame::base && nearer ? in_base : model;
 }
 
+/// Scales of what the model leaves over these poses, of the kinds of rows that the fit used.
+RowScales residual_scales(const DataSet& data, std::span<const std::size_t> poses, const Fit& fit,
+                          const CorrectedRobot& model) {
+  const RowScales used{fit.sigma_position_m, fit.sigma_orientation_rad, fit.sigma_distance_m};
+  RowScales scales = median_deviations(data, model, observe(data, poses, model));
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    if (used[kind] <= 0.0) scales[kind] = 0.0;
+  }
+  return scales;
+}
+
+/// Posterior targets about the smooth errors that explain all poses together: one pose alone leaves half of them open.
+JointTargets first_targets(const DataSet& data, const Job& job, const Preparation& preparation) {
+  const CorrectedRobot& declared = preparation.declared.robot;
+  if (job.targets.kind == TargetKind::exact) return targets_about(data, preparation, declared);
+  const DiagnosisData of{data, job.declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
+  const DiagnosedModel smooth =
+      refined(of, diagnosed_model(of, loop_start(data, preparation.declared, declared)), kSteps);
+  CorrectedRobot about = declared;
+  about.corrections = smooth.robot.corrections;
+  return targets_about(data, preparation, about);
+}
+
 }  // namespace
+
+JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model) {
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  return joint_targets(
+      data, poses, without_corrections(model),
+      {preparation.target_options, residual_scales(data, poses, preparation.declared, model), model.corrections});
+}
 
 Preparation prepare(const DataSet& data, const Job& job, const FitOptions& options) {
   Preparation preparation;
   preparation.nominal = nominal_robot(data);
   preparation.corrections = job.corrections;
+  preparation.target_options = job.targets;
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   require_poses(poses.size(), data, job);
   preparation.registered = fit_registration(data, poses, job.declared, preparation.nominal, options);
@@ -40,15 +75,17 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
   preparation.declared = fit_declared(data, poses, job.declared, preparation.registered.robot, options);
   require(preparation.declared, data);
   if (job.declared.joint_corrections) {
-    preparation.targets = joint_targets(data, poses, preparation.declared.robot);
+    preparation.targets = first_targets(data, job, preparation);
     preparation.training = training_tables(preparation.declared.robot.chain, preparation.targets, job.corrections);
   }
   return preparation;
 }
 
-Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model) {
+Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model,
+                         const TargetOptions& target_options) {
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   Preparation preparation;
+  preparation.target_options = target_options;
   preparation.nominal = nominal_robot(data);
   preparation.registered = fit_registration(data, poses, declared, preparation.nominal);
   require(preparation.registered, data);
@@ -57,7 +94,7 @@ Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, con
   preparation.declared = fit_declared(data, poses, declared, placed.robot, {.starts = 0});
   require(preparation.declared, data);
   if (declared.joint_corrections || has_corrections(model)) {
-    preparation.targets = joint_targets(data, poses, without_corrections(preparation.declared.robot));
+    preparation.targets = targets_about(data, preparation, preparation.declared.robot);
   }
   return preparation;
 }

@@ -58,6 +58,18 @@ DistalOptions read_distal(const YamlNode& node) {
   return distal;
 }
 
+TargetOptions read_targets(const YamlNode& root) {
+  TargetOptions targets;
+  if (const YamlNode* kind = root.find("targets"))
+    targets.kind = kind->one_of<TargetKind>({{"exact", TargetKind::exact}, {"posterior", TargetKind::posterior}});
+  if (const YamlNode* error = root.find("joint_error_mrad")) {
+    targets.joint_error_rad = 1e-3 * error->positive();
+    if (targets.kind == TargetKind::exact)
+      error->fail("says nothing where targets are exact: leave one of the two out");
+  }
+  return targets;
+}
+
 std::vector<std::string> read_candidates(const YamlNode& list) {
   std::vector<std::string> candidates;
   for (const YamlNode& item : list.list()) {
@@ -97,8 +109,8 @@ Job load_job(const std::filesystem::path& path) {
 
 Job read_job(const YamlNode& root) {
   const std::filesystem::path path = root.file;
-  root.of_version("job", 1).with_keys(
-      {"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop", "distal"});
+  root.of_version("job", 1).with_keys({"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop",
+                                       "distal", "targets", "joint_error_mrad"});
   Job job;
   job.name = path.stem().string();
   job.data_file = resolve(path, root.at("data").text()).string();
@@ -117,6 +129,7 @@ Job read_job(const YamlNode& root) {
   if (const YamlNode* islands = root.find("islands")) job.islands = read_islands(*islands, job.gp.population_size);
   if (const YamlNode* loop = root.find("closed_loop")) job.closed_loop = read_closed_loop(*loop);
   if (const YamlNode* distal = root.find("distal")) job.distal = read_distal(*distal);
+  job.targets = read_targets(root);
   if (!job.corrections.seeds.empty() && job.method == Method::distal && job.distal.form == DistalForm::sequential)
     root.at("gp").fail("", "has seed formulas, for which the sequential form of distal learning has no place");
   if (job.corrections.sharing.functions > 0 && job.method == Method::distal &&

@@ -3,6 +3,7 @@
 #include "config/load_robot.hpp"
 #include "config/model_text.hpp"
 #include "config/posterior_text.hpp"
+#include "config/prediction_text.hpp"
 #include "config/read_declared.hpp"
 #include "config/read_effects.hpp"
 #include "config/read_yaml.hpp"
@@ -101,7 +102,8 @@ void read_corrections(const YamlNode& node, CalibratedModel& model) {
 CalibratedModel load_model(const std::filesystem::path& path) {
   const YamlNode file = read_yaml(path).of_version("model", 1);
   file.with_keys({"demecal_model", "job", "version", "method", "seed", "data", "robot", "declared", "base", "tools",
-                  "links", "estimates", "effects", "shared_functions", "corrections", "measured_ranges", "posterior"});
+                  "links", "estimates", "effects", "shared_functions", "corrections", "measured_ranges", "posterior",
+                  "prediction_interval"});
   CalibratedModel model;
   model.job = file.at("job").text();
   model.version = file.at("version").text();
@@ -128,6 +130,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   model.robot.effects = read_effects(file.at("effects"), model.nominal);
   model.robot.described = model.nominal;
   read_posterior(file, model);
+  read_prediction(file, model);
   return model;
 }
 

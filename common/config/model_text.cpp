@@ -6,6 +6,7 @@
 #include "calibration/shared_calls.hpp"
 #include "config/effect_text.hpp"
 #include "config/posterior_text.hpp"
+#include "config/prediction_text.hpp"
 #include "config/robot_text.hpp"
 #include "config/yaml_text.hpp"
 #include "expression/text.hpp"
@@ -107,7 +108,7 @@ std::string model_text(const CalibratedModel& model) {
     const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
     text << correction_text(summary, correction, model.functions);
   }
-  text << posterior_text(model);
+  text << posterior_text(model) << prediction_text(model);
   return text.str();
 }
 

@@ -59,12 +59,15 @@ CorrectionTerm read_term(const YamlNode& node, const Chain& chain) {
   }
 }
 
-/// Every number that a model of this robot can have been fitted with, but for its base.
+/// Every number that a model of this robot can have been fitted with.
 std::vector<ParameterId> possible_parameters(const CorrectedRobot& robot) {
   std::vector<ParameterId> ids;
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
     for (int link = 0; link < kLinkParameters; ++link)
       ids.push_back({Kind::link, joint, static_cast<LinkParameter>(link), {}});
+  }
+  for (const Kind kind : {Kind::base_translation, Kind::base_rotation}) {
+    for (int axis = 0; axis < 3; ++axis) ids.push_back({kind, axis, LinkParameter::theta, {}});
   }
   for (const auto& [target, tool] : robot.tools) {
     for (const Kind kind : {Kind::tool_translation, Kind::tool_rotation}) {

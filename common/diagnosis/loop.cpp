@@ -230,6 +230,7 @@ void ClosedLoop::describe_added() {
     for (const Effect& effect : model_.robot.effects) {
       if (effect.same_law_as(round.effect)) round.effect = effect;
     }
+    if (!round.effect.standard_errors.empty()) round.interval = intervals_of(round.effect);
     round.diagnosis = law_of(round.effect).diagnosis(round.effect, of_.data.robot);
     round.formula = law_of(round.effect).formula(round.effect, of_.data.robot);
   }

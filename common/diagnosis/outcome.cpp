@@ -2,6 +2,16 @@
 
 namespace demecal {
 
+std::vector<std::array<double, 2>> intervals_of(const Effect& effect) {
+  constexpr double kNormal95 = 1.96;
+  std::vector<std::array<double, 2>> intervals;
+  for (std::size_t i = 0; i < effect.standard_errors.size(); ++i) {
+    const double half = kNormal95 * effect.standard_errors[i];
+    intervals.push_back({effect.value(i) - half, effect.value(i) + half});
+  }
+  return intervals;
+}
+
 std::string word_of(StopReason reason) {
   switch (reason) {
     case StopReason::no_structure:

@@ -44,7 +44,7 @@ struct Round {
   double fall_nats = 0.0;       ///< of the description length
   double gain_lower_mm2 = 0.0;  ///< one-sided 95 % bound of the fall of the mean squared error on validation poses
   double sign_stability = 0.0;  ///< share of resamples in which the leading coefficient keeps its sign
-  std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient, by resampling poses; SI
+  std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient; SI. Of added effects: beside all others
   double validation_before_mm = 0.0;            ///< mean tool error on the validation poses
   double validation_after_mm = 0.0;
   std::optional<FurtherMeasurement> further;  ///< where there are rivals
@@ -91,6 +91,9 @@ struct LoopOutcome {
   int candidates = 0;                      ///< effects tried in every round
   int permutations = 0;
 };
+
+/// The 95 % interval of every coefficient by its standard error (normal); nothing where standard errors are unknown.
+std::vector<std::array<double, 2>> intervals_of(const Effect& effect);
 
 /// "no_structure", "no_gain", "max_effects", "decoy", "not_run".
 std::string word_of(StopReason reason);

@@ -16,7 +16,7 @@ struct CorrectionTerm {
 
 /// The covariance of a model's numbers after a fit, wide along what the poses did not show: factor * factor^T.
 struct Posterior {
-  std::vector<ParameterId> ids;       ///< of the model's links, tools and effects, not of its base
+  std::vector<ParameterId> ids;       ///< of the model's base, links, tools and effects
   std::vector<CorrectionTerm> terms;  ///< of its joint corrections
   Eigen::MatrixXd factor;             ///< (ids, then terms) x any number; SI units and rad
 
@@ -28,8 +28,10 @@ struct Posterior {
 /// Covariance of a tool's pose: position (m) first, then orientation (rad), in the frame of predictions.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
-/// Of the pose that `robot`, whose numbers `posterior` is about, predicts for its own tool at `stop`.
-PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot& robot, const Stop& stop);
+/// Of the pose that `robot`, whose numbers `posterior` is about, predicts for the tool of `target` (empty: its own) at
+/// `stop`.
+PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot& robot, const Stop& stop,
+                               const std::string& target = "");
 
 template <typename LeaveOut>
 Posterior Posterior::without(const LeaveOut& leave_out) const {

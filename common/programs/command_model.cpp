@@ -122,6 +122,7 @@ CommandModel with_certainty(CommandModel model, const CorrectedRobot& identified
   model.posterior = posterior->without([&](const ParameterId& id) {
     using Kind = ParameterId::Kind;
     if (id.kind == Kind::effect) return false;
+    if (id.kind == Kind::base_translation || id.kind == Kind::base_rotation) return true;
     if (is_number_of_tool(id)) return !model.tool_identified || (id.kind == Kind::tool_rotation && !turned);
     const bool along_first = id.link == LinkParameter::theta || id.link == LinkParameter::d;
     return registration && id.index == 0 && (along_first || whole_first);

@@ -6,6 +6,7 @@
 
 #include "effects/corrected_robot.hpp"
 #include "fitting/posterior.hpp"
+#include "fitting/prediction_interval.hpp"
 
 namespace demecal {
 
@@ -25,8 +26,9 @@ struct CommandModel {
   std::vector<double> bounds;  ///< of each joint's correction (rad or m) over its range; infinite where none is stated
   std::vector<std::string> notes{};      ///< sentences about the model that a user should know
   std::optional<Posterior> posterior{};  ///< of the numbers of `robot`; nothing: all of the correction is believed
-  std::vector<Interval> measured{};      ///< of every joint, rad or m; none where the model does not say
-  bool tool_identified = true;           ///< the tool of `robot` is the described one as it was measured
+  std::optional<PredictionInterval> interval{};  ///< beside `posterior`, what predictions err by
+  std::vector<Interval> measured{};              ///< of every joint, rad or m; none where the model does not say
+  bool tool_identified = true;                   ///< the tool of `robot` is the described one as it was measured
 
   /// Where the nominal robot has its tool: base frame, axes of the flange.
   Eigen::Isometry3d nominal_tool(const JointVector& joints) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "kinematics/units.hpp"
 #include "programs/read_program.hpp"
 #include "programs/target_figures.hpp"
 
@@ -31,7 +32,10 @@ std::string block(const Target& target, const CorrectedTarget& corrected, const 
   std::string text = fmt::format("  line {}{}", target.place.line, target.name.empty() ? "" : ": " + target.name);
   if (corrected.is_left()) return text + ": left as it is\n";
   const TargetFigures figures = figures_of(target, corrected, arm);
-  text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg\n", figures.moved_mm, figures.turned_deg);
+  text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg", figures.moved_mm, figures.turned_deg);
+  if (corrected.error95_m)
+    text += fmt::format(", then within {:.3f} mm of the target (95 %)", millimetres(*corrected.error95_m));
+  text += '\n';
   const std::string names = heading(figures);
   if (names != last_heading) text += names;
   last_heading = names;
@@ -56,6 +60,7 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
   json["corrected"] = figures.corrected;
   json["difference"] = figures.difference;
   json["moved_mm"] = figures.moved_mm;
+  if (corrected.error95_m) json["predicted_error95_mm"] = millimetres(*corrected.error95_m);
   json["left_as_programmed"] = corrected.notes;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
   return json;

@@ -129,6 +129,8 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
   corrected.left_m = solution.position_residual_m;
   corrected.left_rad = solution.orientation_residual_rad;
   corrected.command_tool = model.nominal_tool(corrected.command);
+  if (model.posterior && model.interval)
+    corrected.error95_m = real_radius95_m(*model.interval, *model.posterior, model.robot, stop);
   if (target.is_pose()) settle_position(target, model, goal.translation(), corrected);
   return corrected;
 }

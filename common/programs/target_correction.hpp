@@ -1,6 +1,7 @@
 // The correction of one target whose joints are known.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,11 @@ struct CorrectedTarget {
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
   Eigen::Isometry3d goal;  ///< of the model's tool: the nominal pose, as far as the correction to it is determined
   double left_m = 0.0, left_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
-  std::vector<std::string> remarks{};   ///< what a user should know of how it was corrected
-  std::vector<std::string> notes{};     ///< orientations that are left as programmed: no worse than before, no warning
-  std::vector<std::string> texts{};     ///< of the cells, joints or position and then orientation; empty: kept
+  std::optional<double>
+      error95_m{};  ///< holds the real tool point about the goal 95 % of the time, without what is left
+  std::vector<std::string> remarks{};  ///< what a user should know of how it was corrected
+  std::vector<std::string> notes{};    ///< orientations that are left as programmed: no worse than before, no warning
+  std::vector<std::string> texts{};    ///< of the cells, joints or position and then orientation; empty: kept
 
   bool is_left() const { return outcome == Correctedness::left || outcome == Correctedness::no_joints; }
 };

@@ -57,6 +57,15 @@ std::optional<std::vector<SharedFunctionLine>> function_lines(const CalibratedMo
   return lines;
 }
 
+/// What is known of poses by name.
+void set_flags(CalibrationReport& report) {
+  for (PoseErrorLine& line : report.pose_errors) {
+    if (std::ranges::find(report.outliers, line.id) != report.outliers.end()) line.flags.emplace_back("outlier");
+    if (std::ranges::find(report.near_singular, line.id) != report.near_singular.end())
+      line.flags.emplace_back("near_singular");
+  }
+}
+
 }  // namespace
 
 ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
@@ -95,6 +104,9 @@ CalibrationReport make_report(const DataSet& data, const CalibratedModel& model,
   report.after = errors_by_set(model.robot, data);
   report.noise_floor_mm = noise_floor_mm(data);
   report.unseen = calibration.unseen;
+  report.pose_errors = pose_errors(data, model, model.robot, &before);
+  report.interval = model.interval;
+  set_flags(report);
   report.loop = loop;
   report.described = model.nominal;
   report.excluded = excluded_poses(data, model.robot);

@@ -11,6 +11,7 @@
 #include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effects/measurement.hpp"
+#include "report/pose_errors.hpp"
 #include "structure/found_transform.hpp"
 
 namespace demecal {
@@ -66,15 +67,17 @@ struct CalibrationReport {
   std::string job, robot, method, data_sha256, version;
   std::uint64_t seed = 0;
   PoseCounts poses;
-  std::vector<std::string> outliers;       ///< pose ids: of the loop's last fit; without it, of the declared fit
-  std::vector<std::string> near_singular;  ///< pose ids, down-weighted
-  ErrorBySet nominal;                      ///< the uncalibrated robot in the frame the data came in
-  ErrorBySet registered;                   ///< after the best-fit base, and tool where declared
-  ErrorBySet declared;                     ///< after everything declared but the joint corrections
-  ErrorBySet before;                       ///< after everything declared
-  ErrorBySet after;                        ///< with the effects that the closed loop added
-  std::optional<double> noise_floor_mm;    ///< standard deviation of repeats per axis, where there are repeats
-  std::optional<UnseenValidation> unseen;  ///< where validation poses had a part in the last fit
+  std::vector<std::string> outliers;           ///< pose ids: of the loop's last fit; without it, of the declared fit
+  std::vector<std::string> near_singular;      ///< pose ids, down-weighted
+  ErrorBySet nominal;                          ///< the uncalibrated robot in the frame the data came in
+  ErrorBySet registered;                       ///< after the best-fit base, and tool where declared
+  ErrorBySet declared;                         ///< after everything declared but the joint corrections
+  ErrorBySet before;                           ///< after everything declared
+  ErrorBySet after;                            ///< with the effects that the closed loop added
+  std::optional<double> noise_floor_mm;        ///< standard deviation of repeats per axis, where there are repeats
+  std::optional<UnseenValidation> unseen;      ///< where validation poses had a part in the last fit
+  std::vector<PoseErrorLine> pose_errors;      ///< of all poses; empty where nothing was fitted
+  std::optional<PredictionInterval> interval;  ///< behind their radii
   LoopOutcome loop;
   Robot described;  ///< the arm as its maker describes it, by which the loop's effects stand
   double index_before_mm2 = 0.0, index_after_mm2 = 0.0;

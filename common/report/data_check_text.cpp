@@ -6,16 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/json_number.hpp"
 #include "report/terminal_text.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr std::size_t kMostShown = 10;
-
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
 
 }  // namespace
 

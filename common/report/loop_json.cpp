@@ -4,20 +4,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "kinematics/units.hpp"
 #include "report/effect_class.hpp"
 #include "report/effect_entry.hpp"
+#include "report/json_number.hpp"
 
 namespace demecal {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
+Json number_if_any(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : Json(nullptr);
 }
 
 /// One entry per element of `things`.
@@ -30,8 +28,8 @@ Json list(const Things& things, Write write) {
 
 Json rival(const Rival& rival, const Robot& robot) {
   Json entry = to_json(effect_entry(rival.effect, robot));
-  entry["cosine"] = number(rival.cosine);
-  entry["nats_behind"] = number(rival.nats_behind);
+  entry["cosine"] = number_or_null(rival.cosine);
+  entry["nats_behind"] = number_or_null(rival.nats_behind);
   return entry;
 }
 
@@ -39,7 +37,7 @@ Json intervals(const Round& round, const Robot& robot) {
   const std::vector<CoefficientLabel> labels = labels_of(round.effect, robot);
   Json named = Json::object();
   for (std::size_t i = 0; i < std::min(labels.size(), round.interval.size()); ++i) {
-    named[labels[i].name] = {number(round.interval[i][0]), number(round.interval[i][1])};
+    named[labels[i].name] = {number_or_null(round.interval[i][0]), number_or_null(round.interval[i][1])};
   }
   return named;
 }
@@ -64,15 +62,15 @@ Json round_entry(const Round& round, const Robot& robot) {
   });
   entry["class_sentence"] = class_sentence(members);
   entry["rivals"] = list(round.rivals, [&robot](const Rival& one) { return rival(one, robot); });
-  entry["p_structure"] = number(round.p_structure);
-  entry["p_family"] = number(round.p_family);
+  entry["p_structure"] = number_or_null(round.p_structure);
+  entry["p_family"] = number_or_null(round.p_family);
   entry["permutations"] = round.permutations;
-  entry["fall_nats"] = number(round.fall_nats);
-  entry["gain_lower_mm2"] = number(round.gain_lower_mm2);
-  entry["sign_stability"] = number(round.sign_stability);
+  entry["fall_nats"] = number_or_null(round.fall_nats);
+  entry["gain_lower_mm2"] = number_or_null(round.gain_lower_mm2);
+  entry["sign_stability"] = number_or_null(round.sign_stability);
   entry["interval"] = intervals(round, robot);
-  entry["validation_before_mm"] = number(round.validation_before_mm);
-  entry["validation_after_mm"] = number(round.validation_after_mm);
+  entry["validation_before_mm"] = number_or_null(round.validation_before_mm);
+  entry["validation_after_mm"] = number_or_null(round.validation_after_mm);
   entry["further"] = further(round.further);
   return entry;
 }
@@ -80,10 +78,20 @@ Json round_entry(const Round& round, const Robot& robot) {
 Json not_found(const NotFound& missing, const Robot& robot) {
   Json entry = to_json(effect_entry(missing.effect, robot));
   entry.erase("amplitude");  // whatever was fitted, it was not found
-  entry["smallest_detectable"] = missing.testable ? number(missing.smallest_detectable) : Json(nullptr);
+  entry["smallest_detectable"] = missing.testable ? number_or_null(missing.smallest_detectable) : Json(nullptr);
   entry["unit"] = missing.unit;
   entry["sentence"] = missing.testable ? "" : "not testable with these data";
   return entry;
+}
+
+/// Components of the measurements' noise: 0 where there is none of the kind.
+Json noise(const LoopOutcome& loop) {
+  const double independent_mm = millimetres(loop.independent_m);
+  return {{"independent_mm", number_or_null(independent_mm)},
+          {"joint_repeatability_mrad", number_or_null(1e3 * loop.noise.joint_rad)},
+          {"shared_by_repeats_mm", number_or_null(independent_mm * loop.noise.repeats)},
+          {"shared_in_order_mm", number_or_null(independent_mm * loop.noise.order)},
+          {"correlation_in_order", number_or_null(loop.noise.correlation)}};
 }
 
 }  // namespace
@@ -96,13 +104,17 @@ void add_loop(const LoopOutcome& loop, const Robot& described, Json& report) {
     return Json{{"kind", one.kind}, {"reason", one.reason}};
   });
   report["decoys"] = list(loop.decoys, [](const Decoy& one) {
-    return Json{{"name", one.name}, {"best_fall_nats", number(one.best_fall_nats)}, {"won", one.won}};
+    return Json{{"name", one.name},
+                {"best_fall_nats", number_or_null(one.best_fall_nats)},
+                {"p_left", number_or_null(one.p_left)},
+                {"won", one.won}};
   });
   const bool ran = loop.stopped != StopReason::not_run;
   report["stopped"] = word_of(loop.stopped);
-  report["lack_of_fit_p"] = number(loop.lack_of_fit_p);
-  report["explained_share"] = number(loop.explained_share);
-  report["structure_left_p"] = ran ? number(loop.p_structure_left) : Json(nullptr);
+  report["lack_of_fit_p"] = number_if_any(loop.lack_of_fit_p);
+  report["explained_share"] = number_if_any(loop.explained_share);
+  report["structure_left_p"] = ran ? number_or_null(loop.p_structure_left) : Json(nullptr);
+  report["noise"] = ran ? noise(loop) : Json(nullptr);
   report["candidates"] = loop.candidates;
   report["permutations"] = loop.permutations;
 }

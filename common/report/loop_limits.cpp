@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinematics/units.hpp"
 #include "report/amount.hpp"
 #include "report/effect_entry.hpp"
 #include "report/terminal_text.hpp"
@@ -120,11 +121,39 @@ std::string unseen_line(const LoopOutcome& loop) {
   return text.empty() ? text : wrapped("  not testable with these data:", text, 4);
 }
 
+std::string noise_line(const LoopOutcome& loop) {
+  const NoiseModel& noise = loop.noise;
+  const double independent_mm = millimetres(loop.independent_m);
+  std::vector<std::string> parts;
+  if (noise.joint_rad > 0.0) parts.push_back(fmt::format("joints repeat to {:.3f} mrad", 1e3 * noise.joint_rad));
+  if (noise.repeats > 0.0)
+    parts.push_back(fmt::format("repeats of a pose share {:.3f} mm", independent_mm * noise.repeats));
+  if (noise.order > 0.0) {
+    parts.push_back(
+        fmt::format("poses measured one after another share {:.3f} mm (correlation {:.2f}): errors of poses "
+                    "measured between others look smaller than they are",
+                    independent_mm * noise.order, noise.correlation));
+  }
+  if (parts.empty()) return {};
+  return wrapped("  noise:", fmt::format("{:.3f} mm an axis, independent; {}", independent_mm, fmt::join(parts, "; ")),
+                 4);
+}
+
 std::string decoys_line(const LoopOutcome& loop) {
   if (loop.decoys.empty()) return {};
   std::string winners;
   for (const Decoy& decoy : loop.decoys) {
     if (decoy.won) winners += (winners.empty() ? "" : "; ") + decoy.name;
+  }
+  constexpr double kRare = 0.05;
+  const Decoy& rarest = *std::ranges::min_element(loop.decoys, {}, &Decoy::p_left);
+  if (winners.empty() && rarest.p_left <= kRare) {
+    return wrapped(
+        "  controls:",
+        fmt::format("{}, which cannot exist, explains more than noise should (p = {:.3f}): the noise is not what "
+                    "it was taken for, and none of the effects is sure",
+                    rarest.name, rarest.p_left),
+        4);
   }
   if (!winners.empty()) return wrapped("  controls: WON by what cannot be true:", winners, 4);
   const Decoy& best = *std::ranges::max_element(loop.decoys, {}, &Decoy::best_fall_nats);

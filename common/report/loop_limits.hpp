@@ -17,7 +17,10 @@ std::string untestable_line(const LoopOutcome& loop);
 /// One paragraph of the kinds that these data cannot show, by reason.
 std::string unseen_line(const LoopOutcome& loop);
 
-/// Whether a decoy won, in one line.
+/// How measurements scatter together, in one line; nothing where all poses are independent.
+std::string noise_line(const LoopOutcome& loop);
+
+/// Whether a decoy won, or explains more than noise should, in one line.
 std::string decoys_line(const LoopOutcome& loop);
 
 }  // namespace demecal

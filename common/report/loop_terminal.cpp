@@ -174,7 +174,7 @@ std::string loop_to_terminal(const LoopOutcome& loop, const Robot& described) {
                               statistics_sentences({loop.lack_of_fit_p, loop.explained_share, loop.p_structure_left});
   return added_lines(added_rounds(loop), described) + refused_lines(loop, described) + dropped_line(loop, described) +
          last_candidate(loop, described) + wrapped(" ", closing, 4) + not_found_lines(loop, described) +
-         untestable_line(loop) + unseen_line(loop) + decoys_line(loop);
+         untestable_line(loop) + unseen_line(loop) + noise_line(loop) + decoys_line(loop);
 }
 
 }  // namespace demecal

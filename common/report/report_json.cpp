@@ -6,7 +6,9 @@
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 #include "report/data_check_text.hpp"
+#include "report/json_number.hpp"
 #include "report/loop_json.hpp"
+#include "report/pose_errors_json.hpp"
 
 namespace demecal {
 namespace {
@@ -18,15 +20,11 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json figures(const ErrorFigures& errors) {
-  return {{"mean", number(errors.mean_mm)},
-          {"rms", number(errors.rms_mm)},
-          {"p95", number(errors.p95_mm)},
-          {"max", number(errors.max_mm)}};
+  return {{"mean", number_or_null(errors.mean_mm)},
+          {"rms", number_or_null(errors.rms_mm)},
+          {"p95", number_or_null(errors.p95_mm)},
+          {"max", number_or_null(errors.max_mm)}};
 }
 
 Json by_set(const ErrorBySet& errors) {
@@ -36,14 +34,14 @@ Json by_set(const ErrorBySet& errors) {
 }
 
 Json joint(const JointLine& line) {
-  Json entry{
-      {"joint", line.summary.joint + 1},
-      {"kept", line.summary.kept},
-      {"expression", line.expression},
-      {"mean_abs_error_rad", {{"before", number(line.summary.before_rad)}, {"after", number(line.summary.after_rad)}}},
-      {"range_rad", {number(line.range_rad.lower), number(line.range_rad.upper)}},
-      {"bound_rad", number(line.summary.bound_rad)},
-      {"discontinuities_rad", line.summary.discontinuities_rad}};
+  Json entry{{"joint", line.summary.joint + 1},
+             {"kept", line.summary.kept},
+             {"expression", line.expression},
+             {"mean_abs_error_rad",
+              {{"before", number_or_null(line.summary.before_rad)}, {"after", number_or_null(line.summary.after_rad)}}},
+             {"range_rad", {number_or_null(line.range_rad.lower), number_or_null(line.range_rad.upper)}},
+             {"bound_rad", number_or_null(line.summary.bound_rad)},
+             {"discontinuities_rad", line.summary.discontinuities_rad}};
   if (!line.with_functions.empty()) entry["with_functions"] = line.with_functions;
   if (!line.summary.note.empty()) entry["note"] = line.summary.note;
   return entry;
@@ -59,34 +57,35 @@ Json step(const DistalStep& step) {
   return {{"joint", step.joint + 1},
           {"generation", step.generation},
           {"expression", to_text(step.correction.formula())},
-          {"index_mm2", number(step.index_mm2)}};
+          {"index_mm2", number_or_null(step.index_mm2)}};
 }
 
 Json parameter(const ParameterEstimate& estimate) {
   const bool angle = estimate.id.is_angle();
   const double border = angle ? degrees(1.0) : millimetres(1.0);
   return {{"name", estimate.id.name()},
-          {"nominal", number(estimate.nominal * border)},
-          {"value", number(estimate.value * border)},
-          {"standard_error", number(estimate.standard_error * border)}};
+          {"nominal", number_or_null(estimate.nominal * border)},
+          {"value", number_or_null(estimate.value * border)},
+          {"standard_error", number_or_null(estimate.standard_error * border)}};
 }
 
 /// Beside the parameters of base and tool: nominally there is nothing between the links.
 Json parameter(const FoundTransform& transform) {
   return {{"name", transform.name()},
           {"nominal", 0.0},
-          {"value", number(transform.at_border(transform.value))},
-          {"standard_error", number(transform.at_border(transform.standard_error))}};
+          {"value", number_or_null(transform.at_border(transform.value))},
+          {"standard_error", number_or_null(transform.at_border(transform.standard_error))}};
 }
 
 Json waited_share(const RunFacts& facts) {
   Json all = Json::array();
-  for (const auto& [worker, share] : facts.waited_share) all.push_back({{"worker", worker}, {"share", number(share)}});
+  for (const auto& [worker, share] : facts.waited_share)
+    all.push_back({{"worker", worker}, {"share", number_or_null(share)}});
   return all;
 }
 
 Json runtime(const RunFacts& facts) {
-  return {{"wall_s", number(facts.wall_s)},
+  return {{"wall_s", number_or_null(facts.wall_s)},
           {"workers", facts.workers},
           {"islands", facts.islands},
           {"generations", facts.generations},
@@ -102,7 +101,7 @@ Json runtime(const RunFacts& facts) {
 Json excluded(const std::vector<ExcludedPose>& poses) {
   Json all = Json::array();
   for (const ExcludedPose& pose : poses)
-    all.push_back({{"id", pose.id}, {"set", pose.set}, {"error_mm", number(pose.error_mm)}});
+    all.push_back({{"id", pose.id}, {"set", pose.set}, {"error_mm", number_or_null(pose.error_mm)}});
   return all;
 }
 
@@ -119,7 +118,7 @@ Json last_fit(const CalibrationReport& report) {
   if (!report.unseen) return {{"poses", {"calibration"}}};
   return {{"poses", {"calibration", "validation"}},
           {"unseen_validation_rms_mm",
-           {{"before", number(report.unseen->before_mm)}, {"after", number(report.unseen->after_mm)}}}};
+           {{"before", number_or_null(report.unseen->before_mm)}, {"after", number_or_null(report.unseen->after_mm)}}}};
 }
 
 }  // namespace
@@ -134,10 +133,12 @@ std::string to_json(const CalibrationReport& report) {
                    {"excluded", excluded(report.excluded)},   {"near_singular", report.near_singular}};
   json["error_mm"] = error_stages(report);
   json["last_fit"] = last_fit(report);
-  json["noise_floor_mm"] = report.noise_floor_mm ? number(*report.noise_floor_mm) : Json(nullptr);
+  json["pose_errors"] = pose_errors_to_json(report.pose_errors);
+  json["prediction_interval"] = report.interval ? prediction_to_json(*report.interval) : Json(nullptr);
+  json["noise_floor_mm"] = report.noise_floor_mm ? number_or_null(*report.noise_floor_mm) : Json(nullptr);
   add_loop(report.loop, report.described, json);
-  json["performance_index_mm2"] = {{"before", number(report.index_before_mm2)},
-                                   {"after", number(report.index_after_mm2)}};
+  json["performance_index_mm2"] = {{"before", number_or_null(report.index_before_mm2)},
+                                   {"after", number_or_null(report.index_after_mm2)}};
   json["joints"] = Json::array();
   for (const JointLine& line : report.joints) json["joints"].push_back(joint(line));
   if (report.functions) {
@@ -160,7 +161,7 @@ std::string to_json(const CalibrationReport& report) {
 }
 
 std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check,
-                           const std::vector<UnappliedEffect>& unapplied) {
+                           const std::vector<UnappliedEffect>& unapplied, const std::vector<PoseErrorLine>& poses) {
   Json effects = Json::array();
   for (const UnappliedEffect& one : unapplied) {
     effects.push_back({{"kind", one.kind},
@@ -169,8 +170,12 @@ std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check,
                        {"poses", one.poses},
                        {"sentence", one.sentence()}});
   }
-  const Json found = data_check_to_json(check);
-  return text_of(Json{{"error_mm", by_set(errors)}, {"data_check", found}, {"effects_not_applied", effects}}, -1);
+  const Json found = data_check_to_json(check), of_poses = pose_errors_to_json(poses);
+  return text_of(Json{{"error_mm", by_set(errors)},
+                      {"pose_errors", of_poses},
+                      {"data_check", found},
+                      {"effects_not_applied", effects}},
+                 -1);
 }
 
 }  // namespace demecal

@@ -6,6 +6,7 @@
 
 #include "data/csv.hpp"
 #include "data/number.hpp"
+#include "report/json_number.hpp"
 #include "report/study_cells.hpp"
 
 namespace demecal {
@@ -15,10 +16,6 @@ using Json = nlohmann::ordered_json;
 
 std::string field(double value) {
   return std::isfinite(value) ? number_text(value) : "";
-}
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 /// A number where the text is one.
@@ -64,9 +61,9 @@ Json cells_json(const Study& study) {
 Json run_json(const StudyRun& run) {
   return {{"cell", run.cell + 1},
           {"seed", run.seed},
-          {"calibration_rms_mm", number(run.calibration_mm)},
-          {"validation_rms_mm", number(run.validation_mm)},
-          {"accept_rms_mm", number(run.accept_mm)},
+          {"calibration_rms_mm", number_or_null(run.calibration_mm)},
+          {"validation_rms_mm", number_or_null(run.validation_mm)},
+          {"accept_rms_mm", number_or_null(run.accept_mm)},
           {"nodes", run.nodes},
           {"joints_corrected", run.corrected},
           {"evaluations", run.evaluations},

@@ -64,7 +64,7 @@ std::string stages(const CalibrationReport& report) {
     for (const auto& [name, errors] : rows) text += figures_line(std::string("  ") + name, errors->*set.figures);
   }
   if (report.unseen) text += last_fit(report);
-  return text;
+  return text + intervals_to_terminal(report.pose_errors, report.interval);
 }
 
 std::string joints(const CalibrationReport& report) {
@@ -140,6 +140,19 @@ std::string errors_to_terminal(const ErrorBySet& errors) {
       text += figures_line(std::string("  ") + set.name, errors.*set.figures);
   }
   return text;
+}
+
+std::string intervals_to_terminal(const std::vector<PoseErrorLine>& poses,
+                                  const std::optional<PredictionInterval>& interval) {
+  const IntervalCoverage accept = coverage_of(poses);
+  if (!interval || (accept.poses == 0 && !interval->fitted)) return {};
+  const std::string within =
+      accept.poses == 0 ? "radii that hold 95 % of errors stand in report.json"
+                        : fmt::format(
+                              "95 % of errors are predicted within {:.3f} mm (median over accept poses): {} of {} "
+                              "accept poses are",
+                              accept.median_mm, accept.inside, accept.poses);
+  return wrapped("  prediction:", within + "; " + sentence_of(*interval), 4);
 }
 
 std::string to_terminal(const CalibrationReport& report) {

@@ -14,4 +14,9 @@ std::string to_terminal(const CalibrationReport& report);
 /// One stage's figures, as `evaluate` prints them.
 std::string errors_to_terminal(const ErrorBySet& errors);
 
+/// How far single poses are predicted to err, and how many accept poses did not keep to it; nothing without an
+/// interval.
+std::string intervals_to_terminal(const std::vector<PoseErrorLine>& poses,
+                                  const std::optional<PredictionInterval>& interval);
+
 }  // namespace demecal

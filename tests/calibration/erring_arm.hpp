@@ -5,11 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "calibration/joint_targets.hpp"
 #include "effects/corrected_robot.hpp"
 #include "expression/text.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
+
+/// The thesis's.
+inline const TargetRule kExactTargets{.options = {.kind = TargetKind::exact}};
 
 /// The PUMA 761 of the thesis, Table A-1.
 inline Chain puma() {

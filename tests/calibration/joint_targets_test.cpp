@@ -11,11 +11,11 @@ namespace {
 const std::vector<std::string> kErrors{"0.001*SIN(theta)",   "0.0008*COS(theta)", "0.0012*theta*0.5",
                                        "0.002*SIN(2*theta)", "0.0005*theta",      "0.001*COS(theta+0.3)"};
 
-TEST(JointTargets, AreTheTrueJointErrorsWhereTheFullPoseWasMeasured) {
+TEST(ExactTargets, AreTheTrueJointErrorsWhereTheFullPoseWasMeasured) {
   const CorrectedRobot truth = true_puma(kErrors);
   const DataSet data = measure(truth, 60, 0.0, 1, true);
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
-  const JointTargets targets = joint_targets(data, poses, nominal_robot(data));
+  const JointTargets targets = joint_targets(data, poses, nominal_robot(data), kExactTargets);
   ASSERT_EQ(targets.poses.size(), poses.size());
   int regular = 0;
   for (std::size_t row = 0; row < poses.size(); ++row) {
@@ -29,11 +29,11 @@ TEST(JointTargets, AreTheTrueJointErrorsWhereTheFullPoseWasMeasured) {
   EXPECT_GT(regular, 30);
 }
 
-TEST(JointTargets, ReachTheMeasuredPositionWithTheNominalOrientationWherePositionAloneWasMeasured) {
+TEST(ExactTargets, ReachTheMeasuredPositionWithTheNominalOrientationWherePositionAloneWasMeasured) {
   const DataSet data = measure(true_puma(kErrors), 30, 0.0, 2, false);
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   const CorrectedRobot nominal = nominal_robot(data);
-  const JointTargets targets = joint_targets(data, poses, nominal);
+  const JointTargets targets = joint_targets(data, poses, nominal, kExactTargets);
   for (std::size_t row = 0; row < poses.size(); ++row) {
     const MeasuredPose& pose = data.poses[poses[row]];
     const Eigen::Isometry3d reached = nominal.predict(pose.joints + targets.error[row], "");
@@ -42,13 +42,14 @@ TEST(JointTargets, ReachTheMeasuredPositionWithTheNominalOrientationWherePositio
   }
 }
 
-TEST(JointTargets, NameAndWeighDownPosesNearASingularity) {
+TEST(ExactTargets, NameAndWeighDownPosesNearASingularity) {
   const CorrectedRobot truth = true_puma(kErrors);
   DataSet data = measure(truth, 30, 0.0, 3, false);
   MeasuredPose& straight_wrist = data.poses[3];
   straight_wrist.joints[4] = 1e-4;
   straight_wrist.position_m = truth.predict(straight_wrist.joints, "").translation();
-  const JointTargets targets = joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data));
+  const JointTargets targets =
+      joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data), kExactTargets);
   ASSERT_EQ(targets.singular.size(), 1U);
   EXPECT_EQ(targets.singular[0].pose, 3U);
   EXPECT_LT(targets.singular[0].smallest_singular, 0.01);
@@ -63,7 +64,8 @@ TEST(JointTargets, LieOnOneSideWhereTheDataStraddleHalfATurn) {
   data.robot.chain.joints[3].lower = -2 * M_PI;
   data.robot.chain.joints[3].upper = 2 * M_PI;
   for (MeasuredPose& pose : data.poses) pose.joints[3] = std::remainder(pose.joints[3] + M_PI, 2 * M_PI);
-  const JointTargets targets = joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data));
+  const JointTargets targets =
+      joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data), kExactTargets);
   double lowest = 1e9, highest = -1e9;
   for (const JointVector& commanded : targets.commanded) {
     lowest = std::min(lowest, commanded[3]);
@@ -73,7 +75,7 @@ TEST(JointTargets, LieOnOneSideWhereTheDataStraddleHalfATurn) {
   EXPECT_LT(highest - lowest, 2.7);
 }
 
-TEST(JointTargets, OfDistancesAgreeWithWhatWasMeasured) {
+TEST(ExactTargets, OfDistancesAgreeWithWhatWasMeasured) {
   const CorrectedRobot truth = true_puma(kErrors);
   DataSet data = measure(truth, 12, 0.0, 5, false);
   data.anchors_m = {{2, 0, -1}, {0, 2, -1}, {-2, -1, -1}};
@@ -83,7 +85,7 @@ TEST(JointTargets, OfDistancesAgreeWithWhatWasMeasured) {
   }
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   const CorrectedRobot nominal = nominal_robot(data);
-  const JointTargets targets = joint_targets(data, poses, nominal);
+  const JointTargets targets = joint_targets(data, poses, nominal, kExactTargets);
   for (std::size_t row = 0; row < poses.size(); ++row) {
     const MeasuredPose& pose = data.poses[poses[row]];
     const Eigen::Vector3d reached = nominal.predict(pose.joints + targets.error[row], "").translation();

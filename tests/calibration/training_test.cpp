@@ -13,7 +13,7 @@ namespace {
 JointTargets some_targets(double size) {
   const DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, size, 6, true);
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
-  return joint_targets(data, poses, nominal_robot(data));
+  return joint_targets(data, poses, nominal_robot(data), kExactTargets);
 }
 
 TEST(Training, TargetsTimesScaleAreTheJointErrors) {
@@ -51,7 +51,8 @@ TEST(Training, ScaleIsARoundNumberWithinAFactorOfTheMeanTarget) {
 TEST(Training, AJointThatStandsStillGetsNoTable) {
   DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, 1e-4, 7, false);
   for (MeasuredPose& pose : data.poses) pose.joints[3] = 0.7;
-  const JointTargets targets = joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data));
+  const JointTargets targets =
+      joint_targets(data, poses_of(data, PoseSet::calibration), nominal_robot(data), kExactTargets);
   for (const JointTraining& training : training_tables(puma(), targets)) EXPECT_NE(training.joint, 3U);
 }
 

@@ -83,6 +83,8 @@ TEST(LoadJob, ReadsEveryKey) {
   EXPECT_EQ(job.distal.form, DistalForm::sequential);
   EXPECT_EQ(job.distal.rounds, 3);
   EXPECT_EQ(job.distal.amplitudes, Amplitudes::fitted);
+  EXPECT_EQ(job.targets.kind, TargetKind::posterior);
+  EXPECT_DOUBLE_EQ(job.targets.joint_error_rad, 2.5e-3);
   EXPECT_TRUE(job.declared.registration && job.declared.geometry && job.declared.joint_corrections);
   EXPECT_FALSE(job.declared.tool || job.declared.joint_offset);
   EXPECT_EQ(job.gp.population_size, 120);
@@ -206,6 +208,14 @@ TEST(LoadJob, KeepsDefaultsForWhatIsLeftOut) {
   EXPECT_EQ(job.declared.registration, defaults.declared.registration);
   EXPECT_TRUE(job.closed_loop.candidates.empty());
   EXPECT_EQ(job.closed_loop.max_effects, 100);
+  EXPECT_EQ(job.targets.kind, TargetKind::posterior);
+  EXPECT_EQ(job.targets.joint_error_rad, 1e-3);
+}
+
+TEST(LoadJob, TakesTargetsAsTheThesisDidWhereAsked) {
+  const Samples samples;
+  const char* const kText = "demecal_job: 1\ndata: d.yaml\ntargets: exact\n";
+  EXPECT_EQ(load_job(samples.folder.write("exact.yaml", kText)).targets.kind, TargetKind::exact);
 }
 
 TEST(LoadScenario, ReadsWhereAndHowIsMeasured) {

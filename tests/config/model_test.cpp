@@ -116,19 +116,29 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   model.robot.effects = {{.kind = "backlash", .joint = 1, .values = {1e-4}}};
   EXPECT_FALSE(written_and_read(model).posterior);
   EXPECT_TRUE(written_and_read(model).measured.empty());
+  EXPECT_FALSE(written_and_read(model).interval);
   Posterior posterior;
   posterior.ids = effect_parameters(model.robot);
   posterior.ids.push_back({.kind = ParameterId::Kind::link, .index = 3, .link = LinkParameter::beta});
   posterior.ids.push_back({.kind = ParameterId::Kind::tool_rotation, .index = 2, .target = "B"});
   posterior.terms = {{1, {wave(1.0, 2.0, 0.3), {}, {-0.5, 0.75}}}};
-  posterior.factor = Eigen::MatrixXd::Zero(4, 4);
-  for (Eigen::Index row = 0; row < 4; ++row) {
+  posterior.ids.push_back({.kind = ParameterId::Kind::base_rotation, .index = 1});
+  posterior.factor = Eigen::MatrixXd::Zero(5, 5);
+  for (Eigen::Index row = 0; row < 5; ++row) {
     for (Eigen::Index column = 0; column <= row; ++column) posterior.factor(row, column) = stream.normal() * 1e-4;
   }
   model.posterior = posterior;
+  model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true};
   for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
   const CalibratedModel read = written_and_read(model);
-  ASSERT_TRUE(read.posterior);
+  ASSERT_TRUE(read.posterior && read.interval);
+  EXPECT_EQ(read.interval->quantile, 1.75);
+  EXPECT_DOUBLE_EQ(read.interval->noise_m, 3e-5);
+  EXPECT_DOUBLE_EQ(read.interval->distance_noise_m, 2e-5);
+  EXPECT_DOUBLE_EQ(read.interval->model_error_m, 1.25e-4);
+  EXPECT_EQ(read.interval->poses, 30U);
+  EXPECT_EQ(read.interval->gross_errors, 2U);
+  EXPECT_TRUE(read.interval->fitted);
   EXPECT_EQ(read.posterior->ids, posterior.ids);
   ASSERT_EQ(read.posterior->terms.size(), 1u);
   EXPECT_EQ(read.posterior->terms[0].joint, 1);

@@ -81,6 +81,8 @@ closed_loop:
   highest_ratio: 90
   ratios: [161, 211.5]
 distal: {form: sequential, rounds: 3, amplitudes: fitted}
+targets: posterior
+joint_error_mrad: 2.5
 )yaml";
 
 inline const std::string kScenarioText = R"yaml(# the arm of two joints, simulated

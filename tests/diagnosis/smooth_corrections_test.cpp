@@ -45,8 +45,8 @@ TEST(SmoothCorrections, HaveATermForEveryThirdValueAtMostTheSlowOnesFirst) {
   std::vector<std::pair<int, int>> of_first;
   for (const SmoothTerm& term : smooth.terms)
     if (term.joint == 0) of_first.emplace_back(term.harmonic, term.harmonic > 0 ? 0 : term.family);
-  EXPECT_THAT(of_first, ::testing::UnorderedElementsAre(std::pair(0, 1), std::pair(0, 2), std::pair(1, 0),
-                                                        std::pair(1, 0)));
+  EXPECT_THAT(of_first,
+              ::testing::UnorderedElementsAre(std::pair(0, 1), std::pair(0, 2), std::pair(1, 0), std::pair(1, 0)));
 }
 
 TEST(SmoothCorrections, TermsAreOfSizeOneWithinTheRange) {

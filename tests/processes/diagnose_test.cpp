@@ -43,7 +43,18 @@ bool names_the_backlash(const Json& report) {
 void expect_evaluate_to_agree(const SmallJob& job, const std::string& out) {
   const Ended ended = run("demecal", {"evaluate", job.path(out + "/model.yaml"), job.data(), "--json"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_EQ(Json::parse(ended.out)["error_mm"], report_of(job, out)["error_mm"]["after"]);
+  const Json evaluated = Json::parse(ended.out), report = report_of(job, out);
+  EXPECT_EQ(evaluated["error_mm"], report["error_mm"]["after"]);
+  const Json &poses = evaluated["pose_errors"], &reported = report["pose_errors"];
+  ASSERT_EQ(poses.size(), reported.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i]["id"], reported[i]["id"]);
+    EXPECT_EQ(poses[i]["set"], reported[i]["set"]);
+    EXPECT_EQ(poses[i]["after_mm"], reported[i]["after_mm"]);
+    ASSERT_TRUE(reported[i]["interval95_mm"].is_number());
+    const double radius_mm = reported[i]["interval95_mm"];
+    EXPECT_NEAR(poses[i]["interval95_mm"], radius_mm, 1e-4 * radius_mm);  // a model's covariance has six digits
+  }
 }
 
 TEST(Diagnose, NamesUndeclaredBacklash) {

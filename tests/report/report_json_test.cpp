@@ -108,6 +108,22 @@ TEST(ReportJson, WritesParametersInTheUnitsTheirNamesSay) {
   }
 }
 
+TEST(ReportJson, HasAnIntervalOfEveryPoseAndSaysWhereItComesFrom) {
+  CalibrationReport report = made_up_report();
+  report.pose_errors = {{"P1", "", "calibration", 0.5, 0.1, 0.3, {"outlier"}}, {"P2", "B", "accept", 0.6, 0.2, 0.4}};
+  report.interval = PredictionInterval{.quantile = 1.7, .noise_m = 5e-5, .poses = 12, .fitted = true};
+  const json written = json::parse(to_json(report));
+  ASSERT_EQ(written["pose_errors"].size(), 2u);
+  EXPECT_EQ(written["pose_errors"][0]["flags"], json{"outlier"});
+  const json accept = {{"id", "P2"},      {"target", "B"},        {"set", "accept"},       {"before_mm", 0.6},
+                       {"after_mm", 0.2}, {"interval95_mm", 0.4}, {"flags", json::array()}};
+  EXPECT_EQ(written["pose_errors"][1], accept);
+  const std::string remark = written["prediction_interval"]["remark"];
+  EXPECT_NE(remark.find("no validation poses"), std::string::npos) << remark;
+  EXPECT_NE(remark.find("normal errors are assumed"), std::string::npos) << remark;
+  EXPECT_EQ(written["prediction_interval"]["told_by"], "calibration");
+}
+
 TEST(ReportJson, WritesNullForFiguresThatDoNotExist) {
   CalibrationReport report = made_up_report();
   report.noise_floor_mm.reset();

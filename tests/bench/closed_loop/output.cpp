@@ -13,6 +13,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void write_bounds(std::ostream& out, const Summary& row) {
+  if (row.kind == kClean || row.kind == "single") {
+    const std::string name = row.kind + ": accept poses within their 95 %";
+    write_bound(out, name.c_str(), share(row.within, row.accept), ">=", 0.93);
+    write_bound(out, name.c_str(), share(row.within, row.accept), "<=", 0.97);
+  }
   if (row.kind == kClean) {
     write_bound(out, "clean: share with an effect added", share(row.cases - row.named, row.cases), {.at_most = 0.05});
   } else if (row.kind == kPair) {
@@ -93,7 +98,9 @@ void write_json(std::ostream& out, const std::vector<Summary>& rows) {
                        {"named_cases", row.named},
                        {"in_class_cases", row.in_class},
                        {"cases_with_false_additions", row.with_false},
-                       {"false_additions", row.false_additions}};
+                       {"false_additions", row.false_additions},
+                       {"accept_poses", row.accept},
+                       {"accept_within_interval95", share(row.within, row.accept)}};
     out << line.dump() << '\n';
   }
 }

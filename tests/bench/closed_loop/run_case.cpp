@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "calibration/prediction_scores.hpp"
 #include "diagnosis/final_fit.hpp"
 #include "diagnosis/loop.hpp"
 #include "draw_truth.hpp"
@@ -23,6 +24,19 @@ LoopResult closed(const DataSet& data, const CasePlan& plan) {
   return close_loop(data, declared, start, options);
 }
 
+/// How many accept poses lie within the radii of the model, told while the validation poses were unseen.
+void count_within(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& unseen,
+                  const CorrectedRobot& model, LoopFigures& figures) {
+  const PredictionInterval interval =
+      prediction_interval(data, fitted_posterior(data, declared, unseen, poses_of(data, PoseSet::calibration)), unseen);
+  const Posterior posterior = fitted_posterior(data, declared, model, poses_of_last_fit(data)).posterior;
+  for (const std::size_t pose : poses_of(data, PoseSet::accept)) {
+    const double radius_m = radius95_m(interval, posterior, model, data, data.poses[pose]);
+    figures.within += tool_error_m(model, data, data.poses[pose]) <= radius_m ? 1 : 0;
+    ++figures.accept;
+  }
+}
+
 /// The loop run on a scenario and judged; what it ended with goes to `result`.
 LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::vector<Effect>& truths,
                    LoopResult& result) {
@@ -38,6 +52,7 @@ LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::ve
                        after = final_fit(data, declared, result.model);
   figures.before_over_floor = error_figures(before.robot, data, accept).rms_mm / floor_mm;
   figures.after_over_floor = error_figures(after.robot, data, accept).rms_mm / floor_mm;
+  count_within(data, declared, result.model.robot, after.robot, figures);
   figures.final_effects = result.model.robot.effects;
   figures.rounds = result.outcome.rounds;
   figures.score =

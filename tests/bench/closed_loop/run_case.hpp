@@ -13,6 +13,7 @@ struct LoopFigures {
   Score score;
   double before_over_floor = 0.0;  ///< rms of the accept poses over that of their noise, before the loop
   double after_over_floor = 0.0;
+  int accept = 0, within = 0;  ///< accept poses, and those within the radius that is to hold 95 % of them
   std::vector<Round> rounds;
   std::vector<Effect> final_effects;
   double seconds = 0.0;

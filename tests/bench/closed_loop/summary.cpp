@@ -15,6 +15,8 @@ void Summary::take(const LoopFigures& figures, const LoopFigures& clean) {
   in_class += score.in_class ? 1 : 0;
   with_false += score.false_additions > 0 ? 1 : 0;
   false_additions += score.false_additions;
+  accept += figures.accept;
+  within += figures.within;
   before_over_floor.push_back(figures.before_over_floor);
   after_over_floor.push_back(figures.after_over_floor);
   after_over_clean.push_back(figures.after_over_floor / clean.before_over_floor);
@@ -28,6 +30,8 @@ void Summary::take(const Summary& other) {
   in_class += other.in_class;
   with_false += other.with_false;
   false_additions += other.false_additions;
+  accept += other.accept;
+  within += other.within;
   before_over_floor.insert(before_over_floor.end(), other.before_over_floor.begin(), other.before_over_floor.end());
   after_over_floor.insert(after_over_floor.end(), other.after_over_floor.begin(), other.after_over_floor.end());
   after_over_clean.insert(after_over_clean.end(), other.after_over_clean.begin(), other.after_over_clean.end());

@@ -17,6 +17,7 @@ struct Summary {
   int in_class = 0;        ///< of all
   int with_false = 0;      ///< cases with an effect added that is not true
   int false_additions = 0;
+  int accept = 0, within = 0;  ///< accept poses, and those within the radius that is to hold 95 % of them
   std::vector<double> before_over_floor{}, after_over_floor{};  ///< one a case
   std::vector<double> after_over_clean{};  ///< the error after over that of the twin which lacks nothing
 
