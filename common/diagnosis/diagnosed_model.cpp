@@ -95,8 +95,7 @@ void append(ModelColumns& columns, const SharedErrors& shared) {
 /// The share that weighed squares of normal rows have of their weights: those of far poses count less.
 double share_of_weighed_squares(double rows) {
   const double u = 1.0 / std::pow(rejection_norm(static_cast<int>(rows)), 2);
-  return (1.0 - 2.0 * u * (rows + 2.0) + u * u * (rows + 2.0) * (rows + 4.0)) /
-         (1.0 - 2.0 * u * rows + u * u * rows * (rows + 2.0));
+  return (1.0 - 2.0 * u * (rows + 2.0) + u * u * (rows + 2.0) * (rows + 4.0)) / usual_weight(static_cast<int>(rows));
 }
 
 /// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
@@ -122,18 +121,6 @@ RowScales scales_of(const DiagnosisData& of, const Linearised& at, const RowScal
     scales[kind] = std::max(kSmallestScale, present[kind] * std::sqrt(share));
   }
   return scales;
-}
-
-/// `after` in its own proportions, as large as `before`.
-RowScales with_common_scale_of(const RowScales& before, RowScales after) {
-  double logs = 0.0, kinds = 0.0;
-  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-    if (before[kind] <= 0.0) continue;
-    logs += std::log(after[kind] / before[kind]);
-    kinds += 1.0;
-  }
-  for (double& scale : after) scale *= std::exp(-logs / std::max(kinds, 1.0));
-  return after;
 }
 
 bool settled(const RowScales& before, const RowScales& after) {
@@ -213,8 +200,7 @@ DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps)
     model.robot.corrections = model.smooth.corrections();
     set_standard_errors(model.robot, at);
     const RowScales before = model.scales;
-    model.scales = scales_of(of, at, model.scales);
-    if (model.noise_estimated) model.scales = with_common_scale_of(before, model.scales);
+    if (!model.noise_estimated) model.scales = scales_of(of, at, model.scales);
     const double gained = (at.fitted.residual - at.errors).squaredNorm();
     if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(at.fitted.rows())) break;
   }

@@ -18,7 +18,7 @@ struct DiagnosedModel {
   SmoothCorrections smooth;
   RowScales scales{};
   NoiseModel noise{};            ///< beyond independent noise of these scales
-  bool noise_estimated = false;  ///< together with the scales, of which only the proportions change then
+  bool noise_estimated = false;  ///< together with the scales, which then stay as they are
   Eigen::VectorXd precision{};   ///< of the smooth terms, where they are to stay as they were chosen; else empty
 };
 

@@ -97,6 +97,13 @@ void ClosedLoop::make_candidates(const Linearised& at) {
 void ClosedLoop::estimate_noise() {
   constexpr int kRounds = 2;
   if (!options_.noise) return;
+  const bool several_kinds = std::ranges::count_if(model_.scales, [](double scale) { return scale > 0.0; }) > 1;
+  if (group_ > 0 && several_kinds) {
+    // An effect that was missing may have shown in one kind of rows more than in another.
+    model_.noise = {};
+    model_.noise_estimated = false;
+    model_ = refined(of_, std::move(model_), kStepsAgain);
+  }
   for (int round = 0; round < kRounds - (group_ > 0); ++round) {
     model_ = with_noise_estimated(of_, std::move(model_));
     model_ = refined(of_, std::move(model_), kStepsAgain);

@@ -72,6 +72,14 @@ Eigen::VectorXd at_rest(const RowMatrix& columns, const std::vector<Eigen::Index
   return columns * numbers;
 }
 
+/// Whether an arm and an instrument may be as noisy: else what the model lacks is taken for noise.
+bool is_noise(const NoiseEstimate& noise, const RowScales& scales) {
+  constexpr double kWorstJoint_rad = 1e-3, kWorstShared_m = 5e-3;
+  const double unit_m = noise.scale * std::max(scales[kPosition], scales[kDistance]);
+  return noise.model.joint_rad <= kWorstJoint_rad &&
+         unit_m * std::max(noise.model.repeats, noise.model.order) <= kWorstShared_m;
+}
+
 }  // namespace
 
 DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {
@@ -97,6 +105,7 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
     rows.order.push_back(static_cast<double>(at.fitted.poses[pose]));
   }
   const NoiseEstimate noise = estimate_noise(rows);
+  if (!is_noise(noise, model.scales)) return model;
   model.noise = noise.model;
   std::vector<std::size_t> places = of.fitted;
   places.insert(places.end(), of.judging.begin(), of.judging.end());

@@ -39,6 +39,7 @@ class RestrictedLikelihood {
  public:
   RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses);
 
+  Eigen::Index freedom() const { return freedom_; }
   enum Component { joints, repeats, order };
   bool has(Component component) const { return covariance_[component].size() > 0; }
   double minus_twice_log(const std::array<double, 3>& variances) const;
@@ -55,7 +56,7 @@ class RestrictedLikelihood {
   Eigen::MatrixXd covariance(const std::array<double, 3>& variances) const;
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> model_;
-  Eigen::Index rows_ = 0, freedom_ = 0;
+  Eigen::Index rows_ = 0, rank_ = 0, freedom_ = 0;
   Eigen::VectorXd left_;
   std::array<Eigen::MatrixXd, 3> covariance_;
   std::vector<Eigen::Index> first_row_;
@@ -74,10 +75,13 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   first_row_.push_back(rows_);
   const Eigen::MatrixXd model = rows.columns(taken, Eigen::all);
   const Eigen::VectorXd values = rows.residual(taken);
-  const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
-  model_.setThreshold(1e-9);
-  model_.compute(model * norms.cwiseInverse().asDiagonal());
-  freedom_ = rows_ - model_.rank();
+  if (model.cols() > 0) {
+    const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
+    model_.setThreshold(1e-9);
+    model_.compute(model * norms.cwiseInverse().asDiagonal());
+    rank_ = model_.rank();
+  }
+  freedom_ = rows_ - rank_;
   left_ = beyond_model(values);
   const Eigen::Index joints_count = rows.joint_motions.cols();
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(rows_, joints_count * std::ssize(poses));
@@ -109,7 +113,7 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   // What is left of the rows themselves tells whether neighbours in order are alike, before anything is estimated.
   Eigen::VectorXd padded = Eigen::VectorXd::Zero(rows_);
   padded.tail(freedom_) = left_;
-  padded.applyOnTheLeft(model_.householderQ());
+  if (rank_ > 0) padded.applyOnTheLeft(model_.householderQ());
   double products = 0.0, squares = 0.0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Eigen::Index count = std::min(first_row_[i + 1] - first_row_[i], first_row_[i] - first_row_[i - 1]);
@@ -123,7 +127,7 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
 /// What of columns the model cannot follow: freedom x columns.
 Eigen::MatrixXd RestrictedLikelihood::beyond_model(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd turned = columns;
-  turned.applyOnTheLeft(model_.householderQ().adjoint());
+  if (rank_ > 0) turned.applyOnTheLeft(model_.householderQ().adjoint());
   return turned.bottomRows(freedom_);
 }
 
@@ -256,8 +260,8 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
   constexpr Eigen::Index kFewest = 12;  ///< degrees of freedom below which nothing can be told
   constexpr double kInOrder = 1.0;      ///< lag-one products, in their own scatter, that are worth a closer look
   const std::vector<std::size_t> poses = taking_part(rows);
-  if (std::ssize(poses) * 3 < kFewest) return {};
   RestrictedLikelihood likelihood(rows, poses);
+  if (likelihood.freedom() < kFewest) return {};
   Components components(likelihood);
   components.estimate(RestrictedLikelihood::joints, kLikelier);
   if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);

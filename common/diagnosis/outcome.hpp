@@ -68,8 +68,8 @@ struct Unseen {
 struct Decoy {
   std::string name;             ///< "backlash of joint 2 by shuffled approach signs"
   double best_fall_nats = 0.0;  ///< over all groups
-  double p_left = 1.0;  ///< how often noise alone explains as much as it does once nothing real is added any more
   bool won = false;
+  double p_left = 1.0;  ///< how often noise alone explains as much as it does once nothing real is added any more
 };
 
 enum class StopReason { not_run, no_structure, no_gain, max_effects, decoy };

@@ -105,6 +105,11 @@ double rejection_norm(int rows) {
   return std::sqrt(18.0 + 4.0 * rows);
 }
 
+double usual_weight(int rows) {
+  const double u = 1.0 / std::pow(rejection_norm(rows), 2);
+  return 1.0 - 2.0 * u * rows + u * u * rows * (rows + 2.0);
+}
+
 std::size_t distinct_poses(const ResidualField& field) {
   return std::set<std::size_t>(field.group.begin(), field.group.end()).size();
 }

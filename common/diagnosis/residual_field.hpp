@@ -54,6 +54,9 @@ inline Eigen::Index motion_column(int place, int axis) {
 /// The norm of a pose with `rows` rows of unit variance at and beyond which it has no weight.
 double rejection_norm(int rows);
 
+/// The weight that a pose of normal noise has on average.
+double usual_weight(int rows);
+
 /// How many poses of a field are not repeats of others.
 std::size_t distinct_poses(const ResidualField& field);
 

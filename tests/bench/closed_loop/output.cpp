@@ -15,8 +15,7 @@ using Json = nlohmann::ordered_json;
 void write_bounds(std::ostream& out, const Summary& row) {
   if (row.kind == kClean || row.kind == "single") {
     const std::string name = row.kind + ": accept poses within their 95 %";
-    write_bound(out, name.c_str(), share(row.within, row.accept), ">=", 0.93);
-    write_bound(out, name.c_str(), share(row.within, row.accept), "<=", 0.97);
+    write_bound(out, name, share(row.within, row.accept), {.at_least = 0.93, .at_most = 0.97});
   }
   if (row.kind == kClean) {
     write_bound(out, "clean: share with an effect added", share(row.cases - row.named, row.cases), {.at_most = 0.05});
