@@ -79,6 +79,14 @@ std::size_t distinct_values(std::vector<double> angles) {
   return count;
 }
 
+/// Terms that so many values of a joint can hold: one for every third, and a wave with its slope wherever they show
+/// one.
+std::size_t most_terms(const std::vector<double>& angles) {
+  constexpr std::size_t kValuesPerTerm = 3, kWaveAndSlope = 4;
+  const std::size_t values = distinct_values(angles);
+  return std::max(values / kValuesPerTerm, std::min(kWaveAndSlope, values - 1));
+}
+
 /// How far most of the values spread: from their 5 % to their 95 % quantile.
 double usual_range(std::vector<double> angles) {
   std::ranges::sort(angles);
@@ -196,9 +204,7 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
     if (lower == angles.end()) continue;
     smooth.ranges[at] = {*lower, *upper};
     const bool moves = link.type == JointType::revolute && usual_range(angles) > kLeastMotion_rad;
-    constexpr std::size_t kValuesPerTerm = 3;
-    if (declared && moves)
-      add_terms(smooth, joint, smooth.ranges[at], offset_declared, distinct_values(angles) / kValuesPerTerm);
+    if (declared && moves) add_terms(smooth, joint, smooth.ranges[at], offset_declared, most_terms(angles));
   }
   smooth.coefficients.setZero(static_cast<Eigen::Index>(smooth.terms.size()));
   return smooth;

@@ -35,8 +35,8 @@ struct SmoothCorrections {
 };
 
 /// Terms for the joints of `robot` over the commanded joints of `poses`, coefficients zero; its corrections are the
-/// base. Joints that most poses find within 3 deg get no terms, others at most one for every third value.
-/// `declared` false: no terms at all; `offset_declared`: no constant ones.
+/// base. Joints that most poses find within 3 deg get no terms, others at most one for every third value, or four,
+/// fewer than values. `declared` false: no terms at all; `offset_declared`: no constant ones.
 SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::size_t> poses,
                                      const CorrectedRobot& robot, bool declared, bool offset_declared = false);
 
