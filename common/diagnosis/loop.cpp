@@ -18,6 +18,8 @@ namespace {
 constexpr int kSteps = 12;      ///< of Gauss and Newton, from the declared fit
 constexpr int kStepsAgain = 3;  ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
+/// Of more poses the many small errors that no model has are larger than what noise has in common, and taken for it.
+constexpr std::size_t kMostPosesForNoise = 400;
 constexpr double kOutlier = 0.05;                    ///< root of a pose's weight below which it counts as far out
 constexpr std::size_t kMostPosesForFormulas = 5000;  ///< thousands of formulas over more take minutes
 
@@ -96,7 +98,7 @@ void ClosedLoop::make_candidates(const Linearised& at) {
 /// How measurements scatter, and the model's numbers by that; twice, since either depends on the other.
 void ClosedLoop::estimate_noise() {
   constexpr int kRounds = 2;
-  if (!options_.noise) return;
+  if (!options_.noise || of_.fitted.size() > kMostPosesForNoise) return;
   const bool several_kinds = std::ranges::count_if(model_.scales, [](double scale) { return scale > 0.0; }) > 1;
   if (group_ > 0 && several_kinds) {
     // An effect that was missing may have shown in one kind of rows more than in another.

@@ -27,7 +27,7 @@ struct LoopOptions {
   std::vector<double> evolved_luck{};  ///< best falls (nats, ascending) of the same evolution on permuted residuals:
                                        ///< what `evolved` candidates are held against; empty: as all others are
   bool decoys = true;
-  bool noise = true;  ///< how measurements scatter together is estimated; else poses are taken to be independent
+  bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
   std::uint64_t seed = 1;
 };
 
