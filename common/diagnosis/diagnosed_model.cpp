@@ -92,25 +92,17 @@ void append(ModelColumns& columns, const SharedErrors& shared) {
   columns.offset.tail(more).setZero();
 }
 
-/// The share that weighed squares of normal rows have of their weights: those of far poses count less.
-double share_of_weighed_squares(double rows) {
-  const double u = 1.0 / std::pow(rejection_norm(static_cast<int>(rows)), 2);
-  return (1.0 - 2.0 * u * (rows + 2.0) + u * u * (rows + 2.0) * (rows + 4.0)) / usual_weight(static_cast<int>(rows));
-}
-
 /// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
 RowScales scales_of(const DiagnosisData& of, const Linearised& at, const RowScales& present) {
   RowScales squares{}, freedom{};
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     const RowCounts count = count_rows(of.data.poses[at.fitted.poses[i]]);
     Eigen::Index row = at.fitted.first_row[i];
-    const double share = share_of_weighed_squares(static_cast<double>(at.fitted.rows_of_pose(i)));
     for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
       if (present[kind] <= 0) continue;
       for (int k = 0; k < count[kind]; ++k, ++row) {
         squares[kind] += std::pow(at.projection.left()[row], 2);
-        const double free = std::pow(at.fitted.root_weight[i], 2) - at.projection.basis().row(row).squaredNorm();
-        freedom[kind] += share * free;
+        freedom[kind] += std::pow(at.fitted.root_weight[i], 2) - at.projection.basis().row(row).squaredNorm();
       }
     }
   }

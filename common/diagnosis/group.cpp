@@ -221,6 +221,8 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
     Projection::Trial trial;
     Round round = judge(*index, trial);
     out_[*index] = true;
+    // Beside effects just added the noise is not yet what it will be: the next group judges decoys again.
+    if (candidates_[*index].disguise != Disguise::none && added > 0) break;
     if (candidates_[*index].disguise != Disguise::none && round.p_family <= rules_.family_error) {
       outcome_.winning_decoy = decoy_name(candidates_[*index]);
       round.verdict = Verdict::rejected;

@@ -114,15 +114,7 @@ DataSet Knowledge::predicted(std::vector<MeasuredPose> stops) const {
 ResidualField Knowledge::field(const DataSet& predicted) const {
   std::vector<std::size_t> poses(predicted.poses.size());
   std::iota(poses.begin(), poses.end(), 0);
-  ResidualField field =
-      residual_field(predicted, poses, ParameterSpace(model_.robot, at_.ids), model_.scales, false, model_.noise);
-  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
-    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-    const double root_weight = std::sqrt(usual_weight(static_cast<int>(count)));
-    field.declared.middleRows(first, count) *= root_weight;
-    field.motions.middleRows(first, count) *= root_weight;
-  }
-  return field;
+  return residual_field(predicted, poses, ParameterSpace(model_.robot, at_.ids), model_.scales, false, model_.noise);
 }
 
 RowMatrix Knowledge::model_columns(const ResidualField& field) const {

@@ -1,9 +1,12 @@
 #include "diagnosis/residual_field.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+
+#include "fitting/least_squares.hpp"
 
 namespace demecal {
 namespace {
@@ -27,9 +30,11 @@ Twists place_twists(const std::vector<Eigen::Isometry3d>& places, const Eigen::I
   return twists;
 }
 
-double root_bisquare_weight(double norm, int rows) {
-  const double share = norm / rejection_norm(rows);
-  return share < 1.0 ? 1.0 - share * share : 0.0;
+/// The root of Huber's weight, tapered to nothing over the outer half of the way to rejection.
+double root_weight_of(double norm, int rows) {
+  const double huber = norm > huber_threshold(rows) ? std::sqrt(huber_threshold(rows) / norm) : 1.0;
+  const double outer = std::max(0.0, 2.0 * norm / rejection_norm(rows) - 1.0);
+  return outer < 1.0 ? huber * (1.0 - outer * outer) : 0.0;
 }
 
 /// The root of the covariance that a pose's rows have by themselves.
@@ -100,14 +105,9 @@ RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
   return both;
 }
 
-// The squares of these norms grow by nearly 4 a row from the usual 4.685 of one row; 95 % efficient for 1 to 6 rows.
 double rejection_norm(int rows) {
-  return std::sqrt(18.0 + 4.0 * rows);
-}
-
-double usual_weight(int rows) {
-  const double u = 1.0 / std::pow(rejection_norm(rows), 2);
-  return 1.0 - 2.0 * u * rows + u * u * rows * (rows + 2.0);
+  constexpr double kHuberThresholds = 4.0;
+  return kHuberThresholds * huber_threshold(rows);
 }
 
 std::size_t distinct_poses(const ResidualField& field) {
@@ -155,7 +155,7 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
       in_deviations = whole.llt().matrixL().solve(rows.residual);
     }
     const double norm = in_deviations.norm();
-    const double weight = robust ? root_bisquare_weight(norm, static_cast<int>(count)) : 1.0;
+    const double weight = robust ? root_weight_of(norm, static_cast<int>(count)) : 1.0;
     field.residual.segment(first, count) *= weight;
     field.declared.middleRows(first, count) *= weight;
     field.motions.middleRows(first, count) *= weight;

@@ -27,8 +27,9 @@ struct NoiseModel {
 };
 
 /// Rows are in units of what their kind scatters; those of one pose are made independent of unit variance where joints
-/// scatter too, and those of poses far out are scaled down by the root of their weight (Tukey's bisquare of the pose's
-/// norm, 95 % efficient). A model change `c` changes the residual to residual - columns * c.
+/// scatter too, and those of poses far out are scaled down by the root of their weight (Huber's by
+/// the pose's norm, none at all beyond rejection_norm). A model change `c` changes the residual to residual - columns *
+/// c.
 struct ResidualField {
   std::vector<std::size_t> poses;       ///< in the data set
   std::vector<std::size_t> group;       ///< per pose: the first of `poses` that has its id and target
@@ -53,9 +54,6 @@ inline Eigen::Index motion_column(int place, int axis) {
 
 /// The norm of a pose with `rows` rows of unit variance at and beyond which it has no weight.
 double rejection_norm(int rows);
-
-/// The weight that a pose of normal noise has on average.
-double usual_weight(int rows);
 
 /// How many poses of a field are not repeats of others.
 std::size_t distinct_poses(const ResidualField& field);

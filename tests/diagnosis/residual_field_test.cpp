@@ -133,8 +133,7 @@ TEST(ResidualField, WeighsPosesFarOutDownAndNoOthers) {
   for (std::size_t i = 0; i < plain.poses.size(); ++i) {
     const Eigen::Index first = plain.first_row[i], count = plain.rows_of_pose(i);
     const double norm = plain.residual.segment(first, count).norm();
-    const double share = norm / rejection_norm(static_cast<int>(count));
-    const double expected = share < 1.0 ? 1.0 - share * share : 0.0;
+    const double expected = i == 1 ? 0.0 : 1.0;
     EXPECT_DOUBLE_EQ(plain.root_weight[i], 1.0);
     EXPECT_DOUBLE_EQ(robust.root_weight[i], expected);
     EXPECT_TRUE(robust.residual.segment(first, count).isApprox(expected * plain.residual.segment(first, count)));
@@ -144,21 +143,21 @@ TEST(ResidualField, WeighsPosesFarOutDownAndNoOthers) {
   EXPECT_EQ(robust.root_weight[1], 0.0);
 }
 
-TEST(ResidualField, TheBisquareIsNinetyFivePercentEfficient) {
+TEST(ResidualField, WeightsFallSteadilyToNothing) {
   RandomStream stream{81, 7};
-  constexpr int kDraws = 200000;
-  for (const int rows : {1, 2, 3, 6}) {
-    // Of a location estimate: the squared mean slope of the weighed residual over its mean square.
-    double slope = 0.0, squares = 0.0;
-    for (int draw = 0; draw < kDraws; ++draw) {
-      double square = 0.0;
-      for (int row = 0; row < rows; ++row) square += std::pow(stream.normal(), 2);
-      const double share = square / std::pow(rejection_norm(rows), 2);
-      if (share >= 1.0) continue;
-      slope += std::pow(1.0 - share, 2) - 4.0 * share * (1.0 - share) / rows;
-      squares += std::pow(1.0 - share, 4) * square / rows;
-    }
-    EXPECT_NEAR(slope * slope / squares / kDraws, 0.95, 0.01) << rows;
+  KnownArm arm = arm_of(stream, laden_arm(stream, Arm::standard));
+  measure_anyhow(arm, stream, {.noise_m = 1e-9}, 1);
+  const Eigen::Vector3d at = *arm.data.poses[0].position_m;
+  const ParameterSpace space = space_of(arm, arm.truth, kPlacedAndZeroed);
+  double last = 1.0;
+  for (double norm = 0.0; norm < 2.0 * rejection_norm(3); norm += 0.1) {
+    arm.data.poses[0].position_m = at + Eigen::Vector3d(0, norm * kScales[kPosition], 0);
+    const ResidualField field = residual_field(arm.data, all_poses(arm.data), space, kScales, true);
+    const double weight = field.root_weight[0];
+    EXPECT_LE(weight, last + 1e-6);
+    if (norm < 0.98 * huber_threshold(3)) EXPECT_EQ(weight, 1.0);
+    if (norm > 1.02 * rejection_norm(3)) EXPECT_EQ(weight, 0.0);
+    last = weight;
   }
 }
 
