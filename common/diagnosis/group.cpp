@@ -18,7 +18,7 @@ constexpr double kSame = 0.995;         ///< cosine
 constexpr double kNatsToTell = 5.0;
 constexpr double kNatsAbout = 3.0;
 constexpr double kStable = 0.95;  ///< share of resamples that must agree with a sign
-constexpr double kEvident = 2.0;  ///< times the largest fall by luck: no need to permute again
+constexpr double kEvident = 2.0;  ///< times the largest fall by luck: no need to draw again
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();

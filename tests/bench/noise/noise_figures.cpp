@@ -40,8 +40,6 @@ double largest(const std::vector<double>& values) {
   return values.empty() ? std::numeric_limits<double>::quiet_NaN() : std::ranges::max(values);
 }
 
-// TODO(issue 15): the share of accept poses within their interval95, once the library states one.
-// TODO(issue 15): rms of learned joint targets about the true joint errors of the arm of seven joints, below 2 mrad.
 void take_false_effects(const Cases& cases, Taking& taking) {
   taking.add_share("cases with a false effect", [](const auto& one) { return one.false_effects > 0; },
                    {.at_most = 0.05});
