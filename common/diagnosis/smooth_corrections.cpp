@@ -131,10 +131,10 @@ void prune(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, co
   for (std::size_t i = 0; i < taken; ++i) belief[unsure[i].second] = kGone;
 }
 
-/// MacKay's update of the terms' beliefs, each as if kAlike more terms of its family's mean square had been seen.
+/// MacKay's update of the terms' beliefs, each as if kShared more terms of its family's mean square had been seen.
 void update(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, const Eigen::VectorXd& known,
             const Eigen::VectorXd& mean, const Eigen::VectorXd& scale) {
-  constexpr double kAlike = 3.0;
+  constexpr double kShared = 3.0;
   const Eigen::VectorXd present = (belief.array() < kGone).cast<double>();
   const std::vector<double> determined = family_sums(families, known.cwiseProduct(present));
   const std::vector<double> squares = family_sums(families, mean.cwiseProduct(scale).cwiseAbs2().cwiseProduct(present));
@@ -142,8 +142,8 @@ void update(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, c
     if (present[i] == 0.0) continue;
     const auto family = static_cast<std::size_t>(families[static_cast<std::size_t>(i)]);
     const double usual = squares[family] / std::max(determined[family], 1e-12) / (scale[i] * scale[i]);
-    const double square = std::max(mean[i] * mean[i] + kAlike * usual, 1e-30);
-    belief[i] = std::clamp((known[i] + kAlike) / square, 1e-10, kGone);
+    const double square = std::max(mean[i] * mean[i] + kShared * usual, 1e-30);
+    belief[i] = std::clamp((known[i] + kShared) / square, 1e-10, kGone);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <mutex>
 
 #include "calibrationPubSubTypes.h"
 #include "transport/wire_shape.hpp"
@@ -10,6 +11,7 @@ namespace demecal {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
 /// Sequences without a bound make the generated types claim megabytes, which every sample would then occupy: buffers
@@ -42,6 +44,13 @@ class Wary final : public Generated {
     return true;
   }
 
+  /// The generated types work a key out in a buffer of their own, which the threads that write and those that receive
+  /// share: a sample would at times take the key, and with it the place, of another.
+  bool getKey(void* data, InstanceHandle_t* handle, bool force_md5) override {
+    const std::lock_guard lock(mutex_);
+    return Generated::getKey(data, handle, force_md5);
+  }
+
  private:
   bool is_read(SerializedPayload_t* payload, void* data) {
     try {
@@ -50,6 +59,8 @@ class Wary final : public Generated {
       return false;
     }
   }
+
+  std::mutex mutex_;
 };
 
 template <class Generated>

@@ -10,15 +10,15 @@
 namespace demecal {
 namespace {
 
-using nlohmann::json;
+using Parsed = nlohmann::json;
 
-json written(const CalibrationReport& report) {
-  return json::parse(to_json(report));
+Parsed written(const CalibrationReport& report) {
+  return Parsed::parse(to_json(report));
 }
 
 TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
   const CalibrationReport report = made_up_looped_report(9);
-  const json rounds = written(report)["rounds"];
+  const Parsed rounds = written(report)["rounds"];
   ASSERT_EQ(rounds.size(), report.loop.rounds.size());
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     const Round& round = report.loop.rounds[i];
@@ -43,11 +43,11 @@ TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
 }
 
 TEST(LoopJson, NamesWhatAnEffectIsMadeOfAndItsRivals) {
-  const json rounds = written(made_up_looped_report())["rounds"];
-  const json& backlash = rounds[0];
-  EXPECT_EQ(backlash["effect"]["parameters"], json({{"width_rad", 4.12e-4}}));
-  EXPECT_EQ(backlash["effect"]["standard_errors"], json({{"width_rad", 1.3e-5}}));
-  EXPECT_EQ(backlash["interval"]["width_rad"], json({0.9 * 4.12e-4, 1.1 * 4.12e-4}));
+  const Parsed rounds = written(made_up_looped_report())["rounds"];
+  const Parsed& backlash = rounds[0];
+  EXPECT_EQ(backlash["effect"]["parameters"], Parsed({{"width_rad", 4.12e-4}}));
+  EXPECT_EQ(backlash["effect"]["standard_errors"], Parsed({{"width_rad", 1.3e-5}}));
+  EXPECT_EQ(backlash["interval"]["width_rad"], Parsed({0.9 * 4.12e-4, 1.1 * 4.12e-4}));
   EXPECT_EQ(backlash["rivals"][0]["kind"], "hysteresis");
   EXPECT_EQ(backlash["rivals"][0]["joint"], 2);
   EXPECT_EQ(backlash["rivals"][0]["cosine"], 0.931);
@@ -61,7 +61,7 @@ TEST(LoopJson, NamesWhatAnEffectIsMadeOfAndItsRivals) {
 
 TEST(LoopJson, HasWhatWasNotFoundNotSeenAndNotTrue) {
   const CalibrationReport report = made_up_looped_report();
-  const json json_report = written(report);
+  const Parsed json_report = written(report);
   ASSERT_EQ(json_report["not_found"].size(), report.loop.not_found.size());
   for (std::size_t i = 0; i < report.loop.not_found.size(); ++i) {
     const NotFound& missing = report.loop.not_found[i];
@@ -72,15 +72,15 @@ TEST(LoopJson, HasWhatWasNotFoundNotSeenAndNotTrue) {
   EXPECT_TRUE(json_report["not_found"].back().at("joint").is_null()) << "of the whole arm";
   EXPECT_EQ(json_report["not_found"][0].at("joint"), 1);
   ASSERT_EQ(json_report["unseen"].size(), report.loop.unseen.size());
-  EXPECT_EQ(json_report["unseen"][2], json({{"kind", "drift"}, {"reason", "no time column"}}));
+  EXPECT_EQ(json_report["unseen"][2], Parsed({{"kind", "drift"}, {"reason", "no time column"}}));
   ASSERT_EQ(json_report["decoys"].size(), report.loop.decoys.size());
   EXPECT_EQ(json_report["decoys"][0]["best_fall_nats"], 1.25);
   EXPECT_EQ(json_report["decoys"][0]["won"], false);
-  EXPECT_EQ(json_report["dropped"][0]["parameters"], json({{"ratio", 77.0}}));
+  EXPECT_EQ(json_report["dropped"][0]["parameters"], Parsed({{"ratio", 77.0}}));
 }
 
 TEST(LoopJson, HasTheTestsOfTheWholeModel) {
-  const json report = written(made_up_looped_report());
+  const Parsed report = written(made_up_looped_report());
   EXPECT_EQ(report["stopped"], "no_gain");
   EXPECT_EQ(report["lack_of_fit_p"], 0.0004);
   EXPECT_EQ(report["explained_share"], 0.873);
@@ -90,7 +90,7 @@ TEST(LoopJson, HasTheTestsOfTheWholeModel) {
 }
 
 TEST(LoopJson, SaysThatTheLoopDidNotRun) {
-  const json report = written(made_up_report());
+  const Parsed report = written(made_up_report());
   EXPECT_EQ(report["stopped"], "not_run");
   EXPECT_TRUE(report["rounds"].empty() && report["rounds"].is_array());
   EXPECT_TRUE(report["structure_left_p"].is_null());
@@ -106,12 +106,12 @@ TEST(LoopJson, WritesNullForNumbersThatDoNotExist) {
   report.loop.not_found[0].smallest_detectable = std::numeric_limits<double>::infinity();
   report.loop.decoys[0].best_fall_nats = none;
   report.loop.explained_share = none;
-  const json json_report = written(report);
+  const Parsed json_report = written(report);
   for (const char* const key : {"p_family", "gain_lower_mm2", "validation_after_mm"}) {
     EXPECT_TRUE(json_report["rounds"][0][key].is_null()) << key;
   }
   EXPECT_TRUE(json_report["rounds"][0]["rivals"][0]["cosine"].is_null());
-  EXPECT_EQ(json_report["rounds"][0]["interval"]["width_rad"], json({nullptr, nullptr}));
+  EXPECT_EQ(json_report["rounds"][0]["interval"]["width_rad"], Parsed({nullptr, nullptr}));
   EXPECT_TRUE(json_report["not_found"][0]["smallest_detectable"].is_null());
   EXPECT_TRUE(json_report["decoys"][0]["best_fall_nats"].is_null());
   EXPECT_TRUE(json_report["explained_share"].is_null());
@@ -120,7 +120,7 @@ TEST(LoopJson, WritesNullForNumbersThatDoNotExist) {
 TEST(LoopJson, HasARoundThatFoundNothing) {
   CalibrationReport report = made_up_looped_report();
   report.loop.rounds.push_back({});
-  const json round = written(report)["rounds"].back();
+  const Parsed round = written(report)["rounds"].back();
   EXPECT_EQ(round["verdict"], "none");
   EXPECT_EQ(round["effect"]["kind"], "");
   EXPECT_TRUE(round["effect"]["joint"].is_null());

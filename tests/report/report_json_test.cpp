@@ -12,9 +12,9 @@
 namespace demecal {
 namespace {
 
-using nlohmann::json;
+using Parsed = nlohmann::json;
 
-void expect_figures(const json& written, const ErrorFigures& figures) {
+void expect_figures(const Parsed& written, const ErrorFigures& figures) {
   EXPECT_EQ(written.at("mean"), figures.mean_mm);
   EXPECT_EQ(written.at("rms"), figures.rms_mm);
   EXPECT_EQ(written.at("p95"), figures.p95_mm);
@@ -22,7 +22,7 @@ void expect_figures(const json& written, const ErrorFigures& figures) {
 }
 
 TEST(ReportJson, HasEveryPromisedKeyAtTheTop) {
-  const json report = json::parse(to_json(made_up_report()));
+  const Parsed report = Parsed::parse(to_json(made_up_report()));
   for (const char* const key :
        {"demecal_report", "job", "robot", "method", "seed", "data_sha256", "version", "poses", "error_mm",
         "noise_floor_mm", "rounds", "not_found", "stopped", "performance_index_mm2", "joints", "runtime"}) {
@@ -34,18 +34,18 @@ TEST(ReportJson, HasEveryPromisedKeyAtTheTop) {
 }
 
 TEST(ReportJson, HasSharedFunctionsWhereTheyWereAskedFor) {
-  EXPECT_FALSE(json::parse(to_json(made_up_report())).contains("shared_functions"));
-  const json report = json::parse(to_json(made_up_sharing_report()));
+  EXPECT_FALSE(Parsed::parse(to_json(made_up_report())).contains("shared_functions"));
+  const Parsed report = Parsed::parse(to_json(made_up_sharing_report()));
   ASSERT_EQ(report["shared_functions"].size(), 2U);
   EXPECT_EQ(report["shared_functions"][0]["definition"], "F1(c1, c2, a1) = c1 * SIN(a1 + c2)");
-  EXPECT_EQ(report["shared_functions"][0]["joints"], (json{1, 3}));
-  EXPECT_EQ(report["shared_functions"][1]["joints"], json::array());
+  EXPECT_EQ(report["shared_functions"][0]["joints"], (Parsed{1, 3}));
+  EXPECT_EQ(report["shared_functions"][1]["joints"], Parsed::array());
   EXPECT_EQ(report["joints"][2]["with_functions"], "F1(0.00061, 1.4, 1.02 * theta)");
   EXPECT_FALSE(report["joints"][1].contains("with_functions"));
 }
 
 TEST(ReportJson, HasEveryPromisedKeyBelow) {
-  const json report = json::parse(to_json(made_up_report()));
+  const Parsed report = Parsed::parse(to_json(made_up_report()));
   for (const char* const key : {"calibration", "validation", "accept", "outliers"}) {
     EXPECT_TRUE(report["poses"].contains(key)) << key;
   }
@@ -61,7 +61,7 @@ TEST(ReportJson, HasEveryPromisedKeyBelow) {
     EXPECT_TRUE(report["runtime"].contains(key)) << key;
   }
   ASSERT_EQ(report["joints"].size(), 6u);
-  for (const json& joint : report["joints"]) {
+  for (const Parsed& joint : report["joints"]) {
     for (const char* const key : {"joint", "expression", "mean_abs_error_rad", "range_rad", "bound_rad"}) {
       EXPECT_TRUE(joint.contains(key)) << key;
     }
@@ -72,11 +72,11 @@ TEST(ReportJson, HasEveryPromisedKeyBelow) {
 
 TEST(ReportJson, ReadsBackToTheBit) {
   const CalibrationReport report = made_up_report();
-  const json written = json::parse(to_json(report));
+  const Parsed written = Parsed::parse(to_json(report));
   EXPECT_EQ(written["seed"], report.seed);
   EXPECT_EQ(written["robot"], report.robot);
   EXPECT_EQ(written["poses"]["calibration"], report.poses.calibration);
-  EXPECT_EQ(written["poses"]["outliers"], json(report.outliers));
+  EXPECT_EQ(written["poses"]["outliers"], Parsed(report.outliers));
   expect_figures(written["error_mm"]["nominal"]["calibration"], report.nominal.calibration);
   expect_figures(written["error_mm"]["registered"]["validation"], report.registered.validation);
   expect_figures(written["error_mm"]["declared"]["validation"], report.declared.validation);
@@ -86,18 +86,18 @@ TEST(ReportJson, ReadsBackToTheBit) {
   EXPECT_EQ(written["performance_index_mm2"]["after"], report.index_after_mm2);
   EXPECT_EQ(written["runtime"]["evaluations"], report.runtime.evaluations);
   for (std::size_t i = 0; i < report.joints.size(); ++i) {
-    const json& joint = written["joints"][i];
+    const Parsed& joint = written["joints"][i];
     EXPECT_EQ(joint["joint"], i + 1);
     EXPECT_EQ(joint["expression"], report.joints[i].expression);
     EXPECT_EQ(joint["mean_abs_error_rad"]["after"], report.joints[i].summary.after_rad);
-    EXPECT_EQ(joint["range_rad"], json({report.joints[i].range_rad.lower, report.joints[i].range_rad.upper}));
-    EXPECT_EQ(joint["discontinuities_rad"], json(report.joints[i].summary.discontinuities_rad));
+    EXPECT_EQ(joint["range_rad"], Parsed({report.joints[i].range_rad.lower, report.joints[i].range_rad.upper}));
+    EXPECT_EQ(joint["discontinuities_rad"], Parsed(report.joints[i].summary.discontinuities_rad));
   }
 }
 
 TEST(ReportJson, WritesParametersInTheUnitsTheirNamesSay) {
   const CalibrationReport report = made_up_report();
-  const json written = json::parse(to_json(report));
+  const Parsed written = Parsed::parse(to_json(report));
   ASSERT_EQ(written["parameters"].size(), report.estimates.size());
   for (std::size_t i = 0; i < report.estimates.size(); ++i) {
     const ParameterEstimate& estimate = report.estimates[i];
@@ -112,11 +112,11 @@ TEST(ReportJson, HasAnIntervalOfEveryPoseAndSaysWhereItComesFrom) {
   CalibrationReport report = made_up_report();
   report.pose_errors = {{"P1", "", "calibration", 0.5, 0.1, 0.3, {"outlier"}}, {"P2", "B", "accept", 0.6, 0.2, 0.4}};
   report.interval = PredictionInterval{.quantile = 1.7, .noise_m = 5e-5, .poses = 12, .fitted = true};
-  const json written = json::parse(to_json(report));
+  const Parsed written = Parsed::parse(to_json(report));
   ASSERT_EQ(written["pose_errors"].size(), 2u);
-  EXPECT_EQ(written["pose_errors"][0]["flags"], json{"outlier"});
-  const json accept = {{"id", "P2"},      {"target", "B"},        {"set", "accept"},       {"before_mm", 0.6},
-                       {"after_mm", 0.2}, {"interval95_mm", 0.4}, {"flags", json::array()}};
+  EXPECT_EQ(written["pose_errors"][0]["flags"], Parsed{"outlier"});
+  const Parsed accept = {{"id", "P2"},      {"target", "B"},        {"set", "accept"},         {"before_mm", 0.6},
+                         {"after_mm", 0.2}, {"interval95_mm", 0.4}, {"flags", Parsed::array()}};
   EXPECT_EQ(written["pose_errors"][1], accept);
   const std::string remark = written["prediction_interval"]["remark"];
   EXPECT_NE(remark.find("no validation poses"), std::string::npos) << remark;
@@ -128,7 +128,7 @@ TEST(ReportJson, WritesNullForFiguresThatDoNotExist) {
   CalibrationReport report = made_up_report();
   report.noise_floor_mm.reset();
   report.joints[4].summary.bound_rad = std::numeric_limits<double>::infinity();
-  const json written = json::parse(to_json(report));
+  const Parsed written = Parsed::parse(to_json(report));
   EXPECT_TRUE(written["error_mm"]["after"]["accept"]["mean"].is_null());
   EXPECT_TRUE(written["noise_floor_mm"].is_null());
   EXPECT_TRUE(written["joints"][4]["bound_rad"].is_null());
@@ -137,14 +137,14 @@ TEST(ReportJson, WritesNullForFiguresThatDoNotExist) {
 TEST(ReportJson, ReplacesBytesThatAreNoUtf8) {
   CalibrationReport report = made_up_report();
   report.robot = "M\xFCller";
-  EXPECT_EQ(json::parse(to_json(report))["robot"], "M\xEF\xBF\xBDller");
+  EXPECT_EQ(Parsed::parse(to_json(report))["robot"], "M\xEF\xBF\xBDller");
 }
 
 TEST(ErrorsJson, StandOnOneLineWithAllSets) {
   const ErrorBySet errors = made_up_report().after;
   const std::string text = errors_to_json(errors);
   EXPECT_EQ(text.find('\n'), text.size() - 1);
-  const json written = json::parse(text);
+  const Parsed written = Parsed::parse(text);
   expect_figures(written["error_mm"]["calibration"], errors.calibration);
   expect_figures(written["error_mm"]["validation"], errors.validation);
   EXPECT_TRUE(written["error_mm"]["accept"]["max"].is_null());

@@ -12,11 +12,13 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 #include "errors/input_error.hpp"
 #include "network.hpp"
 #include "random_messages.hpp"
 #include "transport/dds_participant.hpp"
+#include "transport/dds_types.hpp"
 #include "transport/message_bytes.hpp"
 #include "transport/parts.hpp"
 
@@ -126,6 +128,28 @@ TEST(Dds, OfLargeCheckpointsThatReplaceEachOtherOnTheirWayTheLastOneGetsThere) {
     worker->receive(std::chrono::milliseconds{10});
   EXPECT_TRUE(last_has_come());
   EXPECT_TRUE(std::ranges::is_sorted(dawdler.epochs()));
+}
+
+TEST(Dds, KeysAreTheSamplesOwnWhateverOtherThreadsDo) {
+  eprosima::fastdds::dds::TypeSupport type = topic_type(Topic::migrants);
+  const auto key_of_place = [&](std::uint32_t place) {
+    wire::Part part;
+    part.place(place);
+    eprosima::fastrtps::rtps::InstanceHandle_t handle;
+    EXPECT_TRUE(type->getKey(&part, &handle, false));
+    return handle;
+  };
+  constexpr std::uint32_t kAsked = 20'000;
+  const auto mine = key_of_place(1), others = key_of_place(2);
+  ASSERT_NE(mine, others);
+  std::atomic<int> wrong{0};
+  const auto ask = [&](std::uint32_t place, const auto& expected) {
+    for (std::uint32_t i = 0; i < kAsked; ++i) wrong += key_of_place(place) == expected ? 0 : 1;
+  };
+  std::thread other(ask, 2, others);
+  ask(1, mine);
+  other.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(Dds, AddressesThatAreNoneAreTheUsersError) {
