@@ -17,17 +17,24 @@ struct Detection {
   double family_error = 0.05;
   double variance = 1.0;  ///< of the residual rows, in rows of unit variance
   std::size_t poses = 0;
+  /// Per candidate: what the poses that judge see of it, over what those that fit see (of squares); empty: none judge.
+  std::vector<double> judged{};
+  /// Per candidate and coefficient: of the squared length of its column beyond the model, what single terms of the
+  /// joints' smooth corrections could take, the one that takes most first; empty: there are none.
+  std::vector<std::vector<std::vector<double>>> taken{};
 };
 
-/// Per kind and joint of the candidates that the model does not hold: the amplitude of its least visible form that is
-/// found with power 0.9 at the family-wise level. Kinds of which nothing is visible beyond the model are left out.
+/// Per kind and joint of the candidates that the model does not hold: the amplitude that is found, at the family-wise
+/// level, and confirmed by the poses that judge with power 0.9, on average over the settings and the coefficients of
+/// one form; infinite where joint corrections could take too much. A gear's slow harmonics do not count: they are joint
+/// corrections. Kinds of which nothing is visible beyond the model are left out.
 std::vector<NotFound> smallest_detectable(const std::vector<Candidate>& candidates, const std::vector<Score>& scores,
                                           const CorrectedRobot& model, const Robot& robot, const Detection& detection);
 
 /// What a loop ended with.
 struct EndedLoop {
   const Robot& robot;
-  const CorrectedRobot& model;
+  const DiagnosedModel& model;
   const Linearised& at;  ///< the model
   const std::vector<Candidate>& candidates;
   const EffectColumns& columns;  ///< of the candidates
@@ -38,9 +45,10 @@ struct BoundOptions {
   int permutations = 999;
 };
 
-/// smallest_detectable() of the candidates at a loop's end. What was refused as implausibly large is in the data all
-/// the same: it is set aside first, `null_maxima` then being permuted anew, and has no bound. Effects that would have
-/// to be larger than is plausible of their kind are marked as not testable.
+/// smallest_detectable() of the candidates at a loop's end, beside what the joints' smooth corrections could take of
+/// them: what is there to be seen may call for terms that the poses do not call for now. What was refused as
+/// implausibly large is in the data all the same: it is set aside first, `null_maxima` then being permuted anew, and
+/// has no bound. Effects that would have to be larger than is plausible of their kind are marked as not testable.
 std::vector<NotFound> not_found_beyond(const EndedLoop& loop, const std::vector<double>& null_maxima,
                                        const BoundOptions& options, RandomStream random);
 

@@ -18,15 +18,12 @@ constexpr double kSame = 0.995;         ///< cosine
 constexpr double kNatsToTell = 5.0;
 constexpr double kNatsAbout = 3.0;
 constexpr double kStable = 0.95;  ///< share of resamples that must agree with a sign
+constexpr double kGains = 0.5;    ///< share of a change borne out: errors fall above it
 constexpr double kEvident = 2.0;  ///< times the largest fall by luck: no need to draw again
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double sum_of_squares(const std::vector<double>& errors) {
-  return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
 }
 
 }  // namespace
@@ -50,7 +47,7 @@ Group::Group(const DiagnosisData& of, const DiagnosedModel& model, const Lineari
       projection_(at.projection),
       scan_(columns, prices_nats(candidates), at.fitted, projection_),
       scores_(scan_.scores()),
-      start_errors_mm_(whole_errors_mm(at.judging, projection_.judging_left(), model.scales)) {
+      sure_left_(projection_.judging_left()) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].disguise != Disguise::none) decoy_falls_.push_back(scores_[i].fall_nats);
   }
@@ -145,9 +142,10 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   round.fall_nats = scores_[index].fall_nats;
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
-  round.gain_lower_mm2 = gain_lower_bound_mm2(whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales),
-                                              whole_errors_mm(at_.judging, trial.judging_left, model_.scales),
-                                              at_.judging.group, random(RandomPurpose::gain_of_effect));
+  const Confirmation borne_out =
+      confirmed(projection_.judging_left(), trial.judging_left, RandomPurpose::gain_of_effect);
+  round.confirmed = borne_out.share;
+  round.confirmed_lower = borne_out.lower;
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
   round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, at_.fitted);
@@ -156,18 +154,20 @@ Round Group::judge(std::size_t index, Projection::Trial& trial) {
   return round;
 }
 
+/// What the validation poses say of a change of their residual rows.
+Confirmation Group::confirmed(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                              RandomPurpose purpose) const {
+  return confirmation(whole_errors_mm(at_.judging, before, model_.scales),
+                      whole_errors_mm(at_.judging, after, model_.scales),
+                      whole_errors_mm(at_.judging, before - after, model_.scales), at_.judging.group, random(purpose));
+}
+
 std::string Group::objection(const Round& round, const Projection::Trial& trial) const {
   if (round.p_family > rules_.family_error) return "chance would explain as much too often";
   if (round.fall_nats <= 0.0) return "the description grows longer by it";
   if (projection_.freedom() - static_cast<double>(trial.rank) < kLeastFreedom)
     return "too few measured numbers are left";
-  if (!at_.judging.poses.empty()) {
-    const auto before = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
-    const auto after = whole_errors_mm(at_.judging, trial.judging_left, model_.scales);
-    if (sum_of_squares(after) >= sum_of_squares(before) && round.gain_lower_mm2 <= 0.0) {
-      return "no gain on the validation poses";
-    }
-  }
+  if (!at_.judging.poses.empty() && round.confirmed <= kGains) return "no gain on the validation poses";
   if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
   return {};
 }
@@ -178,12 +178,10 @@ void Group::take(Round round, const Projection::Trial& trial) {
   projection_.add(trial);
   scan_.follow(columns_, at_.fitted, projection_);
   scores_ = scan_.scores();
-  const auto errors = whole_errors_mm(at_.judging, projection_.judging_left(), model_.scales);
-  const double gain_mm2 = errors.empty() ? sure_gain_mm2_ + 1.0
-                                         : gain_lower_bound_mm2(start_errors_mm_, errors, at_.judging.group,
-                                                                random(RandomPurpose::gain_of_group));
-  if (gain_mm2 <= sure_gain_mm2_) return;
-  sure_gain_mm2_ = gain_mm2;
+  const Eigen::VectorXd& left = projection_.judging_left();
+  const Confirmation since = confirmed(sure_left_, left, RandomPurpose::gain_of_group);
+  if (!at_.judging.poses.empty() && (since.share <= kGains || since.lower <= 0.0)) return;
+  sure_left_ = left;
   sure_rounds_ = outcome_.rounds.size();
 }
 
@@ -198,7 +196,7 @@ void Group::leave_out_alike(const Round& round) {
   }
 }
 
-/// Rounds after which the group's gain grew no surer are not believed.
+/// Rounds after the last that was confirmed are not believed.
 void Group::drop_unsure() {
   for (std::size_t i = 0; i < outcome_.rounds.size(); ++i) {
     Round& round = outcome_.rounds[i];
@@ -207,7 +205,7 @@ void Group::drop_unsure() {
       outcome_.added.push_back(round.effect);
     } else {
       round.verdict = Verdict::rejected;
-      round.reason = "no sure gain on the validation poses";
+      round.reason = "the validation poses do not confirm it";
     }
   }
 }

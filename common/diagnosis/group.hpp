@@ -46,8 +46,8 @@ class Group {
         std::vector<double>& null_maxima, const GroupRules& rules);
 
   /// Tries candidates, the best first. One is added that luck explains too rarely, that shortens the description, whose
-  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay up to the one
-  /// after which the lower bound of their joint gain on the validation poses is largest, and above zero.
+  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay up to the
+  /// last that the validation poses confirm.
   GroupOutcome run(const std::function<bool(const Round&)>& watch);
   /// The best fall in description length of every decoy, in candidates' order.
   const std::vector<double>& decoy_falls() const { return decoy_falls_; }
@@ -61,6 +61,7 @@ class Group {
   bool searched(std::size_t index) const;
   void renew_null(std::size_t index);
   Round judge(std::size_t index, Projection::Trial& trial);
+  Confirmation confirmed(const Eigen::VectorXd& before, const Eigen::VectorXd& after, RandomPurpose purpose) const;
   std::string objection(const Round& round, const Projection::Trial& trial) const;
   void take(Round round, const Projection::Trial& trial);
   void leave_out_alike(const Round& round);
@@ -78,9 +79,8 @@ class Group {
   Projection projection_;
   Scan scan_;
   std::vector<Score> scores_;
-  std::vector<double> start_errors_mm_;  ///< of the validation poses before the group
-  double sure_gain_mm2_ = 0.0;           ///< the largest lower bound of the group's gain on them
-  std::size_t sure_rounds_ = 0;          ///< rounds up to which it grew
+  Eigen::VectorXd sure_left_;    ///< of the validation rows with what they confirmed so far
+  std::size_t sure_rounds_ = 0;  ///< rounds up to which they did
   std::vector<double> decoy_falls_;
   GroupOutcome outcome_;
 };

@@ -11,7 +11,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kGainDraws = 1000;
+constexpr int kConfirmationDraws = 1000;
 
 double huber_square(double error, double threshold) {
   return error <= threshold ? error * error : threshold * (2.0 * error - threshold);
@@ -103,23 +103,39 @@ std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::Vec
   return errors;
 }
 
-double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
-                            const std::vector<std::size_t>& group, RandomStream random) {
-  if (before_mm.empty()) return 0.0;
+Confirmation confirmation(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
+                          const std::vector<double>& moved_mm, const std::vector<std::size_t>& group,
+                          RandomStream random) {
+  struct Sums {
+    double borne_out_mm2 = 0.0;
+    double moved_mm2 = 0.0;
+    double share() const { return moved_mm2 > 0.0 ? borne_out_mm2 / moved_mm2 : 0.0; }
+    void operator+=(const Sums& other) {
+      borne_out_mm2 += other.borne_out_mm2;
+      moved_mm2 += other.moved_mm2;
+    }
+  };
+  if (before_mm.empty()) return {};
   const double threshold = 4.0 * median(before_mm);
-  std::map<std::size_t, double> falls_of_groups;
+  std::map<std::size_t, Sums> sums_of_groups;
+  Sums all;
   for (std::size_t i = 0; i < before_mm.size(); ++i) {
-    falls_of_groups[group[i]] += huber_square(before_mm[i], threshold) - huber_square(after_mm[i], threshold);
+    const double weight = std::min(1.0, threshold / std::max({before_mm[i], after_mm[i], 1e-12}));
+    const double moved = weight * moved_mm[i] * moved_mm[i];
+    const double fall = huber_square(before_mm[i], threshold) - huber_square(after_mm[i], threshold);
+    const Sums pose{0.5 * (fall + moved), moved};
+    sums_of_groups[group[i]] += pose;
+    all += pose;
   }
-  std::vector<double> falls;
-  for (const auto& [first, fall] : falls_of_groups) falls.push_back(fall);
-  std::vector<double> means;
-  for (int draw = 0; draw < kGainDraws; ++draw) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < falls.size(); ++i) sum += falls[random.index(falls.size())];
-    means.push_back(sum / static_cast<double>(before_mm.size()));
+  std::vector<Sums> groups;
+  for (const auto& [first, sums] : sums_of_groups) groups.push_back(sums);
+  std::vector<double> shares;
+  for (int draw = 0; draw < kConfirmationDraws; ++draw) {
+    Sums drawn;
+    for (std::size_t i = 0; i < groups.size(); ++i) drawn += groups[random.index(groups.size())];
+    shares.push_back(drawn.share());
   }
-  return quantile(means, 0.05);
+  return {all.share(), quantile(shares, 0.05)};
 }
 
 LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {

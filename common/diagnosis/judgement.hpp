@@ -17,11 +17,18 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
 /// The same of everything a pose measured, whitened: as far off as position alone would be were all its rows positions.
 std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
 
-/// The one-sided 95 % bootstrap bound of the mean fall of the squared error, mm^2, over resampled poses; those with one
-/// number in `group` are drawn together. Errors beyond four times the median (before) count linearly, so that one
-/// outlier does not decide. Zero where there are no poses.
-double gain_lower_bound_mm2(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
-                            const std::vector<std::size_t>& group, RandomStream random);
+/// What the poses that judge say of a change of the model.
+struct Confirmation {
+  double share = 0.0;  ///< of the change that their residuals bear out; their errors fall where it is above one half
+  double lower = 0.0;  ///< its one-sided 95 % bootstrap bound
+};
+
+/// Of a change that moves the prediction of each pose by `moved_mm`: residuals' regression on it. Poses with one number
+/// in `group` are drawn together. Errors beyond four times the median (before) count linearly, so that one outlier does
+/// not decide. Zero where nothing moves.
+Confirmation confirmation(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
+                          const std::vector<double>& moved_mm, const std::vector<std::size_t>& group,
+                          RandomStream random);
 
 /// The largest motion that an effect's ripple, load or side makes of any place over the states: how far it strays from
 /// its own mean there, rad for turns, m for shifts.

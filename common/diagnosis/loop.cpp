@@ -277,7 +277,7 @@ void ClosedLoop::finish(const Linearised& at) {
   leave_out_own_forms();
   look_further();
   outcome_.not_found =
-      not_found_beyond({of_.data.robot, model_.robot, at, candidates_, columns_, outcome_.rounds}, null_maxima_,
+      not_found_beyond({of_.data.robot, model_, at, candidates_, columns_, outcome_.rounds}, null_maxima_,
                        {options_.family_error, options_.permutations}, random(RandomPurpose::null_distribution));
   for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
     if (at.fitted.root_weight[i] < kOutlier) outcome_.outliers.push_back(at.fitted.poses[i]);

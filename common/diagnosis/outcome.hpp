@@ -32,18 +32,19 @@ struct Round {
   int number = 0;  ///< from 1
   int group = 0;   ///< rounds of one group were judged against the same permutations and refitted together; from 1
   Verdict verdict = Verdict::none;
-  Effect effect;                ///< with its values at the end of its group; of the best candidate where none was added
-  std::string diagnosis;        ///< one sentence for an engineer
-  std::string formula;          ///< one line
-  std::string reason;           ///< why it was not added; empty where it was
-  bool implausible = false;     ///< refused as larger than a real arm's: the data hold it, so that it has no bound
-  std::vector<Rival> rivals;    ///< nearest first
-  double p_structure = 1.0;     ///< of the omnibus test for dependence before this group
-  double p_family = 1.0;        ///< family-wise, over all candidates or, of an evolved formula, over whole searches
-  int permutations = 0;         ///< behind p_family; of an evolved formula: evolutions on permuted residuals
-  double fall_nats = 0.0;       ///< of the description length
-  double gain_lower_mm2 = 0.0;  ///< one-sided 95 % bound of the fall of the mean squared error on validation poses
-  double sign_stability = 0.0;  ///< share of resamples in which the leading coefficient keeps its sign
+  Effect effect;              ///< with its values at the end of its group; of the best candidate where none was added
+  std::string diagnosis;      ///< one sentence for an engineer
+  std::string formula;        ///< one line
+  std::string reason;         ///< why it was not added; empty where it was
+  bool implausible = false;   ///< refused as larger than a real arm's: the data hold it, so that it has no bound
+  std::vector<Rival> rivals;  ///< nearest first
+  double p_structure = 1.0;   ///< of the omnibus test for dependence before this group
+  double p_family = 1.0;      ///< family-wise, over all candidates or, of an evolved formula, over whole searches
+  int permutations = 0;       ///< behind p_family; of an evolved formula: evolutions on permuted residuals
+  double fall_nats = 0.0;     ///< of the description length
+  double confirmed = 0.0;     ///< share of it that the validation poses bear out; above 0.5 they gain by it
+  double confirmed_lower = 0.0;                 ///< one-sided 95 % bound of that share
+  double sign_stability = 0.0;                  ///< share of resamples in which the leading coefficient keeps its sign
   std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient; SI. Of added effects: beside all others
   double validation_before_mm = 0.0;            ///< mean tool error on the validation poses
   double validation_after_mm = 0.0;

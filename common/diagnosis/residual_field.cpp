@@ -53,7 +53,9 @@ Eigen::MatrixXd covariance_root(const ResidualField& field, Eigen::Index first, 
 /// Makes the rows first .. first + count - 1 independent.
 void whiten(ResidualField& field, Eigen::Index first, Eigen::Index count, const Eigen::MatrixXd& root) {
   const auto lower = root.triangularView<Eigen::Lower>();
-  const auto apply = [&](auto&& rows) { rows = lower.solve(Eigen::MatrixXd(rows)); };
+  const auto apply = [&](auto&& rows) {
+    if (rows.cols() > 0) rows = lower.solve(Eigen::MatrixXd(rows));
+  };
   apply(field.residual.segment(first, count));
   apply(field.declared.middleRows(first, count));
   apply(field.motions.middleRows(first, count));

@@ -57,8 +57,8 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
     }
     const Eigen::MatrixXd turned = scale.asDiagonal() * eigen.eigenvectors();
     grams_[i].inverse = turned * inverse.asDiagonal() * turned.transpose();
-    const double widest = grams_[i].inverse.diagonal().maxCoeff();
-    grams_[i].smallest = widest > 0 ? 1 / widest : 0.0;
+    grams_[i].visible = left.diagonal().cwiseMax(0.0);
+    if (grams_[i].rank == 0) grams_[i].visible.setZero();
   }
 }
 
@@ -74,7 +74,7 @@ std::vector<Score> Scan::scores() const {
     const auto moment = moment_.segment(spans_[i].first, spans_[i].count);
     scores[i].drop = moment.dot(grams_[i].inverse * moment);
     scores[i].rank = grams_[i].rank;
-    scores[i].smallest = grams_[i].smallest;
+    scores[i].visible = grams_[i].visible;
     scores[i].fall_nats = fall_nats(scores[i].drop, squares_, scores[i].rank, i);
   }
   return scores;

@@ -12,10 +12,10 @@ namespace demecal {
 
 /// One candidate against the residual.
 struct Score {
-  double drop = 0.0;       ///< fall of the sum of squares
-  Eigen::Index rank = 0;   ///< directions that the model does not have
-  double fall_nats = 0.0;  ///< fall of the description length: likelihood won, less the price of coefficients and name
-  double smallest = 0.0;   ///< of the projected columns' Gram matrix (unscaled): its smallest kept eigenvalue
+  double drop = 0.0;        ///< fall of the sum of squares
+  Eigen::Index rank = 0;    ///< directions that the model does not have
+  double fall_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
+  Eigen::VectorXd visible;  ///< per coefficient: the squared length of its column beyond the model
 };
 
 /// All candidates' projections off one model. Building it costs one pass over the candidates' columns.
@@ -44,7 +44,7 @@ class Scan {
   struct Gram {
     Eigen::MatrixXd inverse;  ///< pseudo-inverse over new directions
     Eigen::Index rank = 0;
-    double smallest = 0.0;
+    Eigen::VectorXd visible;
   };
   double fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
   double best_fall(const Eigen::VectorXd& moments, double squares) const;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kHead =
     "<th scope=\"row\">round</th><th class=\"words\">law</th><th class=\"words\">numbers, ± standard error, 95 % "
-    "interval</th><th>structure before, p</th><th>fall, nats</th><th>gain at least, mm²</th><th>sign kept</th>";
+    "interval</th><th>structure before, p</th><th>fall, nats</th><th>confirmed (at least)</th><th>sign kept</th>";
 
 std::string number_words(std::optional<double> value) {
   return value ? fmt::format("{:.4g}", *value) : "–";
@@ -43,7 +43,8 @@ std::string row(const JsonValue& round, const EffectEntry& effect, std::size_t n
       "<td>{}</td><td>{}</td></tr>\n",
       round["round"].count().value_or(number), law, numbers(effect, round["interval"]),
       probability(round["p_structure"].number()), fixed(round["fall_nats"].number(), 1),
-      number_words(round["gain_lower_mm2"].number()), percent(round["sign_stability"].number()));
+      percent(round["confirmed"].number()) + " (" + percent(round["confirmed_lower"].number()) + ")",
+      percent(round["sign_stability"].number()));
 }
 
 }  // namespace
@@ -60,9 +61,9 @@ std::string evidence_table(const JsonValue& report) {
   }
   if (rows.empty()) return {};
   return "<h3>The numbers behind every round</h3>\n" + table_panel("evidence", kHead, rows, shown) +
-         "<p class=\"note\">Numbers are SI. Fall: of the description length. Gain at least: the one-sided 95 % bound "
-         "of "
-         "the fall of the mean squared error on validation poses. Sign kept: the share of resamples of the poses in "
+         "<p class=\"note\">Numbers are SI. Fall: of the description length. Confirmed: the share of the effect's "
+         "motion that the residuals of the validation poses bear out, and its one-sided 95 % bound; they gain by it "
+         "where the share is above 50 %. Sign kept: the share of resamples of the poses in "
          "which the leading number keeps its sign.</p>\n";
 }
 

@@ -66,7 +66,8 @@ Json round_entry(const Round& round, const Robot& robot) {
   entry["p_family"] = number_or_null(round.p_family);
   entry["permutations"] = round.permutations;
   entry["fall_nats"] = number_or_null(round.fall_nats);
-  entry["gain_lower_mm2"] = number_or_null(round.gain_lower_mm2);
+  entry["confirmed"] = number_or_null(round.confirmed);
+  entry["confirmed_lower"] = number_or_null(round.confirmed_lower);
   entry["sign_stability"] = number_or_null(round.sign_stability);
   entry["interval"] = intervals(round, robot);
   entry["validation_before_mm"] = number_or_null(round.validation_before_mm);

@@ -79,7 +79,7 @@ TEST(SmallestDetectable, IsFoundNineTimesInTenAndHalfOfItSeldom) {
   EXPECT_EQ(checked, 6);
 }
 
-TEST(SmallestDetectable, IsThatOfTheLeastVisibleOfItsKindAndJoint) {
+TEST(SmallestDetectable, LiesBetweenThoseOfTheSettingsOfItsKindAndJoint) {
   RandomStream stream{89, 2};
   const DetectingArm at = detecting_arm(stream);
   const Projection model = projection_of(at.field);
@@ -87,14 +87,46 @@ TEST(SmallestDetectable, IsThatOfTheLeastVisibleOfItsKindAndJoint) {
   for (const NotFound& each : not_found(at)) {
     if (each.effect.kind != "gear_harmonic") continue;
     EXPECT_EQ(each.unit, "rad");
-    double least = 1e300, its = 0.0;
+    double least = 1e300, most = 0.0;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const Effect& effect = at.candidates[i].effect;
       if (effect.kind != "gear_harmonic" || effect.joint != each.effect.joint) continue;
-      least = std::min(least, scores[i].smallest);
-      if (effect.same_law_as(each.effect)) its = scores[i].smallest;
+      std::vector<Score> alone(scores.size());
+      alone[i] = scores[i];
+      const auto only = smallest_detectable(at.candidates, alone, at.arm.truth, at.arm.data.robot,
+                                            {.null_maxima = at.null_maxima, .poses = 60});
+      ASSERT_EQ(only.size(), 1U);
+      least = std::min(least, only.front().smallest_detectable);
+      most = std::max(most, only.front().smallest_detectable);
     }
-    EXPECT_EQ(its, least);
+    EXPECT_GE(each.smallest_detectable, 0.98 * least);
+    EXPECT_LE(each.smallest_detectable, 1.02 * most);
+  }
+}
+
+TEST(SmallestDetectable, GrowsWithWhatIsTakenAndWithFewerPosesThatJudge) {
+  RandomStream stream{89, 4};
+  const DetectingArm at = detecting_arm(stream);
+  const Projection model = projection_of(at.field);
+  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  Detection detection{.null_maxima = at.null_maxima, .poses = 60};
+  const auto sizes = [&] {
+    return smallest_detectable(at.candidates, scores, at.arm.truth, at.arm.data.robot, detection);
+  };
+  const std::vector<NotFound> plain = sizes();
+  detection.judged.assign(scores.size(), 0.2);
+  const std::vector<NotFound> judged = sizes();
+  for (const Score& score : scores) {
+    detection.taken.emplace_back();
+    for (const double square : score.visible) detection.taken.back().push_back({0.7 * square});
+  }
+  const std::vector<NotFound> taken = sizes();
+  ASSERT_EQ(plain.size(), judged.size());
+  ASSERT_EQ(plain.size(), taken.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_GT(judged[i].smallest_detectable, 1.05 * plain[i].smallest_detectable);
+    EXPECT_NEAR(taken[i].smallest_detectable, judged[i].smallest_detectable / std::sqrt(0.3),
+                0.03 * taken[i].smallest_detectable);
   }
 }
 

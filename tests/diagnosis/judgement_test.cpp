@@ -44,39 +44,58 @@ TEST(WholeErrors, AreThoseOfPositionWhereNothingElseWasMeasured) {
   EXPECT_DOUBLE_EQ(whole[4], 1e3 * kScales[kPosition] * 2.0 * std::sqrt(3.0));
 }
 
-TEST(GainBound, IsTheGainWhereEveryPoseGainsTheSame) {
-  const std::vector<double> before(40, 0.5), after(40, 0.3);
-  EXPECT_NEAR(gain_lower_bound_mm2(before, after, each_alone(before.size()), RandomStream{1}), 0.25 - 0.09, 1e-12);
-  EXPECT_EQ(gain_lower_bound_mm2(before, before, each_alone(before.size()), RandomStream{1}), 0.0);
-  EXPECT_EQ(gain_lower_bound_mm2({}, {}, {}, RandomStream{1}), 0.0);
+/// What 40 poses make of a change of `size` in one direction, of which `there` times as much is in their residuals,
+/// beside unit noise.
+Confirmation confirmation_of(double there, double size, RandomStream& stream, std::uint64_t draw) {
+  std::vector<double> before, after, moved;
+  for (int i = 0; i < 40; ++i) {
+    const double change = size * stream.normal();
+    const Eigen::Vector3d noise(stream.normal(), stream.normal(), stream.normal());
+    const Eigen::Vector3d residual = noise + there * change * Eigen::Vector3d::UnitX();
+    before.push_back(residual.norm());
+    after.push_back((residual - change * Eigen::Vector3d::UnitX()).norm());
+    moved.push_back(std::abs(change));
+  }
+  return confirmation(before, after, moved, each_alone(before.size()), RandomStream{87, 4, draw});
 }
 
-TEST(GainBound, IsBelowTheTrueGainNineteenTimesInTwenty) {
+TEST(Confirmation, IsWholeWhereTheResidualGoesAndNoneWhereNothingMoves) {
+  const std::vector<double> before(40, 0.5), nothing(40, 0.0);
+  const Confirmation whole = confirmation(before, nothing, before, each_alone(before.size()), RandomStream{1});
+  EXPECT_NEAR(whole.share, 1.0, 1e-12);
+  EXPECT_NEAR(whole.lower, 1.0, 1e-12);
+  EXPECT_EQ(confirmation(before, before, nothing, each_alone(before.size()), RandomStream{1}).share, 0.0);
+  EXPECT_EQ(confirmation({}, {}, {}, {}, RandomStream{1}).lower, 0.0);
+}
+
+TEST(Confirmation, IsTheShareThatIsThereOnAverage) {
+  RandomStream stream{87, 11};
+  for (const double there : {0.0, 0.5, 1.0}) {
+    double sum = 0.0;
+    for (std::uint64_t set = 0; set < 200; ++set) sum += confirmation_of(there, 0.5, stream, set).share;
+    EXPECT_NEAR(sum / 200, there, 0.08);
+  }
+}
+
+TEST(Confirmation, BoundIsBelowTheTruthNineteenTimesInTwenty) {
   RandomStream stream{87, 3};
   constexpr int kSets = 400;
   int below = 0;
-  for (int set = 0; set < kSets; ++set) {
-    std::vector<double> before, after;
-    for (int i = 0; i < 40; ++i) {  // squares differ by 0.05 on average
-      before.push_back(std::sqrt(1.0 + 0.1 * stream.normal()));
-      after.push_back(std::sqrt(0.95 + 0.1 * stream.normal()));
-    }
-    below += gain_lower_bound_mm2(before, after, each_alone(before.size()),
-                                  RandomStream{87, 4, static_cast<std::uint64_t>(set)}) < 0.05;
-  }
+  for (std::uint64_t set = 0; set < kSets; ++set) below += confirmation_of(0.6, 1.0, stream, set).lower < 0.6;
   EXPECT_GE(below, 0.91 * kSets);
   EXPECT_LE(below, 0.98 * kSets);
 }
 
-TEST(GainBound, IsNotDecidedByOnePoseFarOut) {
+TEST(Confirmation, IsNotDecidedByOnePoseFarOut) {
   std::vector<double> before(30, 1.0), after(30, 1.05);
+  const std::vector<double> moved(30, 0.1);
   before[7] = 20.0;
-  after[7] = 19.0;
-  EXPECT_LT(gain_lower_bound_mm2(before, after, each_alone(before.size()), RandomStream{1}), 0.0);
+  after[7] = 19.9;
+  EXPECT_LT(confirmation(before, after, moved, each_alone(before.size()), RandomStream{1}).lower, 0.0);
 }
 
-TEST(GainBound, RepeatsAreDrawnTogether) {
-  std::vector<double> before, after;
+TEST(Confirmation, RepeatsAreDrawnTogether) {
+  std::vector<double> before, after, moved;
   std::vector<std::size_t> alone, together;
   RandomStream stream{87, 9};
   for (int pose = 0; pose < 10; ++pose) {
@@ -86,10 +105,11 @@ TEST(GainBound, RepeatsAreDrawnTogether) {
       together.push_back(static_cast<std::size_t>(4 * pose));
       before.push_back(1.0);
       after.push_back(std::sqrt(1.0 - fall));
+      moved.push_back(0.1);
     }
   }
-  EXPECT_LT(gain_lower_bound_mm2(before, after, together, RandomStream{1}),
-            gain_lower_bound_mm2(before, after, alone, RandomStream{1}));
+  EXPECT_LT(confirmation(before, after, moved, together, RandomStream{1}).lower,
+            confirmation(before, after, moved, alone, RandomStream{1}).lower);
 }
 
 struct Noisy {

@@ -36,7 +36,8 @@ TEST(ClosedLoop, NamesBacklash) {
   EXPECT_LE(round.p_family, 0.05);
   EXPECT_LE(round.p_structure, 0.05);
   EXPECT_GT(round.fall_nats, 5.0);
-  EXPECT_GT(round.gain_lower_mm2, 0.0);
+  EXPECT_GT(round.confirmed, 0.5);
+  EXPECT_GT(round.confirmed_lower, 0.0);
   EXPECT_GE(round.sign_stability, 0.95);
   EXPECT_LT(round.validation_after_mm, round.validation_before_mm);
   EXPECT_LT(round.interval.at(0)[0], 5e-4);
@@ -157,7 +158,7 @@ TEST(ClosedLoop, GivesTheSameBitsAgain) {
     EXPECT_EQ(first.outcome.rounds[i].effect.values, second.outcome.rounds[i].effect.values);
     EXPECT_EQ(first.outcome.rounds[i].interval, second.outcome.rounds[i].interval);
     EXPECT_EQ(first.outcome.rounds[i].p_family, second.outcome.rounds[i].p_family);
-    EXPECT_EQ(first.outcome.rounds[i].gain_lower_mm2, second.outcome.rounds[i].gain_lower_mm2);
+    EXPECT_EQ(first.outcome.rounds[i].confirmed_lower, second.outcome.rounds[i].confirmed_lower);
   }
   EXPECT_EQ(first.outcome.p_structure_left, second.outcome.p_structure_left);
   const Stop stop(data.poses[0]);

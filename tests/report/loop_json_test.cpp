@@ -33,7 +33,8 @@ TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
     EXPECT_EQ(rounds[i].at("p_structure"), round.p_structure);
     EXPECT_EQ(rounds[i].at("p_family"), round.p_family);
     EXPECT_EQ(rounds[i].at("fall_nats"), round.fall_nats);
-    EXPECT_EQ(rounds[i].at("gain_lower_mm2"), round.gain_lower_mm2);
+    EXPECT_EQ(rounds[i].at("confirmed"), round.confirmed);
+    EXPECT_EQ(rounds[i].at("confirmed_lower"), round.confirmed_lower);
     EXPECT_EQ(rounds[i].at("sign_stability"), round.sign_stability);
     EXPECT_EQ(rounds[i].at("validation_before_mm"), round.validation_before_mm);
     EXPECT_EQ(rounds[i].at("validation_after_mm"), round.validation_after_mm);
@@ -101,13 +102,13 @@ TEST(LoopJson, WritesNullForNumbersThatDoNotExist) {
   CalibrationReport report = made_up_looped_report();
   const double none = std::nan("");
   Round& round = report.loop.rounds[0];
-  round.p_family = round.gain_lower_mm2 = round.validation_after_mm = round.rivals[0].cosine = none;
+  round.p_family = round.confirmed_lower = round.validation_after_mm = round.rivals[0].cosine = none;
   round.interval[0] = {none, std::numeric_limits<double>::infinity()};
   report.loop.not_found[0].smallest_detectable = std::numeric_limits<double>::infinity();
   report.loop.decoys[0].best_fall_nats = none;
   report.loop.explained_share = none;
   const Parsed json_report = written(report);
-  for (const char* const key : {"p_family", "gain_lower_mm2", "validation_after_mm"}) {
+  for (const char* const key : {"p_family", "confirmed_lower", "validation_after_mm"}) {
     EXPECT_TRUE(json_report["rounds"][0][key].is_null()) << key;
   }
   EXPECT_TRUE(json_report["rounds"][0]["rivals"][0]["cosine"].is_null());

@@ -58,7 +58,7 @@ TEST(LoopPage, HasEveryRoundWithItsFiguresAndSentences) {
 TEST(LoopPage, HasTheNumbersBehindARound) {
   const auto rows = rows_of(loop_page_of(made_up_looped_report()), "evidence");
   EXPECT_THAT(rows[0], ElementsAre("1", "dq2 = formula 1", "width_rad 0.000412 ± 1.3e-05, 0.0003708 to 0.0004532",
-                                   "0.001", "31.7", "0.0123", "100\u00A0%"));
+                                   "0.001", "31.7", "97\u00A0% (61\u00A0%)", "100\u00A0%"));
 }
 
 TEST(LoopPage, ReadsARoundThatHasOnlyThePromisedKeys) {

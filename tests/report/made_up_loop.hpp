@@ -54,7 +54,8 @@ inline Round made_up_round(const LoopOutcome& loop, const Effect& effect, double
   round.p_structure = 0.001;
   round.p_family = 0.002;
   round.fall_nats = 31.7 / round.number;
-  round.gain_lower_mm2 = 0.0123;
+  round.confirmed = 0.97;
+  round.confirmed_lower = 0.61;
   round.sign_stability = 0.995;
   for (const double value : effect.values) round.interval.push_back({0.9 * value, 1.1 * value});
   round.validation_before_mm = from_mm;

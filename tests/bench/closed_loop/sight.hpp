@@ -13,8 +13,8 @@ class Sight {
   Sight(const DiagnosisData& of, const DiagnosedModel& model);
 
   /// By how much `effect` (with coefficients) must be multiplied to be just detectable. `measure` says how long the
-  /// least visible coefficients of its kind must be, and so how much of the residual must be explained; the effect
-  /// explains it where it explains as much. Infinite where the model explains the effect wholly.
+  /// coefficients of its kind must be, and so how much of the residual must be explained; the effect explains it where
+  /// it explains as much. Infinite where the model explains the effect wholly.
   double detectable(const NotFound& measure, const Effect& effect) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -106,9 +107,14 @@ class NoisyCase {
     const std::vector<ArmState> states = states_of(data, PoseSet::calibration);
     RandomStream random{one_.seed, kInjected};
     const std::string kind = kind_of(one_.number);
-    const std::optional<Effect> at_limit = draw_truth(
-        kind, testable, data.robot, states,
-        [](const NotFound& measure, const Effect&) { return measure.smallest_detectable; }, random, {1.0, 1.0});
+    const std::optional<Effect> at_limit =
+        draw_truth(kind, testable, data.robot, states,
+                   [](const NotFound& measure, const Effect& effect) {
+                     // Of another form its numbers are another quantity, of which the limit does not tell.
+                     const bool told = effect.form == measure.effect.form;
+                     return told ? measure.smallest_detectable : std::numeric_limits<double>::infinity();
+                   },
+                   random, {1.0, 1.0});
     if (!at_limit) return;
     for (const double share : shares) {
       InjectedEffect injected{.share_of_limit = share, .truth = *at_limit, .run = {}};
