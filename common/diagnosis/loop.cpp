@@ -272,6 +272,7 @@ void ClosedLoop::leave_out_own_forms() {
 void ClosedLoop::finish(const Linearised& at) {
   outcome_.p_structure_left = p_structure_;
   outcome_.noise = model_.noise;
+  outcome_.noise_estimated = model_.noise_estimated;
   outcome_.independent_m = model_.scales[kPosition];
   describe_added();
   leave_out_own_forms();

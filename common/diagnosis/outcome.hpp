@@ -88,6 +88,7 @@ struct LoopOutcome {
   std::optional<double> explained_share;   ///< 1 - (MS_res - MS_pe) / (MS_start - MS_pe), with repeats
   double p_structure_left = 1.0;           ///< of the omnibus test at the end
   NoiseModel noise;                        ///< of the measurements about the model at the end
+  bool noise_estimated = false;            ///< else poses were taken to scatter independently
   double independent_m = 0.0;              ///< standard deviation of the positions' independent noise
   int candidates = 0;                      ///< effects tried in every round
   int permutations = 0;

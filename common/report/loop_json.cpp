@@ -89,6 +89,7 @@ Json not_found(const NotFound& missing, const Robot& robot) {
 Json noise(const LoopOutcome& loop) {
   const double independent_mm = millimetres(loop.independent_m);
   return {{"independent_mm", number_or_null(independent_mm)},
+          {"estimated", loop.noise_estimated},
           {"joint_repeatability_mrad", number_or_null(1e3 * loop.noise.joint_rad)},
           {"shared_by_repeats_mm", number_or_null(independent_mm * loop.noise.repeats)},
           {"shared_in_order_mm", number_or_null(independent_mm * loop.noise.order)},

@@ -124,6 +124,13 @@ std::string unseen_line(const LoopOutcome& loop) {
 std::string noise_line(const LoopOutcome& loop) {
   const NoiseModel& noise = loop.noise;
   const double independent_mm = millimetres(loop.independent_m);
+  if (loop.stopped != StopReason::not_run && !loop.noise_estimated) {
+    return wrapped("  noise:",
+                   fmt::format("{:.3f} mm an axis, taken to be independent from pose to pose: of more than 400 "
+                               "calibration poses what they share is not estimated",
+                               independent_mm),
+                   4);
+  }
   std::vector<std::string> parts;
   if (noise.joint_rad > 0.0) parts.push_back(fmt::format("joints repeat to {:.3f} mrad", 1e3 * noise.joint_rad));
   if (noise.repeats > 0.0)

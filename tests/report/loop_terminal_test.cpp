@@ -139,6 +139,13 @@ TEST(LoopTerminal, SaysWhatTheDataCannotShowAndHowTheControlsFared) {
   EXPECT_THAT(unbroken(shown(loop)), HasSubstr("WON by what cannot be true: a gear ratio no gear has"));
 }
 
+TEST(LoopTerminal, SaysWhereNoiseIsTakenToBeIndependent) {
+  LoopOutcome loop = made_up_loop(5);
+  EXPECT_THAT(unbroken(shown(loop)), Not(HasSubstr("taken to be independent")));
+  loop.noise_estimated = false;
+  EXPECT_THAT(unbroken(shown(loop)), HasSubstr("taken to be independent from pose to pose"));
+}
+
 TEST(LoopTerminal, IsEmptyWhereTheLoopDidNotRun) {
   EXPECT_THAT(shown({}), IsEmpty());
   EXPECT_FALSE(loop_added({}));

@@ -93,6 +93,7 @@ inline LoopOutcome made_up_loop(int harmonics) {
   RandomStream random{831};
   LoopOutcome loop;
   loop.stopped = StopReason::no_gain;
+  loop.noise_estimated = true;
   Round first = made_up_round(loop, made_up_backlash(), 0.771, 0.642);
   Effect hysteresis{.kind = "hysteresis", .joint = 1, .settings = {}};
   first.rivals = {{hysteresis, 0.931, 3.2}};
