@@ -148,8 +148,22 @@ std::vector<std::vector<std::vector<double>>> taken_of(const EndedLoop& loop, co
   return taken;
 }
 
-/// Of every candidate beyond the model: what the poses that judge see of it, over what those that fit do.
-std::vector<double> judged_shares(const EndedLoop& loop, const Projection& beyond) {
+/// The square of a column over the poses that judge, in units of how their residuals scatter along it: by whole poses,
+/// for repeats share errors.
+double judged_square(const Eigen::VectorXd& column, const ResidualField& judging, const Eigen::VectorXd& left) {
+  std::map<std::size_t, double> along;
+  for (std::size_t pose = 0; pose < judging.poses.size(); ++pose) {
+    const Eigen::Index first = judging.first_row[pose], count = judging.rows_of_pose(pose);
+    along[judging.group[pose]] += column.segment(first, count).dot(left.segment(first, count));
+  }
+  double scatter = 0.0;
+  for (const auto& [group, sum] : along) scatter += sum * sum;
+  const double square = column.squaredNorm();
+  return scatter > 0.0 ? square * square / scatter : 0.0;
+}
+
+/// Of every candidate beyond the model: how well the poses that judge see it, over how well those that fit do.
+std::vector<double> judged_shares(const EndedLoop& loop, const Projection& beyond, double variance) {
   if (loop.at.judging.poses.empty()) return {};
   EffectColumns judging;
   for (const Candidate& candidate : loop.candidates)
@@ -159,8 +173,11 @@ std::vector<double> judged_shares(const EndedLoop& loop, const Projection& beyon
   for (std::size_t i = 0; i < loop.candidates.size(); ++i) {
     const Projection::Trial trial =
         beyond.trial(loop.columns.dense(loop.at.fitted, i), judging.dense(loop.at.judging, i));
-    const double fitted = trial.fitted.squaredNorm();
-    shares.push_back(fitted > 0.0 ? trial.judging.squaredNorm() / fitted : 0.0);
+    double judged = 0.0;
+    for (const auto& column : trial.judging.colwise())
+      judged += judged_square(column, loop.at.judging, beyond.judging_left());
+    const double fitted = trial.fitted.squaredNorm() / variance;
+    shares.push_back(fitted > 0.0 ? judged / fitted : 0.0);
   }
   return shares;
 }
@@ -234,12 +251,13 @@ std::vector<NotFound> not_found_beyond(const EndedLoop& loop, const std::vector<
   const Scan scan(loop.columns, prices_nats(loop.candidates), loop.at.fitted, beyond);
   std::vector<double> maxima = null_maxima;
   if (!set_aside.empty()) maxima = scan.null_maxima(loop.columns, loop.at.fitted, beyond, options.permutations, random);
+  const double variance = beyond.squares() / beyond.freedom();
   std::vector<NotFound> all = smallest_detectable(loop.candidates, scan.scores(), loop.model.robot, loop.robot,
                                                   {.null_maxima = maxima,
                                                    .family_error = options.family_error,
-                                                   .variance = beyond.squares() / beyond.freedom(),
+                                                   .variance = variance,
                                                    .poses = loop.at.fitted.poses.size(),
-                                                   .judged = judged_shares(loop, beyond),
+                                                   .judged = judged_shares(loop, beyond, variance),
                                                    .taken = taken_of(loop, beyond)});
   mark_untestable(all, loop.robot, loop.at.fitted.states);
   return all;
