@@ -17,7 +17,8 @@ struct Detection {
   double family_error = 0.05;
   double variance = 1.0;  ///< of the residual rows, in rows of unit variance
   std::size_t poses = 0;
-  /// Per candidate: what the poses that judge see of it, over what those that fit see (of squares); empty: none judge.
+  /// Per candidate: its square over the poses that judge, in units of how these scatter, over that of the poses that
+  /// fit; empty: none judge.
   std::vector<double> judged{};
   /// Per candidate and coefficient: of the squared length of its column beyond the model, what single terms of the
   /// joints' smooth corrections could take, the one that takes most first; empty: there are none.

@@ -126,8 +126,8 @@ std::string noise_line(const LoopOutcome& loop) {
   const double independent_mm = millimetres(loop.independent_m);
   if (loop.stopped != StopReason::not_run && !loop.noise_estimated) {
     return wrapped("  noise:",
-                   fmt::format("{:.3f} mm an axis, taken to be independent from pose to pose: of more than 400 "
-                               "calibration poses what they share is not estimated",
+                   fmt::format("{:.3f} mm an axis, taken to be independent from pose to pose: what poses share was not "
+                               "estimated",
                                independent_mm),
                    4);
   }

@@ -139,7 +139,7 @@ TEST(Dds, KeysAreTheSamplesOwnWhateverOtherThreadsDo) {
     EXPECT_TRUE(type->getKey(&part, &handle, false));
     return handle;
   };
-  constexpr std::uint32_t kAsked = 20'000;
+  constexpr std::uint32_t kAsked = 1'000'000;  // long enough for the two to ask at once
   const auto mine = key_of_place(1), others = key_of_place(2);
   ASSERT_NE(mine, others);
   std::atomic<int> wrong{0};
