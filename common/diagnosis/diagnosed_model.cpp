@@ -90,6 +90,7 @@ void append(ModelColumns& columns, const SharedErrors& shared) {
   columns.precision.tail(more).setOnes();
   columns.offset.conservativeResize(known + more);
   columns.offset.tail(more).setZero();
+  columns.shared = more;
 }
 
 /// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.

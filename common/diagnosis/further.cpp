@@ -177,8 +177,7 @@ std::string inseparable(const std::string& named, const std::vector<Rival>& riva
   if (!same.empty()) text = named + " and " + listed(same) + " are the same thing for any measurement of this kind";
   if (near.empty()) return text;
   if (!text.empty()) text += "; ";
-  return text + named + " of this size differs too little from " + listed(near) + " for " +
-         std::to_string(kMostProposedPoses + 1) + " poses of any kind to tell";
+  return text + "no practical measurement separates " + named + " of this size from " + listed(near);
 }
 
 std::string sentence(const Experiment& experiment, int poses, const std::string& named, const std::string& rivals) {

@@ -7,6 +7,7 @@
 
 #include "diagnosis/implausible.hpp"
 #include "diagnosis/rivals.hpp"
+#include "effects/joint_words.hpp"
 
 namespace demecal {
 namespace {
@@ -163,12 +164,12 @@ Confirmation Group::confirmed(const Eigen::VectorXd& before, const Eigen::Vector
 }
 
 std::string Group::objection(const Round& round, const Projection::Trial& trial) const {
-  if (round.p_family > rules_.family_error) return "chance would explain as much too often";
+  if (round.p_family > rules_.family_error) return "not significant (p = " + number_words(round.p_family) + ")";
   if (round.fall_nats <= 0.0) return "the description grows longer by it";
   if (projection_.freedom() - static_cast<double>(trial.rank) < kLeastFreedom)
     return "too few measured numbers are left";
   if (!at_.judging.poses.empty() && round.confirmed <= kGains) return "no gain on the validation poses";
-  if (round.sign_stability < kStable) return "its sign changes when poses are drawn anew";
+  if (round.sign_stability < kStable) return "unstable under bootstrap resampling";
   return {};
 }
 

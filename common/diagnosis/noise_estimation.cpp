@@ -86,16 +86,11 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
   const Linearised at = linearise(of, model);
   const RowsTaken taken(at.fitted);
   if (taken.size() == 0) return model;
-  std::vector<Eigen::Index> motions;
-  for (int joint = 0; joint < of.data.robot.chain.size(); ++joint) {
-    if (of.data.robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute)
-      motions.push_back(motion_column(joint, kTurnAboutZ));
-  }
   const RowMatrix columns = beside(at.fitted.declared, model.smooth.columns(at.fitted));
   const std::vector<Eigen::Index> moving = columns_of(at, model.smooth);
   NoiseRows rows{.columns = taken.of(columns(Eigen::all, moving)),
                  .residual = taken.of(at.fitted.residual + at_rest(columns, moving, model.smooth)),
-                 .joint_motions = taken.of(at.fitted.motions(Eigen::all, motions)),
+                 .joint_motions = taken.of(at.fitted.motions(Eigen::all, at.fitted.scattering)),
                  .first_row = {0},
                  .group = {},
                  .order = {}};
@@ -107,9 +102,7 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
   const NoiseEstimate noise = estimate_noise(rows);
   if (!is_noise(noise, model.scales)) return model;
   model.noise = noise.model;
-  std::vector<std::size_t> places = of.fitted;
-  places.insert(places.end(), of.judging.begin(), of.judging.end());
-  model.noise.fast = unfollowed_variance(model.noise, places);
+  model.noise.fast = unfollowed_variance(model.noise, at.fitted.poses);
   model.noise_estimated = true;
   for (double& scale : model.scales) scale *= noise.scale;
   return model;

@@ -1,14 +1,13 @@
 #include "diagnosis/noise_model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <utility>
+
+#include "diagnosis/restricted_likelihood.hpp"
 
 namespace demecal {
 namespace {
@@ -32,146 +31,6 @@ std::vector<std::size_t> taking_part(const NoiseRows& rows) {
     if (poses <= most || i - begin < length) taken.push_back(i);
   }
   return taken;
-}
-
-/// Minus twice the restricted log-likelihood of components of variance, up to a constant, over some of the poses.
-class RestrictedLikelihood {
- public:
-  RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses);
-
-  Eigen::Index freedom() const { return freedom_; }
-  enum Component { joints, repeats, order };
-  bool has(Component component) const { return covariance_[component].size() > 0; }
-  double minus_twice_log(const std::array<double, 3>& variances) const;
-  /// Sum of squares per degree of freedom, the components being as they are.
-  double variance_left(const std::array<double, 3>& variances) const;
-  /// Mean variance of a row per rad^2 of the joints' scatter.
-  double per_joint_square() const { return per_joint_square_; }
-  void set_correlation(double from_pose_to_pose);
-  /// Lag-one products of the poses' residuals over what chance would make their root mean square.
-  double neighbourhood() const { return neighbourhood_; }
-
- private:
-  Eigen::MatrixXd beyond_model(const Eigen::MatrixXd& columns) const;
-  Eigen::MatrixXd covariance(const std::array<double, 3>& variances) const;
-
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> model_;
-  Eigen::Index rows_ = 0, rank_ = 0, freedom_ = 0;
-  Eigen::VectorXd left_;
-  std::array<Eigen::MatrixXd, 3> covariance_;
-  std::vector<Eigen::Index> first_row_;
-  std::vector<double> order_;
-  double per_joint_square_ = 1.0, neighbourhood_ = 0.0;
-};
-
-RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses) {
-  std::vector<Eigen::Index> taken;
-  for (const std::size_t pose : poses) {
-    first_row_.push_back(static_cast<Eigen::Index>(taken.size()));
-    order_.push_back(rows.order[pose]);
-    for (Eigen::Index row = rows.first_row[pose]; row < rows.first_row[pose + 1]; ++row) taken.push_back(row);
-  }
-  rows_ = std::ssize(taken);
-  first_row_.push_back(rows_);
-  const Eigen::MatrixXd model = rows.columns(taken, Eigen::all);
-  const Eigen::VectorXd values = rows.residual(taken);
-  if (model.cols() > 0) {
-    const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
-    model_.setThreshold(1e-9);
-    model_.compute(model * norms.cwiseInverse().asDiagonal());
-    rank_ = model_.rank();
-  }
-  freedom_ = rows_ - rank_;
-  left_ = beyond_model(values);
-  const Eigen::Index joints_count = rows.joint_motions.cols();
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(rows_, joints_count * std::ssize(poses));
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Index count = first_row_[i + 1] - first_row_[i];
-    motions.block(first_row_[i], static_cast<Eigen::Index>(i) * joints_count, count, joints_count) =
-        rows.joint_motions.middleRows(rows.first_row[poses[i]], count);
-  }
-  per_joint_square_ = std::max(motions.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(rows_, 1)), 1e-300);
-  const Eigen::MatrixXd seen = beyond_model(motions / std::sqrt(per_joint_square_));
-  covariance_[joints] = seen * seen.transpose();
-  std::map<std::size_t, std::vector<std::size_t>> members;
-  for (std::size_t i = 0; i < poses.size(); ++i) members[rows.group[poses[i]]].push_back(i);
-  std::erase_if(members, [](const auto& group) { return group.second.size() < 2; });
-  if (!members.empty()) {
-    constexpr Eigen::Index kRowsShared = 6;
-    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kRowsShared * std::ssize(members));
-    Eigen::Index column = 0;
-    for (const auto& [first, repeated] : members) {
-      for (const std::size_t pose : repeated) {
-        const Eigen::Index count = std::min(kRowsShared, first_row_[pose + 1] - first_row_[pose]);
-        shared.block(first_row_[pose], column, count, count).setIdentity();
-      }
-      column += kRowsShared;
-    }
-    const Eigen::MatrixXd together = beyond_model(shared);
-    covariance_[repeats] = together * together.transpose();
-  }
-  // What is left of the rows themselves tells whether neighbours in order are alike, before anything is estimated.
-  Eigen::VectorXd padded = Eigen::VectorXd::Zero(rows_);
-  padded.tail(freedom_) = left_;
-  if (rank_ > 0) padded.applyOnTheLeft(model_.householderQ());
-  double products = 0.0, squares = 0.0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    const Eigen::Index count = std::min(first_row_[i + 1] - first_row_[i], first_row_[i] - first_row_[i - 1]);
-    const double product = padded.segment(first_row_[i], count).dot(padded.segment(first_row_[i - 1], count));
-    products += product;
-    squares += product * product;
-  }
-  neighbourhood_ = squares > 0.0 ? products / std::sqrt(squares) : 0.0;
-}
-
-/// What of columns the model cannot follow: freedom x columns.
-Eigen::MatrixXd RestrictedLikelihood::beyond_model(const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd turned = columns;
-  if (rank_ > 0) turned.applyOnTheLeft(model_.householderQ().adjoint());
-  return turned.bottomRows(freedom_);
-}
-
-void RestrictedLikelihood::set_correlation(double from_pose_to_pose) {
-  const auto poses = std::ssize(order_);
-  Eigen::MatrixXd alike(poses, poses);
-  for (Eigen::Index i = 0; i < poses; ++i) {
-    for (Eigen::Index k = 0; k < poses; ++k) {
-      alike(i, k) = std::pow(from_pose_to_pose,
-                             std::abs(order_[static_cast<std::size_t>(i)] - order_[static_cast<std::size_t>(k)]));
-    }
-    alike(i, i) += 1e-9;
-  }
-  const Eigen::MatrixXd root = alike.llt().matrixL();
-  constexpr Eigen::Index kAxes = 3;
-  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kAxes * poses);
-  for (Eigen::Index i = 0; i < poses; ++i) {
-    const auto pose = static_cast<std::size_t>(i);
-    const Eigen::Index count = std::min(kAxes, first_row_[pose + 1] - first_row_[pose]);
-    for (Eigen::Index axis = 0; axis < count; ++axis)
-      shared.row(first_row_[pose] + axis).segment(axis * poses, poses) = root.row(i);
-  }
-  const Eigen::MatrixXd drift = beyond_model(shared);
-  covariance_[order] = drift * drift.transpose();
-}
-
-Eigen::MatrixXd RestrictedLikelihood::covariance(const std::array<double, 3>& variances) const {
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(freedom_, freedom_);
-  for (std::size_t i = 0; i < variances.size(); ++i)
-    if (variances[i] > 0.0 && covariance_[i].size() > 0) whole += variances[i] * covariance_[i];
-  return whole;
-}
-
-double RestrictedLikelihood::minus_twice_log(const std::array<double, 3>& variances) const {
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance(variances));
-  if (root.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  const double squares = root.matrixL().solve(left_).squaredNorm();
-  return static_cast<double>(freedom_) * std::log(std::max(squares, 1e-300)) +
-         2.0 * Eigen::MatrixXd(root.matrixLLT()).diagonal().array().log().sum();
-}
-
-double RestrictedLikelihood::variance_left(const std::array<double, 3>& variances) const {
-  return covariance(variances).llt().matrixL().solve(left_).squaredNorm() /
-         static_cast<double>(std::max<Eigen::Index>(freedom_, 1));
 }
 
 /// The smallest value of a function of a positive number, over kVariances and between the best one's neighbours.
@@ -240,6 +99,29 @@ class Components {
     estimate(RestrictedLikelihood::order, kLikelierInOrder);
   }
 
+  /// How the joints' variances differ, which are believed to be alike within a factor of e or so (one standard
+  /// deviation of their logarithms): Fisher's scoring.
+  void estimate_joints_apart() {
+    constexpr int kSteps = 4;
+    constexpr double kSettled = 0.05;  ///< of a logarithm
+    if (variances[RestrictedLikelihood::joints] <= 0.0) return;
+    const Eigen::Index count = likelihood_.joint_shares().size();
+    const Eigen::MatrixXd alike = Eigen::MatrixXd::Identity(count, count) -
+                                  Eigen::MatrixXd::Constant(count, count, 1.0 / static_cast<double>(count));
+    for (int step = 0; step < kSteps; ++step) {
+      const auto [slope, information] = likelihood_.along_joint_variances(variances);
+      const Eigen::VectorXd logs = likelihood_.joint_shares().array().log();
+      const Eigen::MatrixXd curvature = information + alike + 1e-9 * Eigen::MatrixXd::Identity(count, count);
+      const Eigen::VectorXd change = curvature.ldlt().solve(slope - alike * logs).cwiseMax(-1.0).cwiseMin(1.0);
+      likelihood_.set_joint_shares((logs + change).array().exp());
+      if (change.cwiseAbs().maxCoeff() < kSettled) break;
+    }
+    const double mean = likelihood_.joint_shares().mean();
+    variances[RestrictedLikelihood::joints] *= mean;
+    likelihood_.set_joint_shares(likelihood_.joint_shares() / mean);
+    least_ = value();
+  }
+
   bool others_than_joints() const {
     return variances[RestrictedLikelihood::repeats] > 0.0 || variances[RestrictedLikelihood::order] > 0.0;
   }
@@ -272,12 +154,15 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
     if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
     if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, kLikelierInOrder);
   }
-  const auto& [joint, repeat, order] = components.variances;
+  components.estimate_joints_apart();
   const double scale = std::sqrt(likelihood.variance_left(components.variances));
+  const Eigen::VectorXd& shares = likelihood.joint_shares();
+  const auto& [joint, repeat, order] = components.variances;
   return {.model = {.joint_rad = scale * std::sqrt(joint / likelihood.per_joint_square()),
                     .repeats = std::sqrt(repeat),
                     .order = std::sqrt(order),
-                    .correlation = order > 0.0 ? components.correlation : 0.0},
+                    .correlation = order > 0.0 ? components.correlation : 0.0,
+                    .joint_shares = {shares.begin(), shares.end()}},
           .scale = scale};
 }
 

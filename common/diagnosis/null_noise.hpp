@@ -10,7 +10,8 @@ namespace demecal {
 
 /// Draws rows as if nothing but the noise had been measured. The whitened residual of a pose keeps its length, which
 /// goes to any pose with as many rows, and takes any direction (a rotation test by poses, after Langsrud, 2005, that
-/// keeps heavy tails); what is believed of the model's numbers is drawn as well.
+/// keeps heavy tails); what is believed of the model's numbers, and what poses share, is drawn as large as it was
+/// found.
 class NullNoise {
  public:
   NullNoise(const ResidualField& field, const Projection& model);
@@ -27,6 +28,7 @@ class NullNoise {
   const ResidualField& field_;
   const Projection& model_;
   std::map<Eigen::Index, std::vector<double>> lengths_;  ///< of poses by their number of rows
+  Eigen::VectorXd belief_deviations_;                    ///< one per row of beliefs
 };
 
 }  // namespace demecal

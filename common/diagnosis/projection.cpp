@@ -36,7 +36,10 @@ void append(RowMatrix& to, const RowMatrix& columns) {
 }  // namespace
 
 Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& judging)
-    : left_(fitted), judging_left_(judging), beliefs_left_(-model.precision.cwiseProduct(model.offset)) {
+    : left_(fitted),
+      judging_left_(judging),
+      beliefs_left_(-model.precision.cwiseProduct(model.offset)),
+      shared_(model.shared) {
   TriangularFactor factor(static_cast<int>(model.fitted.cols()));
   factor.add(model.fitted);
   const RowMatrix beliefs = model.precision.asDiagonal().toDenseMatrix();

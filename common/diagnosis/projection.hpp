@@ -18,6 +18,7 @@ struct ModelColumns {
   RowMatrix judging;
   Eigen::VectorXd precision;
   Eigen::VectorXd offset;
+  Eigen::Index shared = 0;  ///< how many of them, the last, are errors that poses share: noise, not the model's numbers
 };
 
 /// The norm below which a column is taken to be nothing: a whole radian, metre or unit share that moves all that was
@@ -47,6 +48,8 @@ class Projection {
   /// Over the rows of beliefs: one a column of the model it was made from, zero where nothing is believed.
   const RowMatrix& beliefs_basis() const { return beliefs_basis_; }
   const Eigen::VectorXd& beliefs_left() const { return beliefs_left_; }
+  /// How many of these rows, the last, are of errors that poses share.
+  Eigen::Index shared() const { return shared_; }
   /// Of the same rows: whether anything is believed.
   const std::vector<bool>& believed() const { return believed_; }
 
@@ -71,6 +74,7 @@ class Projection {
   Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
   Eigen::VectorXd left_, judging_left_, beliefs_left_, changes_;
   std::vector<bool> believed_;
+  Eigen::Index shared_;
 };
 
 }  // namespace demecal

@@ -37,15 +37,23 @@ double root_weight_of(double norm, int rows) {
   return outer < 1.0 ? huber * (1.0 - outer * outer) : 0.0;
 }
 
+/// The columns of motions about the axes of revolute joints.
+std::vector<Eigen::Index> turns_of(const Chain& chain) {
+  std::vector<Eigen::Index> columns;
+  for (int joint = 0; joint < chain.size(); ++joint) {
+    if (chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute)
+      columns.push_back(motion_column(joint, kTurnAboutZ));
+  }
+  return columns;
+}
+
 /// The root of the covariance that a pose's rows have by themselves.
 Eigen::MatrixXd covariance_root(const ResidualField& field, Eigen::Index first, Eigen::Index count,
-                                const NoiseModel& noise, const Chain& chain) {
+                                const NoiseModel& noise) {
   Eigen::MatrixXd covariance = (1.0 + noise.fast) * Eigen::MatrixXd::Identity(count, count);
-  for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
-    const Eigen::VectorXd motion =
-        noise.joint_rad * field.motions.block(first, motion_column(joint, kTurnAboutZ), count, 1);
-    covariance += motion * motion.transpose();
+  for (std::size_t joint = 0; joint < field.scattering.size(); ++joint) {
+    const Eigen::VectorXd motion = field.motions.block(first, field.scattering[joint], count, 1);
+    covariance += noise.joint_variance_rad2(joint) * motion * motion.transpose();
   }
   return covariance.llt().matrixL();
 }
@@ -123,6 +131,7 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
   const ModelPoint point = space.at(Eigen::VectorXd::Zero(space.size()));
   ResidualField field;
   reserve(field, data, observations, space, scales);
+  field.scattering = turns_of(data.robot.chain);
   ScaledRows rows;
   for (const Observation& observation : observations) {
     const MeasuredPose& pose = data.poses[observation.pose];
@@ -144,7 +153,7 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
     field.within.emplace_back();
     Eigen::VectorXd in_deviations = rows.residual;
     if (noise.joint_rad > 0.0 || noise.fast > 0.0) {
-      field.within.back() = covariance_root(field, first, count, noise, data.robot.chain);
+      field.within.back() = covariance_root(field, first, count, noise);
       whiten(field, first, count, field.within.back());
       in_deviations = field.residual.segment(first, count);
     }

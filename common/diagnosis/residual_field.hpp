@@ -19,11 +19,16 @@ RowMatrix beside(const RowMatrix& left, const RowMatrix& right);
 
 /// How rows scatter beyond independent noise of unit variance, in the units of RowScales.
 struct NoiseModel {
-  double joint_rad = 0.0;    ///< standard deviation of every revolute joint, new at every visit
+  double joint_rad = 0.0;    ///< standard deviation of revolute joints, new at every visit: root mean square over them
   double repeats = 0.0;      ///< of the error that repeats of one pose share, over that of independent noise
   double order = 0.0;        ///< the same of an error that poses measured one after another share
   double correlation = 0.0;  ///< of that error from one pose to the next (autoregressive of first order)
-  double fast = 0.0;  ///< the part of order^2 that changes too fast to be followed: independent from pose to pose
+  double fast = 0.0;         ///< the part of order^2 at fitted poses that changes too fast to be followed: independent
+  std::vector<double> joint_shares{};  ///< variance of each revolute joint over joint_rad^2; empty: one of all
+
+  double joint_variance_rad2(std::size_t revolute) const {
+    return joint_rad * joint_rad * (joint_shares.empty() ? 1.0 : joint_shares[revolute]);
+  }
 };
 
 /// Rows are in units of what their kind scatters; those of one pose are made independent of unit variance where joints
@@ -31,15 +36,16 @@ struct NoiseModel {
 /// the pose's norm, none at all beyond rejection_norm). A model change `c` changes the residual to residual - columns *
 /// c.
 struct ResidualField {
-  std::vector<std::size_t> poses;       ///< in the data set
-  std::vector<std::size_t> group;       ///< per pose: the first of `poses` that has its id and target
-  std::vector<Eigen::Index> first_row;  ///< of each pose, and one past the last: poses + 1
-  std::vector<double> root_weight;      ///< one per pose
-  Eigen::VectorXd residual;             ///< measured minus predicted
-  RowMatrix declared;                   ///< rows x free parameters of the model
-  RowMatrix motions;                    ///< rows x 6 (n + 2): per unit motion, see motion_column
-  std::vector<ArmState> states;         ///< one per pose
-  std::vector<Eigen::MatrixXd> within;  ///< per pose: root (lower) of the covariance of its scaled rows; empty: none
+  std::vector<std::size_t> poses;        ///< in the data set
+  std::vector<std::size_t> group;        ///< per pose: the first of `poses` that has its id and target
+  std::vector<Eigen::Index> first_row;   ///< of each pose, and one past the last: poses + 1
+  std::vector<double> root_weight;       ///< one per pose
+  Eigen::VectorXd residual;              ///< measured minus predicted
+  RowMatrix declared;                    ///< rows x free parameters of the model
+  RowMatrix motions;                     ///< rows x 6 (n + 2): per unit motion, see motion_column
+  std::vector<ArmState> states;          ///< one per pose
+  std::vector<Eigen::MatrixXd> within;   ///< per pose: root (lower) of the covariance of its scaled rows; empty: none
+  std::vector<Eigen::Index> scattering;  ///< columns of `motions` of the joints that scatter by it
 
   Eigen::Index rows() const { return residual.size(); }
   Eigen::Index rows_of_pose(std::size_t i) const { return first_row[i + 1] - first_row[i]; }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Eigen::Index kAxes = 3;  ///< of positions, the first rows of a pose
 constexpr std::size_t kMostRepeated = 200;
-constexpr Eigen::Index kMostKnots = 200, kMostFunctions = 64;
+constexpr Eigen::Index kMostKnots = 120;
 constexpr double kLeastVariance = 0.05;  ///< of a function's part in all rows, over that of independent noise
 
 /// Puts what a unit of an error does to a pose's scaled rows (count x columns) at its place.
@@ -52,19 +52,19 @@ RowMatrix columns_of_repeats(double size, const ResidualField& field) {
 /// covariance size^2 correlation^|difference| (exact at the knots, by the nearest Gaussian process between them).
 class Drift {
  public:
-  Drift(const NoiseModel& noise, double first, double last) : noise_(noise) {
-    const auto knots =
-        std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::lround(last - first)) + 1, 2, kMostKnots);
-    places_ = Eigen::VectorXd::LinSpaced(knots, first, last);
+  /// `places` ascend.
+  Drift(const NoiseModel& noise, std::span<const std::size_t> places) : noise_(noise) {
+    const Eigen::Index knots = std::min(std::ssize(places), kMostKnots);
+    places_.resize(knots);
+    for (Eigen::Index i = 0; i < knots; ++i)
+      places_[i] = static_cast<double>(places[static_cast<std::size_t>(i * std::ssize(places) / knots)]);
     Eigen::MatrixXd covariance(knots, knots);
     for (Eigen::Index i = 0; i < knots; ++i) covariance.col(i) = alike(places_[i]);
     covariance.diagonal().array() += 1e-9;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
     Eigen::Index count = 0;
-    while (count < std::min(knots, kMostFunctions) &&
-           eigen.eigenvalues()[knots - 1 - count] * noise.order * noise.order > kLeastVariance) {
+    while (count < knots && eigen.eigenvalues()[knots - 1 - count] * noise.order * noise.order > kLeastVariance)
       ++count;
-    }
     functions_ = noise.order * eigen.eigenvectors().rightCols(count) *
                  eigen.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
   }
@@ -102,8 +102,7 @@ RowMatrix columns_of_drift(const Drift& drift, const ResidualField& field) {
 
 double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t> places) {
   if (noise.order <= 0.0 || places.empty()) return 0.0;
-  const auto [first, last] = std::ranges::minmax_element(places);
-  const Drift drift(noise, static_cast<double>(*first), static_cast<double>(*last));
+  const Drift drift(noise, places);
   double followed = 0.0;
   for (const std::size_t place : places) followed += drift.at(static_cast<double>(place)).squaredNorm();
   return std::max(0.0, noise.order * noise.order - followed / static_cast<double>(places.size()));
@@ -116,12 +115,7 @@ SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted,
     shared.judging = RowMatrix::Zero(judging.rows(), shared.fitted.cols());
   }
   if (noise.order > 0.0 && !fitted.poses.empty()) {
-    double first = static_cast<double>(fitted.poses.front()), last = static_cast<double>(fitted.poses.back());
-    if (!judging.poses.empty()) {
-      first = std::min(first, static_cast<double>(judging.poses.front()));
-      last = std::max(last, static_cast<double>(judging.poses.back()));
-    }
-    const Drift drift(noise, first, last);
+    const Drift drift(noise, fitted.poses);
     shared.fitted = beside(shared.fitted, columns_of_drift(drift, fitted));
     shared.judging = beside(shared.judging, columns_of_drift(drift, judging));
   }

@@ -18,7 +18,7 @@ double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t>
 
 /// What repeats of one pose have in common, and what drifts in the order of measuring, of the components that `noise`
 /// has; `judging` poses share it with `fitted` ones. The order of measuring is that of the data set. Drift is followed
-/// by at most 64 functions an axis; of more than 200 repeated poses the error is not modelled.
+/// through at most 120 of the fitted poses; of more than 200 repeated poses the error is not modelled.
 SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& judging);
 
 }  // namespace demecal

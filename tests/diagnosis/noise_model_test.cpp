@@ -46,7 +46,8 @@ void draw(NoisyArm& at, const NoiseModel& model, double scale, RandomStream& str
   for (std::size_t i = 0; i < at.field.poses.size(); ++i) {
     const Eigen::Index first = at.field.first_row[i];
     JointVector joints(6);
-    for (double& value : joints) value = model.joint_rad * stream.normal();
+    for (Eigen::Index joint = 0; joint < 6; ++joint)
+      joints[joint] = std::sqrt(model.joint_variance_rad2(static_cast<std::size_t>(joint))) * stream.normal();
     residual.segment(first, 3) += at.rows.joint_motions.middleRows(first, 3) * joints;
     for (double& value : drift) {
       value = i == 0 ? stream.normal()
@@ -77,6 +78,27 @@ TEST(NoiseModel, ComponentsAreFoundAboutAsLargeAsTheyAre) {
   EXPECT_NEAR(joints, 1.0, 0.15);
   EXPECT_NEAR(repeats, 1.0, 0.25);
   EXPECT_NEAR(scale, 1.0, 0.1);
+}
+
+TEST(NoiseModel, JointsThatScatterMoreThanOthersAreToldFromThem) {
+  RandomStream stream{91, 5};
+  NoisyArm at = noisy_arm(stream, 100);
+  const double joint_rad = 2.0 / std::sqrt(at.rows.joint_motions.squaredNorm() / static_cast<double>(at.field.rows()));
+  const std::vector<double> shares{2.0, 0.5, 2.0, 0.5, 0.5, 0.5};
+  constexpr int kDraws = 6;
+  std::vector<double> found(6, 0.0);
+  for (int i = 0; i < kDraws; ++i) {
+    draw(at, {.joint_rad = joint_rad, .joint_shares = shares}, 1.0, stream);
+    const NoiseModel model = estimate_noise(at.rows).model;
+    ASSERT_EQ(model.joint_shares.size(), 6u);
+    for (std::size_t joint = 0; joint < 6; ++joint)
+      found[joint] += model.joint_variance_rad2(joint) / (joint_rad * joint_rad) / kDraws;
+  }
+  for (const std::size_t joint : {0u, 2u}) {
+    EXPECT_NEAR(found[joint], 2.0, 0.7) << joint;
+    EXPECT_GT(found[joint], 1.5 * found[1]) << joint;
+  }
+  EXPECT_NEAR(found[1], 0.5, 0.25);
 }
 
 TEST(NoiseModel, DriftInOrderIsFound) {

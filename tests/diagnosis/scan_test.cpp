@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/scan.hpp"
 #include "measured_arm.hpp"
@@ -124,25 +125,54 @@ TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
   }
 }
 
+/// Of 200 draws of noise in place of the residual, each fitted by a model: how many of the best candidates' p-values
+/// are 0.05 or less, and their mean.
+struct PValues {
+  int rare = 0;
+  double mean = 0.0;
+};
+PValues p_values_of_noise(ScannedArm& at, RandomStream& stream, const std::function<Projection()>& fitted,
+                          std::uint64_t purpose) {
+  constexpr int kDraws = 200;
+  PValues found;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    renew_noise(at.field, stream);
+    const Projection model = fitted();
+    const Scan scan(at.columns, at.name_nats, at.field, model);
+    const std::vector<double> maxima =
+        scan.null_maxima(at.columns, at.field, model, 99, RandomStream{84, purpose, static_cast<std::uint64_t>(draw)});
+    const double p = p_value(maxima, best_fall(scan));
+    found.rare += p <= 0.05;
+    found.mean += p / kDraws;
+  }
+  return found;
+}
+
 TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
   RandomStream stream{84, 5};
   ScannedArm at = scanned_arm(stream, 40);
-  constexpr int kDraws = 200;
-  int rare = 0;
-  double sum = 0.0;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    renew_noise(at.field, stream);
-    const Projection model = projection_of(at.field);
-    const Scan scan(at.columns, at.name_nats, at.field, model);
-    const std::vector<double> maxima =
-        scan.null_maxima(at.columns, at.field, model, 99, RandomStream{84, 6, static_cast<std::uint64_t>(draw)});
-    const double p = p_value(maxima, best_fall(scan));
-    rare += p <= 0.05;
-    sum += p;
-  }
-  EXPECT_GE(rare, 2);
-  EXPECT_LE(rare, 22);
-  EXPECT_NEAR(sum / kDraws, 0.5, 0.1);
+  const PValues found = p_values_of_noise(
+      at, stream, [&] { return projection_of(at.field); }, 6);
+  EXPECT_GE(found.rare, 2);
+  EXPECT_LE(found.rare, 22);
+  EXPECT_NEAR(found.mean, 0.5, 0.1);
+}
+
+TEST(Scan, NumbersBelievedToBeLargerThanTheyAreMakeNothingRare) {
+  RandomStream stream{84, 8};
+  ScannedArm at = scanned_arm(stream, 40);
+  const Eigen::Index declared = at.field.declared.cols(), rows = at.field.rows(), more = rows;
+  RowMatrix random_columns(rows, more);
+  for (double& value : random_columns.reshaped()) value = stream.normal() / std::sqrt(static_cast<double>(rows));
+  ModelColumns columns{beside(at.field.declared, random_columns), {}, {}, {}};
+  columns.judging = columns.fitted;
+  columns.offset = Eigen::VectorXd::Zero(declared + more);
+  columns.precision = Eigen::VectorXd::Zero(declared + more);
+  columns.precision.tail(more).setConstant(0.7);  // the rows tell about as much
+  const PValues found = p_values_of_noise(
+      at, stream, [&] { return Projection(columns, at.field.residual, at.field.residual); }, 9);
+  EXPECT_LE(found.rare, 22);
+  EXPECT_NEAR(found.mean, 0.5, 0.1);
 }
 
 TEST(Scan, NullIsAFunctionOfItsSeedAndAscends) {
