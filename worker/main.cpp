@@ -10,9 +10,9 @@
 #include <string>
 #include <thread>
 
+#include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
 #include "protocol/printable.hpp"
-#include "transport/dds.hpp"
 #include "worker/worker.hpp"
 
 namespace {

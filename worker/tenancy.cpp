@@ -62,7 +62,7 @@ std::vector<Migrants> Tenancy::unsent() {
 std::optional<Progress> Tenancy::due_progress(const std::string& worker, std::chrono::milliseconds interval) {
   const auto now = std::chrono::steady_clock::now();
   if (untold_.empty()) return std::nullopt;
-  if (!finished() && untold_.size() < kMostToldEpochs && now - progress_told_ < interval) return std::nullopt;
+  if (!finished() && untold_.size() < kMostReportedEpochs && now - progress_told_ < interval) return std::nullopt;
   progress_told_ = now;
   const EpochFigures present = untold_.back();
   untold_.pop_back();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "protocol/faults.hpp"
-#include "transport/participant_of.hpp"
+#include "transport/participants.hpp"
 
 namespace demecal {
 namespace {
@@ -54,7 +54,7 @@ void Worker::receive(const Message& message) {
 void Worker::take(const CalibrationData& data) {
   if (ended_.contains(data.run) || runs_.contains(data.run)) return;
   if (!serves(data.run)) return;
-  if (const Fault fault = find_fault(data)) return transport_.drop(coordinator_of(data.run), *fault);
+  if (const Fault fault = find_fault(data)) return transport_.reject(coordinator_of(data.run), *fault);
   runs_[data.run] = std::make_shared<RunData>(RunData{data});
   arrived_[data.run];
   const auto early = waiting_.extract(data.run);
@@ -69,7 +69,7 @@ void Worker::take(const IslandTask& task) {
   const auto run = runs_.find(task.run);
   if (run == runs_.end()) return keep_for_later(task);
   if (const Fault fault = find_fault(task, run->second->data)) {
-    return transport_.drop(coordinator_of(task.run), *fault);
+    return transport_.reject(coordinator_of(task.run), *fault);
   }
   if (holders_.name(task))
     for (const Migrants& migrants : unproven_.take(task.worker, task.run, task.island)) take(migrants);
@@ -131,7 +131,7 @@ void Worker::reach(const Place& place) {
 
 void Worker::keep_for_later(const IslandTask& task) {
   if (!serves(task.run)) return;
-  if (waiting_tasks_ >= kMostWaitingTasks) return transport_.drop(coordinator_of(task.run), "a task without data");
+  if (waiting_tasks_ >= kMostWaitingTasks) return transport_.reject(coordinator_of(task.run), "a task without data");
   const auto [waiting, is_first] = waiting_[task.run].try_emplace(task.island, task);
   if (is_first) ++waiting_tasks_;
   if (!is_first && waiting->second.attempt < task.attempt) waiting->second = task;
@@ -177,10 +177,10 @@ void Worker::take(const Migrants& migrants) {
   if (!serves(migrants.run)) return;
   const auto run = runs_.find(migrants.run);
   if (run == runs_.end() || !holders_.was_given({migrants.run, migrants.island}, migrants.worker)) {
-    if (!unproven_.put(migrants)) transport_.drop(migrants.worker, kNotGiven);
+    if (!unproven_.put(migrants)) transport_.reject(migrants.worker, kNotGiven);
     return;
   }
-  if (const Fault fault = find_fault(migrants, run->second->data)) return transport_.drop(migrants.worker, *fault);
+  if (const Fault fault = find_fault(migrants, run->second->data)) return transport_.reject(migrants.worker, *fault);
   arrived_[migrants.run].put(migrants);
 }
 
@@ -217,7 +217,7 @@ void Worker::forget_run(RunId run) {
   // Who held an island before this worker came is not known here: nobody is accused.
   const std::set<std::string> named = holders_.forget(run);
   for (const auto& [worker, count] : unproven_.forget(run)) {
-    for (std::size_t i = 0; i < count && !named.contains(worker); ++i) transport_.drop("", kNotGiven);
+    for (std::size_t i = 0; i < count && !named.contains(worker); ++i) transport_.reject("", kNotGiven);
   }
   if (options_.after_run) options_.after_run();
 }

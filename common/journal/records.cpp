@@ -1,10 +1,23 @@
 #include "journal/records.hpp"
 
+#include <array>
+
 #include "errors/check.hpp"
-#include "journal/crc32c.hpp"
 
 namespace demecal {
 namespace {
+
+constexpr std::uint32_t kReversedPolynomial = 0x82F63B78;
+
+constexpr std::array<std::uint32_t, 256> kChecksumTable = [] {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t value = byte;
+    for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) != 0 ? kReversedPolynomial : 0);
+    table[byte] = value;
+  }
+  return table;
+}();
 
 constexpr std::size_t kNumber_bytes = 4;
 constexpr std::size_t kPrefix_bytes = 2 * kNumber_bytes;
@@ -14,6 +27,12 @@ std::uint32_t checksum(std::string_view length, std::string_view content) {
 }
 
 }  // namespace
+
+std::uint32_t crc32c(std::string_view bytes) {
+  std::uint32_t value = 0xFFFFFFFF;
+  for (const char byte : bytes) value = (value >> 8) ^ kChecksumTable[(value ^ static_cast<std::uint8_t>(byte)) & 0xFF];
+  return ~value;
+}
 
 std::string bytes_of(std::uint32_t number) {
   std::string bytes(kNumber_bytes, '\0');

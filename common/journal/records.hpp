@@ -1,4 +1,4 @@
-// A journal's records as bytes: each with its length and checksum, so that a tail that was not written whole shows.
+// A journal's records as bytes: each with its length and checksum, so that a torn tail shows.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace demecal {
+
+/// CRC-32C (Castagnoli; RFC 3720, B.4) of the bytes.
+std::uint32_t crc32c(std::string_view bytes);
 
 /// Integers of a journal: four bytes, the lowest first.
 std::string bytes_of(std::uint32_t number);

@@ -1,8 +1,9 @@
-// What coordinator, workers and watchers say to each other, as plain values; idl/calibration.idl is its wire form.
+// The messages between coordinator, workers and watchers as plain values; idl/calibration.idl is its wire form.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -18,8 +19,8 @@ namespace demecal {
 /// and the epochs between two checkpoints together.
 inline constexpr int kMigrantEpochs = 128;
 
-/// The most epochs that one progress tells of.
-inline constexpr std::size_t kMostToldEpochs = 256;
+/// More epochs than one progress reports.
+inline constexpr std::size_t kMostReportedEpochs = 256;
 
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
@@ -71,7 +72,8 @@ struct EpochFigures {
   bool operator==(const EpochFigures&) const = default;
 };
 
-/// Worker -> coordinator and watchers, from time to time: how an island stands, and stood since it last told.
+/// Worker -> coordinator and watchers, from time to time: figures of an island, with those of the epochs since its
+/// last.
 struct Progress {
   RunId run = 0;
   IslandKey island;
@@ -84,7 +86,7 @@ struct Progress {
   std::uint64_t migrants_taken = 0;
   std::uint64_t migrants_sent = 0;     ///< where its worker took it over: with those of at most kMigrantEpochs before
   double waited_share = 0.0;           ///< of the time its worker has had it: spent waiting for neighbours
-  std::vector<EpochFigures> before{};  ///< ascending, of the epochs that were not told of; less than kMostToldEpochs
+  std::vector<EpochFigures> before{};  ///< ascending, of epochs not reported yet; less than kMostReportedEpochs
 
   bool operator==(const Progress&) const = default;
 };
@@ -174,7 +176,32 @@ struct WorkerLost {
   bool operator==(const WorkerLost&) const = default;
 };
 
+/// Made by the transport: a piece of a message that is too large for a datagram.
+struct MessagePart {
+  std::uint32_t place = 0;    ///< of the message among those that its writer keeps
+  std::uint32_t index = 0;    ///< from 0
+  std::uint32_t count = 0;    ///< of the message's parts; 0: the place is vacant
+  std::uint64_t message = 0;  ///< a number that its writer gives to one message only, ascending
+  std::vector<std::uint8_t> bytes;
+
+  bool operator==(const MessagePart&) const = default;
+};
+
+/// Made by the transport: a Progress as it travels.
+struct PlacedProgress {
+  std::string writer;       ///< the name of the participant
+  std::uint32_t place = 0;  ///< as of a MessagePart
+  bool over = false;        ///< the run is over: the place is vacant
+  Progress progress;        ///< where it is over, of the run and nothing more
+
+  bool operator==(const PlacedProgress&) const = default;
+};
+
 using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus,
                              Control, LoopNews, WorkerLost, CalibrationLost>;
+
+/// Whether messages of this type travel; the others are made by the transport that delivers them.
+template <class Plain>
+inline constexpr bool kTravels = !std::is_same_v<Plain, WorkerLost> && !std::is_same_v<Plain, CalibrationLost>;
 
 }  // namespace demecal

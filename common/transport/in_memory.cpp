@@ -1,5 +1,7 @@
 #include "transport/in_memory.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <deque>
 #include <map>
@@ -8,29 +10,30 @@
 #include <utility>
 
 #include "errors/check.hpp"
+#include "protocol/topics.hpp"
 #include "transport/mailbox.hpp"
 #include "transport/run_owners.hpp"
-#include "transport/topic.hpp"
 
 namespace demecal {
 
 /// What the exchange knows of a participant.
 struct InMemoryMember {
-  InMemoryMember(Role r, std::string n) : role(r), name(std::move(n)), owners(mailbox, dropped, role == Role::worker) {}
+  InMemoryMember(Role r, std::string n)
+      : role(r), name(std::move(n)), owners(mailbox, rejections, role == Role::worker) {}
 
   bool follows(const TopicKey& key) const {
     return reads(role, key.topic) && (key.topic != Topic::migrants || joints.contains(key.island.joint));
   }
 
-  /// What another said.
-  void hear(const InMemoryMember& sender, const Message& message) {
+  /// What another member published.
+  void receive(const InMemoryMember& sender, const Message& message) {
     std::visit(
         [&](const auto& plain) {
           const auto now = std::chrono::steady_clock::now();
-          if constexpr (requires { owners.heard(sender.id, "", plain, now); }) {
-            owners.heard(sender.id, sender.name, plain, now);
+          if constexpr (requires { owners.receive(sender.id, "", plain, now); }) {
+            owners.receive(sender.id, sender.name, plain, now);
           } else if (!mailbox.put(sender.id, plain)) {
-            dropped.note(sender.name, "more than can be kept");
+            rejections.add(sender.name, "more than can be kept");
           }
         },
         message);
@@ -40,7 +43,7 @@ struct InMemoryMember {
   const std::string name;
   ParticipantId id{};
   Mailbox mailbox;
-  DroppedSamples dropped;
+  RejectionLog rejections;
   RunOwners owners;
   std::set<std::uint32_t> joints;
 };
@@ -67,8 +70,8 @@ class Exchange {
     const bool is_lost = has_announced_itself(*member);
     const std::set<std::uint64_t> calibrations = calibrations_of(*member);
     kept_.erase(member);
-    for (const std::uint64_t calibration : calibrations) tell(*member, Topic::loop, CalibrationLost{calibration});
-    if (is_lost) tell(*member, Topic::worker, WorkerLost{member->name});
+    for (const std::uint64_t calibration : calibrations) announce(*member, Topic::loop, CalibrationLost{calibration});
+    if (is_lost) announce(*member, Topic::worker, WorkerLost{member->name});
     for (InMemoryMember* other : members_) other->owners.departed(member->id, std::chrono::steady_clock::now());
   }
 
@@ -91,7 +94,7 @@ class Exchange {
     values.push_back({++published_, message});
     if (values.size() > static_cast<std::size_t>(values_kept(key.topic))) values.pop_front();
     for (InMemoryMember* member : members_)
-      if (member != sender && member->follows(key)) member->hear(*sender, message);
+      if (member != sender && member->follows(key)) member->receive(*sender, message);
   }
 
  private:
@@ -104,13 +107,13 @@ class Exchange {
     return id;
   }
 
-  /// Says of a member what it does not say itself.
-  void tell(const InMemoryMember& of, Topic topic, const Message& message) {
+  /// Announces what a member does not publish itself.
+  void announce(const InMemoryMember& of, Topic topic, const Message& message) {
     for (InMemoryMember* member : members_)
       if (reads(member->role, topic)) member->mailbox.put(of.id, message);
   }
 
-  /// Those whose news it has told.
+  /// Those whose news it has published.
   std::set<std::uint64_t> calibrations_of(const InMemoryMember& member) {
     std::set<std::uint64_t> calibrations;
     for (const auto& [key, values] : kept_[&member])
@@ -125,10 +128,10 @@ class Exchange {
       for (const auto& [key, waiting] : values)
         if (sender != &newcomer && wanted(key))
           for (const KeptMessage& kept : waiting) in_order.emplace(kept.number, std::pair(sender, &kept.message));
-    for (const auto& [number, kept] : in_order) newcomer.hear(*kept.first, *kept.second);
+    for (const auto& [number, kept] : in_order) newcomer.receive(*kept.first, *kept.second);
   }
 
-  /// Whether it has said that it is there, and not that it leaves.
+  /// Whether it has published a status, and none that says it leaves.
   bool has_announced_itself(const InMemoryMember& member) {
     const auto& values = kept_[&member];
     const auto status = values.find({Topic::worker, 0, {}, member.name});
@@ -167,8 +170,12 @@ class InMemoryTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override { exchange_->follow(&member_, joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
-  void drop(const std::string& source, const std::string& why) override { member_.dropped.note(source, why); }
-  std::uint64_t dropped() const override { return member_.dropped.count(); }
+  RunId new_run() override {
+    const auto moment = std::chrono::system_clock::now().time_since_epoch().count();
+    return ((static_cast<RunId>(moment) << 16) ^ static_cast<RunId>(::getpid()) ^ 1U) & ~(RunId{1} << 63);
+  }
+  void reject(const std::string& source, const std::string& why) override { member_.rejections.add(source, why); }
+  std::uint64_t rejected() const override { return member_.rejections.count(); }
 
  private:
   std::shared_ptr<Exchange> exchange_;

@@ -1,16 +1,24 @@
 #include "transport/mailbox.hpp"
 
+#include <cstdio>
 #include <utility>
 
-#include "transport/topic.hpp"
+#include "protocol/message_bytes.hpp"
+#include "protocol/printable.hpp"
+#include "protocol/topics.hpp"
 
 namespace demecal {
+namespace {
+
+constexpr std::size_t kMostSources = 64;
+
+}  // namespace
 
 bool Mailbox::put(const ParticipantId& source, Message message) {
   {
     const std::lock_guard lock(mutex_);
     Waiting& waiting = sources_[source];
-    if (is_full(waiting, 1) && !waiting.is_all_new) drop_replaced(waiting);
+    if (is_full(waiting, 1) && !waiting.is_all_new) discard_replaced(waiting);
     if (is_full(waiting, 1)) return false;
     waiting.bytes += weight_bytes(message);
     waiting.messages.push_back(std::move(message));
@@ -24,7 +32,7 @@ bool Mailbox::is_full(const Waiting& waiting, std::size_t share) const {
 }
 
 /// All at once, and not again before half has been taken where it was not worth it: a flood shall cost little.
-void Mailbox::drop_replaced(Waiting& waiting) {
+void Mailbox::discard_replaced(Waiting& waiting) {
   std::map<TopicKey, int> kept;
   std::deque<Message> last;
   for (auto message = waiting.messages.rbegin(); message != waiting.messages.rend(); ++message) {
@@ -66,6 +74,20 @@ void Mailbox::wake() {
     woken_ = true;
   }
   changed_.notify_one();
+}
+
+void RejectionLog::add(const std::string& source, const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  ++count_;
+  if (source.empty() || logged_.size() >= kMostSources || !logged_.insert(source).second) return;
+  std::fprintf(stderr, "rejected a message from %s: %s; further ones from there are only counted\n",
+               printable(source).c_str(), printable(why).c_str());
+  if (logged_.size() == kMostSources) std::fprintf(stderr, "messages rejected from further sources are only counted\n");
+}
+
+std::uint64_t RejectionLog::count() const {
+  const std::lock_guard lock(mutex_);
+  return count_;
 }
 
 }  // namespace demecal

@@ -1,15 +1,18 @@
-// Messages that have arrived and wait to be received.
+// Messages that have arrived and wait to be received, and a log of those that were rejected.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "protocol/messages.hpp"
-#include "transport/participant_of.hpp"
+#include "transport/participants.hpp"
 
 namespace demecal {
 
@@ -21,8 +24,8 @@ class Mailbox {
   explicit Mailbox(std::size_t most = 16384, std::size_t most_bytes = 256 << 20)
       : most_(most), most_bytes_(most_bytes) {}
 
-  /// Whether there was room. Where there is none, what newer messages of the source replace is dropped for it, as
-  /// writers do that keep their last values; where even that makes no room, the message is.
+  /// Whether there was room. Where there is none, what newer messages of the source replace is discarded, as by writers
+  /// that keep their last values; where even that makes no room, the message is.
   bool put(const ParticipantId& source, Message message);
   /// The oldest message of the source whose turn it is, or nothing after `patience` or when woken. A wake() that finds
   /// nobody waiting is kept for the next take() that finds no message.
@@ -36,7 +39,7 @@ class Mailbox {
     bool is_all_new = false;  ///< nothing in it was replaced by another, or little, when it was full
   };
   bool is_full(const Waiting& waiting, std::size_t share) const;
-  void drop_replaced(Waiting& waiting);
+  void discard_replaced(Waiting& waiting);
 
   std::size_t most_, most_bytes_;
   std::mutex mutex_;
@@ -46,7 +49,18 @@ class Mailbox {
   bool woken_ = false;
 };
 
-/// About how much memory a message takes.
-std::size_t weight_bytes(const Message& message);
+/// What was received and not acted on. Any thread may call.
+class RejectionLog {
+ public:
+  /// Counts one more from this source. The first from each is logged on standard error with the reason: of the first
+  /// few sources, lest one that invents names fills the screen, and of none without a name.
+  void add(const std::string& source, const std::string& why);
+  std::uint64_t count() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::uint64_t count_ = 0;
+  std::set<std::string> logged_;
+};
 
 }  // namespace demecal

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "protocol/message_bytes.hpp"
+
 namespace demecal {
 namespace {
 
@@ -19,16 +21,16 @@ bool is_newer(const Message& message, const Message& before) {
 }  // namespace
 
 void RunOwners::put(const ParticipantId& source, const std::string& name, Message message) {
-  if (!mailbox_.put(source, std::move(message))) dropped_.note(name, "more than can be kept");
+  if (!mailbox_.put(source, std::move(message))) rejections_.add(name, "more than can be kept");
 }
 
-void RunOwners::heard(const ParticipantId& source, const std::string& name, CalibrationData data, Time) {
+void RunOwners::receive(const ParticipantId& source, const std::string& name, CalibrationData data, Time) {
   const std::lock_guard lock(mutex_);
   const RunId run = data.run;
   const auto known = runs_.find(run);
   const bool may_own = known == runs_.end() ? may_publish(source, run) : known->second.owner == source;
-  if (!may_own) return dropped_.note(name, "data of a run that is another's");
-  if (known == runs_.end() && !has_room(source)) return dropped_.note(name, "more runs than one may have at a time");
+  if (!may_own) return rejections_.add(name, "data of a run that is another's");
+  if (known == runs_.end() && !has_room(source)) return rejections_.add(name, "more runs than one may have at a time");
   Run& owned = runs_.try_emplace(run, Run{.owner = source, .order = ++order_}).first->second;
   owned.owner_gone.reset();
   put(source, name, std::move(data));
@@ -36,25 +38,26 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cali
   forget_first_of_many();
 }
 
-void RunOwners::heard(const ParticipantId& source, const std::string& name, IslandTask task, Time now) {
+void RunOwners::receive(const ParticipantId& source, const std::string& name, IslandTask task, Time now) {
   const std::lock_guard lock(mutex_);
   const RunId run = task.run;
   Message message(std::move(task));
   if (is_settled(source, name, message, run)) return;
-  if (runs_.contains(run) || !may_publish(source, run)) return dropped_.note(name, "a task of a run that is another's");
+  if (runs_.contains(run) || !may_publish(source, run))
+    return rejections_.add(name, "a task of a run that is another's");
   wait(source, name, std::move(message), now);
 }
 
-void RunOwners::heard(const ParticipantId& source, const std::string& name, Control control, Time now) {
+void RunOwners::receive(const ParticipantId& source, const std::string& name, Control control, Time now) {
   const std::lock_guard lock(mutex_);
   if (is_settled(source, name, control, control.run)) return;
   const auto known = runs_.find(control.run);
   const bool ends = control.state != Control::State::running;
   if (known == runs_.end() && may_publish(source, control.run)) return wait(source, name, std::move(control), now);
-  // A coordinator that resumes a job tells it also those who never heard of its forerunners, or have heard it from one
-  // between: nobody is accused.
+  // A coordinator that resumes a job ends the runs of its predecessors, also for workers that never knew them or know
+  // it already: no source is named.
   if (known == runs_.end() || !ends || known->second.end_from_elsewhere)
-    return dropped_.note(ends ? "" : name, "control of a run that is another's");
+    return rejections_.add(ends ? "" : name, "control of a run that is another's");
   if (!known->second.owner_gone) {
     known->second.end_from_elsewhere = std::move(control);
     return;
@@ -65,13 +68,13 @@ void RunOwners::heard(const ParticipantId& source, const std::string& name, Cont
 
 bool RunOwners::is_settled(const ParticipantId& source, const std::string& name, const Message& message, RunId run) {
   const auto known = runs_.find(run);
-  const bool may_say = known == runs_.end() ? !waits_ : known->second.owner == source;
-  if (may_say && known != runs_.end() && ended_run(message) != 0) known->second.is_over = true;
-  if (may_say) put(source, name, message);
-  return may_say;
+  const bool may_publish_it = known == runs_.end() ? !waits_ : known->second.owner == source;
+  if (may_publish_it && known != runs_.end() && ended_run(message) != 0) known->second.is_over = true;
+  if (may_publish_it) put(source, name, message);
+  return may_publish_it;
 }
 
-/// In place of what was said of the same before.
+/// Replaces what the source published under this key before.
 void RunOwners::wait(const ParticipantId& source, const std::string& name, Message message, Time now) {
   Early& early = early_[source];
   const TopicKey key = key_of(message);
@@ -81,36 +84,36 @@ void RunOwners::wait(const ParticipantId& source, const std::string& name, Messa
   }
   const std::size_t bytes = weight_bytes(message);
   if (early.last.size() >= kMostEarly || early.bytes + bytes > kMostEarly_bytes) {
-    return dropped_.note(name, "more of runs without data than can be kept");
+    return rejections_.add(name, "more of runs without data than can be kept");
   }
   early.bytes += bytes;
-  early.last.emplace(key, Early::Said{std::move(message), now});
+  early.last.emplace(key, Early::Entry{std::move(message), now});
 }
 
-Message RunOwners::take_back(Early& early, std::map<TopicKey, Early::Said>::iterator said) {
-  Message message = std::move(said->second.message);
+Message RunOwners::take_back(Early& early, std::map<TopicKey, Early::Entry>::iterator entry) {
+  Message message = std::move(entry->second.message);
   early.bytes -= weight_bytes(message);
-  early.last.erase(said);
+  early.last.erase(entry);
   return message;
 }
 
 /// What waited for this run's data: the owner's is put, of others' an end is kept.
 void RunOwners::give_early(RunId run, const ParticipantId& owner, const std::string& name) {
   for (auto& [source, early] : early_) {
-    for (auto said = early.last.begin(); said != early.last.end();) {
-      const auto next = std::next(said);
-      if (said->first.run == run) {
-        Message message = take_back(early, said);
+    for (auto entry = early.last.begin(); entry != early.last.end();) {
+      const auto next = std::next(entry);
+      if (entry->first.run == run) {
+        Message message = take_back(early, entry);
         if (source == owner) {
           runs_.at(run).is_over |= ended_run(message) != 0;
           put(source, name, std::move(message));
         } else if (ended_run(message) != 0) {
           runs_.at(run).end_from_elsewhere = std::get<Control>(std::move(message));
         } else {
-          dropped_.note("participant " + text_of(source), "of a run that is another's");
+          rejections_.add("participant " + to_string(source), "of a run that is another's");
         }
       }
-      said = next;
+      entry = next;
     }
   }
   std::erase_if(early_, [](const auto& entry) { return entry.second.last.empty(); });
@@ -134,11 +137,11 @@ void RunOwners::departed(const ParticipantId& source, Time now) {
   }
   const auto early = early_.find(source);
   if (early == early_.end()) return;
-  // Whoever ends a run goes soon after; its last word counts.
-  for (auto said = early->second.last.begin(); said != early->second.last.end();) {
-    const auto next = std::next(said);
-    if (ended_run(said->second.message) == 0) take_back(early->second, said);
-    said = next;
+  // A coordinator that ends a run leaves soon after: the end counts.
+  for (auto entry = early->second.last.begin(); entry != early->second.last.end();) {
+    const auto next = std::next(entry);
+    if (ended_run(entry->second.message) == 0) take_back(early->second, entry);
+    entry = next;
   }
 }
 
@@ -154,12 +157,12 @@ void RunOwners::release(Time now) {
   const std::lock_guard lock(mutex_);
   if (waits_) end_abandoned(now);
   for (auto& [source, early] : early_) {
-    for (auto said = early.last.begin(); said != early.last.end();) {
-      const auto next = std::next(said);
-      if (ended_run(said->second.message) != 0 && now - said->second.came >= kBelated) {
-        put(source, "participant " + text_of(source), take_back(early, said));
+    for (auto entry = early.last.begin(); entry != early.last.end();) {
+      const auto next = std::next(entry);
+      if (ended_run(entry->second.message) != 0 && now - entry->second.came >= kLateGrace) {
+        put(source, "participant " + to_string(source), take_back(early, entry));
       }
-      said = next;
+      entry = next;
     }
   }
   std::erase_if(early_, [](const auto& entry) { return entry.second.last.empty(); });

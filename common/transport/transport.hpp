@@ -6,15 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "protocol/messages.hpp"
+#include "protocol/topics.hpp"
 
 namespace demecal {
-
-/// What a participant reads and writes: coordinators write data, tasks and control and read the rest but migrants;
-/// workers the reverse, with migrants both ways; a herald writes a calibration's loop news, and progress where no
-/// worker will, and reads nothing; watchers read data, control, progress, worker status and loop news and write
-/// nothing.
-enum class Role { coordinator, worker, herald, watcher };
 
 /// One participant. publish() and receive() may be called from different threads; each of them from one at a time.
 /// Every message is delivered to all participants whose role reads it, never to the sender. Those who come late get the
@@ -41,13 +35,13 @@ class Transport {
   /// whoever still reads those only watches.
   virtual bool flush(std::chrono::milliseconds patience) = 0;
   /// A number for a run that this participant will publish: different every time, and on every host.
-  virtual RunId new_run();
-  /// Counts a message from `source` (a worker's name, or words for another) that its receiver does not act on, and why;
-  /// told on standard error once for each source, and not of one without a name.
-  virtual void drop(const std::string& /*source*/, const std::string& /*why*/) {}
-  /// Messages dropped so far: by the receiver, and those that could not be read, came from who may not say so, or from
-  /// one that sends more than can be kept.
-  virtual std::uint64_t dropped() const { return 0; }
+  virtual RunId new_run() = 0;
+  /// Counts a message from `source` (a worker's name, or words for another) that its receiver does not act on; the
+  /// first from each source that has a name is logged on standard error with the reason.
+  virtual void reject(const std::string& /*source*/, const std::string& /*why*/) {}
+  /// Messages rejected so far: by the receiver, and those that could not be read, came from a participant that may not
+  /// publish them, or from one that sends more than can be kept.
+  virtual std::uint64_t rejected() const { return 0; }
 };
 
 inline constexpr std::chrono::milliseconds kLease{2000};

@@ -8,13 +8,13 @@
 #include "errors/input_error.hpp"
 #include "expression/argument_order.hpp"
 #include "expression/folded_formula.hpp"
-#include "monitor/event_line.hpp"
-#include "monitor/monitor_page.hpp"
+#include "monitor/events.hpp"
 #include "monitor/watched.hpp"
 #include "symbolic/differentiate.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/spelling.hpp"
 #include "targets.hpp"
+#include "terminal/monitor_page.hpp"
 
 namespace demecal::fuzz {
 namespace {

@@ -1,19 +1,17 @@
 #include <cstring>
 
+#include "../protocol/random_messages.hpp"
 #include "../protocol/small_run.hpp"
-#include "../transport/random_messages.hpp"
-#include "../transport/serialized_part.hpp"
 #include "coordinator/run_state.hpp"
+#include "dds/endpoints.hpp"
+#include "dds/parts.hpp"
 #include "evolution/island.hpp"
-#include "monitor/event_line.hpp"
+#include "monitor/events.hpp"
 #include "monitor/watched.hpp"
 #include "protocol/faults.hpp"
+#include "protocol/message_bytes.hpp"
 #include "protocol/printable.hpp"
 #include "targets.hpp"
-#include "transport/dds_types.hpp"
-#include "transport/message_bytes.hpp"
-#include "transport/parts.hpp"
-#include "transport/wire_form.hpp"
 #include "worker/tenancy.hpp"
 
 namespace demecal::fuzz {
@@ -101,26 +99,28 @@ void use_decoded(const Plain& message) {
 }
 
 /// As Fast DDS hands it over, little endian or big as the bytes say.
-template <class Wire>
-Wire sample_from(Topic topic, std::string_view bytes) {
+template <class Plain>
+Sample<Plain> sample_from(Topic topic, std::string_view bytes) {
   static const auto type = topic_type(topic);
   eprosima::fastrtps::rtps::SerializedPayload_t payload(static_cast<std::uint32_t>(bytes.size() + 1));
   std::memcpy(payload.data, bytes.data(), bytes.size());
   payload.length = static_cast<std::uint32_t>(bytes.size());
-  Wire sample;
+  Sample<Plain> sample;
   demand(type.get()->deserialize(&payload, &sample), "a sample is read, or is empty");
   return sample;
-}
-
-std::string encapsulated(const std::string& content) {
-  return std::string("\0\1\0\0", 4) + content;
 }
 
 /// Of a message that is a sample.
 template <class Plain>
 Target sample_target(const std::string& name, Topic topic, const Plain& message) {
-  return {name, {encapsulated(to_bytes(message))}, [topic](std::string_view bytes) {
-            if (const auto read = decode(sample_from<decltype(encode(Plain{}))>(topic, bytes))) use_decoded(*read);
+  return {name, {to_sample(message)}, [topic](std::string_view bytes) {
+            if (const auto read = sample_from<Plain>(topic, bytes)) use_decoded(*read);
+          }};
+}
+
+Target progress_target(const Progress& progress) {
+  return {"sample_progress", {to_sample(PlacedProgress{"w", 7, false, progress})}, [](std::string_view bytes) {
+            if (const auto read = sample_from<PlacedProgress>(Topic::progress, bytes)) use_decoded(read->progress);
           }};
 }
 
@@ -136,10 +136,10 @@ Target target(const std::string& name, const std::vector<Plain>& messages) {
 
 // Samples one after the other: a byte says of which of two writers, two how long it is.
 
-std::string stream_of(const std::vector<wire::Part>& parts) {
+std::string stream_of(const std::vector<MessagePart>& parts) {
   std::string stream;
-  for (const wire::Part& part : parts) {
-    const std::string sample = encapsulated(serialized(part));
+  for (const MessagePart& part : parts) {
+    const std::string sample = to_sample(part);
     stream += '\0';
     stream += static_cast<char>(sample.size() % 256);
     stream += static_cast<char>(sample.size() / 256);
@@ -158,7 +158,8 @@ void put_together(std::string_view stream) {
     const std::size_t size = static_cast<std::uint8_t>(stream[1]) + 256u * static_cast<std::uint8_t>(stream[2]);
     const std::string_view sample = stream.substr(kHead_bytes, size);
     stream.remove_prefix(kHead_bytes + sample.size());
-    const auto result = assembly.take(writer, sample_from<wire::Part>(Topic::task, sample));
+    const auto part = sample_from<MessagePart>(Topic::task, sample);
+    const auto result = part ? assembly.take(writer, *part) : Assembly::Result{};
     demand(result.bytes.empty() || result.verdict == Assembly::Verdict::whole, "only what is whole is handed over");
     demand(result.bytes.size() <= kFew_bytes, "no more than may be kept is put together");
     if (sample.empty()) assembly.departed(writer, Assembly::Time{} + departures++ * std::chrono::seconds{30});
@@ -166,9 +167,9 @@ void put_together(std::string_view stream) {
 }
 
 Target parts_target() {
-  std::vector<wire::Part> parts;
+  std::vector<MessagePart> parts;
   for (const std::size_t size : {std::size_t{40}, kPart_bytes + 5})
-    for (const wire::Part& part : parts_of(std::string(size, 'x'), 3, 1 + parts.size())) parts.push_back(part);
+    for (const MessagePart& part : parts_of(std::string(size, 'x'), 3, 1 + parts.size())) parts.push_back(part);
   parts.push_back(vacant_part(3, 1, 9));
   return {"sample_parts", {stream_of(parts)}, put_together};
 }
@@ -218,6 +219,7 @@ std::vector<Target> wire_targets() {
           target<Progress>("message_progress", {progress_of(last), random.progress()}),
           target<Checkpoint>("message_checkpoint", {told_after(1), random.checkpoint()}),
           target<Outcome>("message_outcome", {outcome_of(last), random.outcome()}),
+          progress_target(progress_of(last)),
           sample_target("sample_worker", Topic::worker, random.status()),
           sample_target("sample_control", Topic::control, random.control()),
           sample_target("sample_loop", Topic::loop, random.news())};

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "journal/crc32c.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

@@ -36,9 +36,9 @@ TEST(Hostile, AFloodOfEveryTopicNeitherChangesNorEndsARun) {
   EXPECT_EQ(Json::parse(job.text("calm/report.json"))["runtime"]["dropped_samples"], 0);
   EXPECT_GT(Json::parse(job.text("flooded/report.json"))["runtime"]["dropped_samples"], 100);
   // Once each: the coordinator and the worker that it started share their standard error.
-  const std::size_t by_both = count(ended.err, "dropped a sample from intruder: ");
+  const std::size_t by_both = count(ended.err, "rejected a message from intruder: ");
   EXPECT_TRUE(by_both == 1 || by_both == 2) << ended.err;
-  EXPECT_EQ(count(worker.err_so_far(), "dropped a sample from intruder: "), 1U) << worker.err_so_far();
+  EXPECT_EQ(count(worker.err_so_far(), "rejected a message from intruder: "), 1U) << worker.err_so_far();
 }
 
 }  // namespace

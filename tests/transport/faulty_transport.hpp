@@ -34,8 +34,9 @@ class FaultyTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
   void assert_alive() override { sound_->assert_alive(); }
   bool flush(std::chrono::milliseconds patience) override { return sound_->flush(patience); }
-  void drop(const std::string& source, const std::string& why) override { sound_->drop(source, why); }
-  std::uint64_t dropped() const override { return sound_->dropped(); }
+  RunId new_run() override { return sound_->new_run(); }
+  void reject(const std::string& source, const std::string& why) override { sound_->reject(source, why); }
+  std::uint64_t rejected() const override { return sound_->rejected(); }
 
   /// A held message goes first now and then, and surely where nothing new has come.
   std::optional<Message> receive(std::chrono::milliseconds patience) override {

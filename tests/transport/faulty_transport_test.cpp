@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "network.hpp"
+#include "transport/in_memory.hpp"
 
 namespace demecal {
 namespace {
@@ -20,9 +20,9 @@ struct Received {
 
 /// What a coordinator receives of as many Progress and Outcome messages.
 Received receive_with(Faults faults) {
-  InMemoryNetwork network;
-  FaultyTransport coordinator(network.join(Role::coordinator, "coordinator"), std::move(faults), 3);
-  const auto worker = network.join(Role::worker, "worker");
+  const auto exchange = make_exchange();
+  FaultyTransport coordinator(join(exchange, Role::coordinator, "coordinator"), std::move(faults), 3);
+  const auto worker = join(exchange, Role::worker, "worker");
   for (std::uint32_t i = 0; i < kMessages; ++i) {
     Progress progress;
     progress.epoch = i;

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "random_messages.hpp"
-#include "transport/topic.hpp"
+#include "protocol/message_bytes.hpp"
+#include "protocol/topics.hpp"
 
 namespace demecal {
 namespace {
@@ -76,18 +76,6 @@ TEST(Mailbox, RefusesNothingMoreOnceItIsEmptied) {
     while (mailbox.take(kAtOnce)) {
     }
   }
-}
-
-TEST(Weight, GrowsWithWhatAMessageHolds) {
-  RandomMessages random(3);
-  Checkpoint checkpoint = random.checkpoint();
-  const std::size_t before = weight_bytes(checkpoint);
-  checkpoint.state.population.push_back({Tree(100), 1.0});
-  EXPECT_GE(weight_bytes(checkpoint), before + 100 * sizeof(Node));
-  CalibrationData data = random.data();
-  const std::size_t without = weight_bytes(data);
-  data.tables.push_back({{std::vector<double>(1000)}, {}, {}});
-  EXPECT_GE(weight_bytes(data), without + 8000);
 }
 
 }  // namespace

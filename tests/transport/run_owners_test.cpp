@@ -36,76 +36,76 @@ class Owners : public ::testing::Test {
 
   RandomMessages random{11};
   Mailbox mailbox;
-  DroppedSamples dropped;
-  RunOwners owners{mailbox, dropped, true};
+  RejectionLog rejections;
+  RunOwners owners{mailbox, rejections, true};
 };
 
 TEST_F(Owners, TasksAndControlWaitForTheDataOfTheirSource) {
-  owners.heard(kOwner, "owner", task(5), kNow);
-  owners.heard(kStranger, "stranger", task(5, 9), kNow);
+  owners.receive(kOwner, "owner", task(5), kNow);
+  owners.receive(kStranger, "stranger", task(5, 9), kNow);
   EXPECT_TRUE(arrived().empty());
   const CalibrationData of_run = data(5);
-  owners.heard(kOwner, "owner", of_run, kNow);
+  owners.receive(kOwner, "owner", of_run, kNow);
   EXPECT_EQ(arrived(), (Messages{of_run, task(5)}));
-  EXPECT_EQ(dropped.count(), 1U);
+  EXPECT_EQ(rejections.count(), 1U);
 }
 
-TEST_F(Owners, WhatOthersSayOfARunIsDroppedAndCounted) {
-  owners.heard(kOwner, "owner", data(5), kNow);
+TEST_F(Owners, WhatOthersPublishAboutARunIsRejectedAndCounted) {
+  owners.receive(kOwner, "owner", data(5), kNow);
   arrived();
-  owners.heard(kStranger, "stranger", data(5, 2), kNow);
-  owners.heard(kStranger, "stranger", task(5, 9), kNow);
-  owners.heard(kStranger, "stranger", Control{5, Control::State::running, ""}, kNow);
-  owners.heard(kStranger, "stranger", end(5), kNow);
-  owners.release(kNow + 10 * RunOwners::kBelated);
+  owners.receive(kStranger, "stranger", data(5, 2), kNow);
+  owners.receive(kStranger, "stranger", task(5, 9), kNow);
+  owners.receive(kStranger, "stranger", Control{5, Control::State::running, ""}, kNow);
+  owners.receive(kStranger, "stranger", end(5), kNow);
+  owners.release(kNow + 10 * RunOwners::kLateGrace);
   EXPECT_TRUE(arrived().empty());
-  EXPECT_EQ(dropped.count(), 3U);  // the end is kept, should the owner go
-  owners.heard(kStranger, "stranger", end(5), kNow);
-  EXPECT_EQ(dropped.count(), 4U);
+  EXPECT_EQ(rejections.count(), 3U);  // the end is kept, should the owner go
+  owners.receive(kStranger, "stranger", end(5), kNow);
+  EXPECT_EQ(rejections.count(), 4U);
 }
 
 TEST_F(Owners, AnEndFromElsewhereCountsWhenTheOwnerIsGone) {
   for (const bool before : {true, false}) {
     const RunId run = before ? 5 : 6;
-    owners.heard(kOwner, "owner", data(run), kNow);
+    owners.receive(kOwner, "owner", data(run), kNow);
     arrived();
-    if (before) owners.heard(kStranger, "stranger", end(run), kNow);
+    if (before) owners.receive(kStranger, "stranger", end(run), kNow);
     owners.departed(kOwner, kNow);
-    if (!before) owners.heard(kStranger, "stranger", end(run), kNow);
+    if (!before) owners.receive(kStranger, "stranger", end(run), kNow);
     EXPECT_EQ(arrived(), Messages{end(run)});
   }
 }
 
 TEST_F(Owners, ARunWhoseNumberShowsItsPublisherIsNobodyElses) {
   const RunId run = run_of(kOwner, 7);
-  owners.heard(kStranger, "stranger", data(run, 2), kNow);
-  owners.heard(kStranger, "stranger", task(run, 9), kNow);
-  owners.heard(kStranger, "stranger", end(run), kNow);
-  owners.release(kNow + 10 * RunOwners::kBelated);
+  owners.receive(kStranger, "stranger", data(run, 2), kNow);
+  owners.receive(kStranger, "stranger", task(run, 9), kNow);
+  owners.receive(kStranger, "stranger", end(run), kNow);
+  owners.release(kNow + 10 * RunOwners::kLateGrace);
   EXPECT_TRUE(arrived().empty());
-  EXPECT_EQ(dropped.count(), 3U);
+  EXPECT_EQ(rejections.count(), 3U);
   const CalibrationData of_run = data(run);
-  owners.heard(kOwner, "owner", of_run, kNow);
+  owners.receive(kOwner, "owner", of_run, kNow);
   EXPECT_EQ(arrived(), Messages{of_run});
-  owners.heard(kStranger, "a coordinator that resumes", end(run), kNow);
+  owners.receive(kStranger, "a coordinator that resumes", end(run), kNow);
   owners.departed(kOwner, kNow);
   EXPECT_EQ(arrived(), Messages{end(run)});
 }
 
 TEST_F(Owners, AnOwnerThatComesBackIsTheOwnerAgain) {
   const CalibrationData of_run = data(5);
-  owners.heard(kOwner, "owner", of_run, kNow);
+  owners.receive(kOwner, "owner", of_run, kNow);
   owners.departed(kOwner, kNow);
-  owners.heard(kOwner, "owner", of_run, kNow);
+  owners.receive(kOwner, "owner", of_run, kNow);
   arrived();
-  owners.heard(kStranger, "stranger", end(5), kNow);
+  owners.receive(kStranger, "stranger", end(5), kNow);
   EXPECT_TRUE(arrived().empty());
 }
 
 TEST_F(Owners, ARunWhoseOwnerStaysAwayIsOverAfterAWhile) {
-  owners.heard(kOwner, "owner", data(5), kNow);
-  owners.heard(kOwner, "owner", data(6), kNow);
-  owners.heard(kOwner, "owner", end(6), kNow);
+  owners.receive(kOwner, "owner", data(5), kNow);
+  owners.receive(kOwner, "owner", data(6), kNow);
+  owners.receive(kOwner, "owner", end(6), kNow);
   arrived();
   owners.departed(kOwner, kNow);
   owners.release(kNow + kLongestAbsence / 2);
@@ -117,52 +117,52 @@ TEST_F(Owners, ARunWhoseOwnerStaysAwayIsOverAfterAWhile) {
 }
 
 TEST_F(Owners, AnOwnerThatIsSeenAgainKeepsItsRunsThoughItSaysNothing) {
-  owners.heard(kOwner, "owner", data(5), kNow);
+  owners.receive(kOwner, "owner", data(5), kNow);
   arrived();
   owners.departed(kOwner, kNow);
   owners.arrived(kOwner);
   owners.release(kNow + 2 * kLongestAbsence);
-  owners.heard(kStranger, "stranger", end(5), kNow);
+  owners.receive(kStranger, "stranger", end(5), kNow);
   EXPECT_TRUE(arrived().empty());
 }
 
 TEST_F(Owners, AnEndWithoutDataIsBelievedAfterAWhile) {
-  owners.heard(kOwner, "owner", end(5), kNow);
+  owners.receive(kOwner, "owner", end(5), kNow);
   owners.departed(kOwner, kNow);
-  owners.release(kNow + RunOwners::kBelated / 2);
+  owners.release(kNow + RunOwners::kLateGrace / 2);
   EXPECT_TRUE(arrived().empty());
-  owners.release(kNow + RunOwners::kBelated);
+  owners.release(kNow + RunOwners::kLateGrace);
   EXPECT_EQ(arrived(), Messages{end(5)});
 }
 
 TEST_F(Owners, AStrangersEarlyEndIsNotBelievedWhenTheDataCome) {
-  owners.heard(kStranger, "stranger", end(5), kNow);
-  owners.heard(kOwner, "owner", data(5), kNow);
-  owners.release(kNow + 10 * RunOwners::kBelated);
+  owners.receive(kStranger, "stranger", end(5), kNow);
+  owners.receive(kOwner, "owner", data(5), kNow);
+  owners.release(kNow + 10 * RunOwners::kLateGrace);
   EXPECT_EQ(arrived().size(), 1U);
 }
 
-TEST_F(Owners, OneWhoInventsRunsIsHeardOfFewAndKeepsNobodyFromHisOwn) {
-  for (RunId run = 100; run < 400; ++run) owners.heard(kStranger, "stranger", data(run), kNow);
+TEST_F(Owners, FewRunsOfOneWhoInventsThemAreBelievedAndNobodyElseLosesAny) {
+  for (RunId run = 100; run < 400; ++run) owners.receive(kStranger, "stranger", data(run), kNow);
   const std::size_t believed = arrived().size();
   EXPECT_LT(believed, 100U);
-  EXPECT_EQ(dropped.count(), 300 - believed);
-  owners.heard(kOwner, "owner", data(5), kNow);
+  EXPECT_EQ(rejections.count(), 300 - believed);
+  owners.receive(kOwner, "owner", data(5), kNow);
   EXPECT_EQ(arrived().size(), 1U);
 }
 
 TEST_F(Owners, RunsThatAreOverMakeRoomForOthers) {
   for (RunId run = 1; run <= 300; ++run) {
-    owners.heard(kOwner, "owner", data(run), kNow);
-    owners.heard(kOwner, "owner", end(run), kNow);
+    owners.receive(kOwner, "owner", data(run), kNow);
+    owners.receive(kOwner, "owner", end(run), kNow);
   }
   EXPECT_EQ(arrived().size(), 600U);
-  EXPECT_EQ(dropped.count(), 0U);
+  EXPECT_EQ(rejections.count(), 0U);
 }
 
-TEST_F(Owners, WhoOnlyWatchesHearsAtOnceWhatHasNoData) {
-  RunOwners of_watcher(mailbox, dropped, false);
-  of_watcher.heard(kOwner, "owner", end(5), kNow);
+TEST_F(Owners, WatchersReceiveAtOnceWhatHasNoData) {
+  RunOwners of_watcher(mailbox, rejections, false);
+  of_watcher.receive(kOwner, "owner", end(5), kNow);
   EXPECT_EQ(arrived(), Messages{end(5)});
 }
 

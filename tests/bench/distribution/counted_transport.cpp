@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "transport/message_bytes.hpp"
+#include "protocol/message_bytes.hpp"
 
 namespace demecal::bench {
 

@@ -32,8 +32,9 @@ class CountedTransport : public Transport {
   void follow_migrants(std::uint32_t joint) override { carrier_.follow_migrants(joint); }
   void assert_alive() override { carrier_.assert_alive(); }
   bool flush(std::chrono::milliseconds patience) override { return carrier_.flush(patience); }
-  void drop(const std::string& source, const std::string& why) override { carrier_.drop(source, why); }
-  std::uint64_t dropped() const override { return carrier_.dropped(); }
+  RunId new_run() override { return carrier_.new_run(); }
+  void reject(const std::string& source, const std::string& why) override { carrier_.reject(source, why); }
+  std::uint64_t rejected() const override { return carrier_.rejected(); }
 
  private:
   Transport& carrier_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "counted_transport.hpp"
-#include "transport/dds.hpp"
+#include "dds/dds_transport.hpp"
 
 namespace demecal::bench {
 

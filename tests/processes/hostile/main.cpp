@@ -5,11 +5,10 @@
 #include <cstdlib>
 #include <thread>
 
-#include "../../transport/serialized_part.hpp"
+#include "dds/parts.hpp"
 #include "forger.hpp"
+#include "protocol/message_bytes.hpp"
 #include "raw_writers.hpp"
-#include "transport/message_bytes.hpp"
-#include "transport/parts.hpp"
 
 namespace {
 
@@ -29,11 +28,12 @@ std::string bytes_of(const Message& message, std::uint32_t place) {
   return std::visit(
       [&](const auto& plain) {
         using Plain = std::decay_t<decltype(plain)>;
-        constexpr bool travels = !std::is_same_v<Plain, WorkerLost> && !std::is_same_v<Plain, CalibrationLost>;
-        if constexpr (travels) {
-          if (!ends_with_run(topic_of(message))) return little_endian(to_bytes(plain));
+        if constexpr (std::is_same_v<Plain, Progress>) {
+          return to_sample(PlacedProgress{"intruder", place, false, plain});
+        } else if constexpr (kTravels<Plain>) {
+          if (!is_large(topic_of(message))) return to_sample(plain);
           static std::uint64_t number = 0;
-          return little_endian(serialized(parts_of(to_bytes(plain), place, ++number).front()));
+          return to_sample(parts_of(to_bytes(plain), place, ++number).front());
         }
         return std::string();
       },

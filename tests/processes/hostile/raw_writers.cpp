@@ -6,9 +6,8 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <stdexcept>
 
-#include "transport/dds_participant_qos.hpp"
-#include "transport/dds_qos.hpp"
-#include "transport/dds_types.hpp"
+#include "dds/endpoints.hpp"
+#include "dds/participant_qos.hpp"
 
 namespace demecal {
 namespace {

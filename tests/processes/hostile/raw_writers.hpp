@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "transport/dds.hpp"
-#include "transport/topic.hpp"
+#include "dds/dds_transport.hpp"
+#include "protocol/topics.hpp"
 
 namespace demecal {
 

@@ -1,0 +1,145 @@
+#include "dds/dds_transport.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
+#include "dds/receiver.hpp"
+#include "dds/writers.hpp"
+#include "protocol/topics.hpp"
+
+namespace demecal {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+/// Another for every run of this process, and most likely of an earlier one that had its number.
+std::uint16_t new_serial() {
+  static std::atomic<std::uint64_t> count{0};
+  const auto now_s = std::chrono::system_clock::now().time_since_epoch() / std::chrono::seconds(1);
+  return static_cast<std::uint16_t>(static_cast<std::uint64_t>(now_s) + count++);
+}
+
+class DdsTransport final : public Transport {
+ public:
+  DdsTransport(const DdsOptions& options, Role role, const std::string& name)
+      : role_(role), name_(name), inbox_(role), participant_(options, role, name), writers_(name) {
+    // A coordinator knows what its own herald repeats of a run that goes on.
+    inbox_.is_own = [this](const auto& publication) {
+      return participant_.is_own(publication) ||
+             (role_ == Role::coordinator && participant_.is_of_this_process(publication));
+    };
+    inbox_.id = participant_.id();
+    inbox_.secured = !options.security.empty();
+    inbox_.name_of = [this](const ParticipantId& participant) { return participant_.name_of(participant); };
+    for (const Topic topic : kTopics)
+      if (topic != Topic::migrants) join_topic({topic, 0});
+  }
+
+  void publish(const Message& message) override;
+  std::optional<Message> receive(milliseconds patience) override;
+  void wake() override { inbox_.mailbox.wake(); }
+  void follow_migrants(std::uint32_t joint) override;
+  void assert_alive() override;
+  bool flush(milliseconds patience) override;
+  RunId new_run() override { return run_of(participant_.id(), new_serial()); }
+  void reject(const std::string& source, const std::string& why) override { inbox_.rejections.add(source, why); }
+  std::uint64_t rejected() const override { return inbox_.rejections.count(); }
+
+ private:
+  void join_topic(DdsWriters::Channel channel);
+  void note_status(const WorkerStatus& status);
+  std::optional<WorkerStatus> status_due();
+
+  const Role role_;
+  const std::string name_;
+  Inbox inbox_;
+  std::vector<std::unique_ptr<dds::DataReaderListener>> receivers_;
+  DdsParticipant participant_;
+  DdsWriters writers_;
+  std::mutex mutex_;  ///< guards what follows
+  std::map<DdsWriters::Channel, Owned<dds::DataReader>> readers_;
+  std::optional<WorkerStatus> status_;  ///< the last one published
+  steady_clock::time_point status_published_;
+};
+
+void DdsTransport::join_topic(DdsWriters::Channel channel) {
+  const auto [topic, joint] = channel;
+  if (reads(role_, topic)) {
+    receivers_.push_back(make_receiver(topic, inbox_));
+    readers_.emplace(channel,
+                     participant_.make_reader(topic, joint, receivers_.back().get(), reads_reliably(role_, topic)));
+  }
+  if (writes(role_, topic)) writers_.add(channel, participant_.make_writer(topic, joint));
+}
+
+void DdsTransport::follow_migrants(std::uint32_t joint) {
+  const std::lock_guard lock(mutex_);
+  const DdsWriters::Channel channel{Topic::migrants, joint};
+  if (!readers_.contains(channel)) join_topic(channel);
+}
+
+void DdsTransport::publish(const Message& message) {
+  check_may_publish(role_, name_, key_of(message));
+  if (const auto* status = std::get_if<WorkerStatus>(&message)) note_status(*status);
+  writers_.vacate_ended();
+  writers_.send(message);
+  if (const RunId ended = ended_run(message)) writers_.withdraw(ended);
+}
+
+void DdsTransport::note_status(const WorkerStatus& status) {
+  const std::lock_guard lock(mutex_);
+  status_ = status;
+  status_published_ = steady_clock::now();
+}
+
+std::optional<Message> DdsTransport::receive(milliseconds patience) {
+  participant_.log_unauthenticated();
+  writers_.vacate_ended();
+  inbox_.owners.release(steady_clock::now());
+  auto message = inbox_.mailbox.take(patience);
+  if (message)
+    if (const RunId ended = ended_run(*message)) writers_.withdraw(ended);
+  return message;
+}
+
+void DdsTransport::assert_alive() {
+  if (role_ != Role::worker) return;
+  writers_.vacate_ended();
+  writers_.at({Topic::worker, 0})->assert_liveliness();
+  // An assertion that meets the end of the lease revives the worker in Fast DDS without notice to its readers, who go
+  // on taking it for lost: the status corrects that.
+  if (const auto due = status_due()) publish(*due);
+}
+
+std::optional<WorkerStatus> DdsTransport::status_due() {
+  const std::lock_guard lock(mutex_);
+  return steady_clock::now() - status_published_ >= kLease ? status_ : std::nullopt;
+}
+
+/// A herald has nothing but news to wait for.
+bool DdsTransport::flush(milliseconds patience) {
+  const auto deadline = steady_clock::now() + patience;
+  bool arrived = true;
+  for (const auto& [topic, writer] : writers_.all()) {
+    if (!is_awaited(topic) && role_ != Role::herald) continue;
+    const auto left = std::chrono::duration_cast<milliseconds>(deadline - steady_clock::now());
+    arrived &=
+        writer->wait_for_acknowledgments(dds_duration(std::max(left, milliseconds{0}))) == ReturnCode_t::RETCODE_OK;
+  }
+  return arrived;
+}
+
+}  // namespace
+
+std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name) {
+  return std::make_unique<DdsTransport>(options, role, name);
+}
+
+}  // namespace demecal

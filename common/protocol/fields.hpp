@@ -1,0 +1,253 @@
+// The fields of every message, listed once: how it travels, is kept in a journal and is weighed follows from its list.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "protocol/field_kinds.hpp"
+
+namespace demecal {
+
+// A list calls `visit(name, field)` for each field, in the order of idl/calibration.idl, which a test holds to the
+// lists.
+
+/// A tree as it travels: variables and constants stand apart from the functions that they are arguments of.
+struct FlatFormula {
+  std::vector<std::uint8_t> primitives;
+  std::vector<std::uint8_t> variables;
+  std::vector<double> constants;
+};
+
+/// `M` is `Message`, constant or not.
+template <class M, class Message>
+concept Fields = std::same_as<std::remove_const_t<M>, Message>;
+
+template <class Visitor, Fields<MessagePart> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("place", key(m.place));
+  visit("index", key(m.index));
+  visit("count", m.count);
+  visit("message", m.message);
+  visit("bytes", m.bytes);
+}
+
+template <class Visitor, Fields<FlatFormula> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("primitives", m.primitives);
+  visit("variables", m.variables);
+  visit("constants", m.constants);
+}
+
+template <class Visitor, Fields<Individual> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("formula", m.tree);
+  visit("fitness", m.fitness);
+}
+
+template <class Visitor, Fields<SharedFunction> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("body", m.body);
+  visit("coefficients", octet(m.coefficients));
+}
+
+template <class Visitor, Fields<GpParameters> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("population_size", m.population_size);
+  visit("number_generations", m.number_generations);
+  visit("tournament_size", m.tournament_size);
+  visit("initial_max_tree_depth1", m.initial_max_tree_depth1);
+  visit("initial_max_tree_depth2", m.initial_max_tree_depth2);
+  visit("max_tree_depth", m.max_tree_depth);
+  visit("max_tree_nodes", m.max_tree_nodes);
+  visit("min_tree_depth", m.min_tree_depth);
+  visit("invalid_attempts", m.invalid_attempts);
+  visit("crossover_rate", m.crossover_rate);
+  visit("mutation_rate", m.mutation_rate);
+  visit("terminal_crossover_rate", m.terminal_crossover_rate);
+  visit("terminal_mutation_rate", m.terminal_mutation_rate);
+  visit("shrink_mutation_rate", m.shrink_mutation_rate);
+  visit("functions", m.functions);
+  visit("constants_lower", m.constants_lower);
+  visit("constants_upper", m.constants_upper);
+  visit("constants", m.constants);
+  visit("constant_steps", m.constant_steps);
+  visit("constant_share", m.constant_share);
+  visit("linear_scaling", m.linear_scaling);
+  visit("no_duplicates", m.no_duplicates);
+  visit("restart_after", m.restart_after);
+  visit("function_weights", m.function_weights);
+  visit("shared_functions", m.shared_functions);
+  visit("shared_function_weight", m.shared_function_weight);
+}
+
+template <class Visitor, Fields<Archipelago> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("joints", from_one(m.joints));
+  visit("demes_per_joint", m.demes_per_joint);
+  visit("topology", m.topology);
+  visit("migration_interval", m.migration_interval);
+  visit("migrants", m.migrants);
+  visit("between_joints", m.between_joints);
+  visit("asynchronous", m.asynchronous);
+  visit("replacement", m.replacement);
+  visit("spread", m.spread);
+}
+
+template <class Visitor, Fields<TrainingTable> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("variables", m.variables);
+  visit("target_scaled", m.target);
+  visit("weight", m.weight);
+  visit("loss", m.loss);
+  visit("seeds", m.seeds);
+  visit("limit", m.limit);
+}
+
+template <class Visitor, Fields<CalibrationData> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("run", required(m.run));
+  visit("job", bounded<255>(m.job));
+  visit("seed", m.seed);
+  visit("parameters", m.parameters);
+  visit("archipelago", m.archipelago);
+  visit("tables", m.tables);
+}
+
+/// What messages of an island begin with.
+template <class Visitor, class M>
+void visit_island(Visitor& visit, M& m) {
+  visit("run", required(m.run));
+  visit("joint", from_one(m.island.joint));
+  visit("deme", from_one(m.island.deme));
+}
+
+template <class Visitor, Fields<Migrants> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit_island(visit, m);
+  visit("epoch", m.epoch);
+  visit("individuals", m.individuals);
+  visit("worker", bounded<255>(m.worker));
+}
+
+template <class Visitor, Fields<IslandState> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("epoch", m.epoch);
+  visit("generation", m.generation);
+  visit("evaluations", m.evaluations);
+  visit("migrants_taken", m.migrants_taken);
+  visit("population", m.population);
+  visit("front", m.front);
+  visit("without_gain", m.without_gain);
+}
+
+template <class Visitor, Fields<IslandTask> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit_island(visit, m);
+  visit("attempt", m.attempt);
+  visit("worker", bounded<255>(m.worker));
+  visit("start", m.start);
+  visit("recent", m.recent);
+}
+
+template <class Visitor, Fields<EpochFigures> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("epoch", m.epoch);
+  visit("generation", m.generation);
+  visit("best", m.figures.best);
+  visit("median", m.figures.median);
+  visit("best_length", m.figures.best_length);
+  visit("diversity", m.figures.diversity);
+  visit("evaluations", m.evaluations);
+  visit("migrants_taken", m.migrants_taken);
+}
+
+template <class Visitor, Fields<Progress> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit_island(visit, m);
+  visit("worker", bounded<255>(m.worker));
+  visit("epoch", m.epoch);
+  visit("generation", m.generation);
+  visit("best", m.figures.best);
+  visit("median", m.figures.median);
+  visit("best_length", m.figures.best_length);
+  visit("evaluations", m.evaluations);
+  visit("evaluations_per_s", m.evaluations_per_s);
+  visit("migrants_taken", m.migrants_taken);
+  visit("diversity", m.figures.diversity);
+  visit("migrants_sent", m.migrants_sent);
+  visit("waited_share", m.waited_share);
+  visit("before", bounded<kMostReportedEpochs - 1>(m.before));
+}
+
+template <class Visitor, Fields<PlacedProgress> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("writer", key(bounded<255>(m.writer)));
+  visit("place", key(m.place));
+  visit("over", m.over);
+  visit("progress", m.progress);
+}
+
+template <class Visitor, Fields<Checkpoint> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit_island(visit, m);
+  visit("attempt", m.attempt);
+  visit("state", m.state);
+  visit("recent", m.recent);
+  visit("worker", bounded<255>(m.worker));
+}
+
+template <class Visitor, Fields<Outcome> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit_island(visit, m);
+  visit("attempt", m.attempt);
+  visit("worker", bounded<255>(m.worker));
+  visit("generations", m.generations);
+  visit("evaluations", m.evaluations);
+  visit("migrants_taken", m.migrants_taken);
+  visit("front", m.front);
+}
+
+template <class Visitor, Fields<WorkerStatus> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("worker", key(required(bounded<255>(m.worker))));
+  visit("host", bounded<255>(m.host));
+  visit("process", m.process);
+  visit("slots", m.slots);
+  visit("version", bounded<255>(m.version));
+  visit("leaving", m.leaving);
+  visit("only_run", m.only_run);
+  visit("waited_share", m.waited_share);
+}
+
+template <class Visitor, Fields<Control> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("run", key(required(m.run)));
+  visit("state", m.state);
+  visit("note", bounded<1023>(m.note));
+}
+
+template <class Visitor, Fields<LoopNews> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("calibration", key(required(m.calibration)));
+  visit("round", key(m.round));
+  visit("run", m.run);
+  visit("stage", m.stage);
+  visit("job", bounded<255>(m.job));
+  visit("text", bounded<1023>(m.text));
+  visit("verdict", m.verdict);
+  visit("kind", bounded<63>(m.kind));
+  visit("joint", m.joint);
+  visit("label", bounded<255>(m.label));
+  visit("validation_before_m", m.validation_before_m);
+  visit("validation_after_m", m.validation_after_m);
+}
+
+/// Whether a type's fields are listed here: it travels, or is part of what does.
+template <class M>
+concept Listed = requires(int& visitor, M& m) {
+  visit_fields(visitor, m);
+};
+
+}  // namespace demecal

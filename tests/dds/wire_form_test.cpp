@@ -1,0 +1,216 @@
+// Messages are to the byte what idl/calibration.idl says, and what it does not allow is not read.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "generated_types.hpp"
+#include "random_messages.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kRounds = 100;
+
+/// Messages made by `make` are read and written by `Wire` as the programs do it.
+template <class Wire, class Plain>
+void expect_the_same_form(Plain (RandomMessages::*make)()) {
+  RandomMessages random(17);
+  for (int i = 0; i < kRounds; ++i) {
+    const Plain message = (random.*make)();
+    const Wire read = encode<Wire>(message);
+    ASSERT_EQ(written(read), to_bytes(message));
+    ASSERT_EQ(decode<Plain>(read), message);
+  }
+}
+
+TEST(WireForm, IsThatOfTheDocumentForEveryMessage) {
+  expect_the_same_form<wire::CalibrationData>(&RandomMessages::data);
+  expect_the_same_form<wire::IslandTask>(&RandomMessages::task);
+  expect_the_same_form<wire::Migrants>(&RandomMessages::migrants);
+  expect_the_same_form<wire::Progress>(&RandomMessages::progress);
+  expect_the_same_form<wire::Checkpoint>(&RandomMessages::checkpoint);
+  expect_the_same_form<wire::Outcome>(&RandomMessages::outcome);
+  expect_the_same_form<wire::WorkerStatus>(&RandomMessages::status);
+  expect_the_same_form<wire::Control>(&RandomMessages::control);
+  expect_the_same_form<wire::LoopNews>(&RandomMessages::news);
+  const MessagePart part{3, 1, 4, 99, std::vector<std::uint8_t>(1000, 7)};
+  EXPECT_EQ(written(encode<wire::MessagePart>(part)), to_bytes(part));
+  EXPECT_EQ(decode<MessagePart>(encode<wire::MessagePart>(part)), part);
+}
+
+TEST(WireForm, HasTheDocumentsCodes) {
+  using enum LoopNews::Stage;
+  using enum LoopNews::Verdict;
+  const std::vector<std::pair<LoopNews::Stage, wire::Stage>> stages{
+      {preparing, wire::PREPARING}, {evolving, wire::EVOLVING},       {closing, wire::CLOSING},
+      {finished, wire::DONE},       {interrupted, wire::INTERRUPTED}, {failed, wire::FAILED}};
+  const std::vector<std::pair<LoopNews::Verdict, wire::RoundVerdict>> verdicts{
+      {added, wire::ADDED}, {rejected, wire::REJECTED}, {LoopNews::Verdict::none, wire::NOTHING}};
+  LoopNews news = RandomMessages(3).news();
+  for (const auto& [stage, code] : stages) {
+    news.stage = stage;
+    EXPECT_EQ(encode<wire::LoopNews>(news).stage(), code);
+  }
+  for (const auto& [verdict, code] : verdicts) {
+    news.verdict = verdict;
+    EXPECT_EQ(encode<wire::LoopNews>(news).verdict(), code);
+  }
+  const std::vector<std::pair<Control::State, wire::RunState>> states{{Control::State::running, wire::RUNNING},
+                                                                      {Control::State::finished, wire::FINISHED},
+                                                                      {Control::State::cancelled, wire::CANCELLED}};
+  for (const auto& [state, code] : states) {
+    const Control control{3, state, "note"};
+    EXPECT_EQ(encode<wire::Control>(control).state(), code);
+    EXPECT_EQ(decode<Control>(encode<wire::Control>(control)), control);
+  }
+}
+
+TEST(WireForm, HasTheDocumentsCodesInARunsData) {
+  CalibrationData data = RandomMessages(3).data();
+  data.tables.resize(1);
+  const auto coded = [&] { return encode<wire::CalibrationData>(data); };
+  const std::vector<std::pair<Topology, wire::Topology>> topologies{
+      {Topology::none, wire::NONE}, {Topology::ring, wire::RING}, {Topology::full, wire::FULL}};
+  for (const auto& [topology, code] : topologies) {
+    data.archipelago.topology = topology;
+    EXPECT_EQ(coded().archipelago().topology(), code);
+  }
+  const std::vector<std::pair<ConstantPolicy, wire::ConstantPolicy>> policies{
+      {ConstantPolicy::none, wire::UNFITTED},
+      {ConstantPolicy::lamarckian, wire::LAMARCKIAN},
+      {ConstantPolicy::baldwin, wire::BALDWIN}};
+  for (const auto& [policy, code] : policies) {
+    data.parameters.constants = policy;
+    EXPECT_EQ(coded().parameters().constants(), code);
+  }
+  for (const auto& [replacement, code] :
+       {std::pair(Replacement::worst, wire::WORST_LEAVE), std::pair(Replacement::random, wire::ANY_LEAVE)}) {
+    data.archipelago.replacement = replacement;
+    EXPECT_EQ(coded().archipelago().replacement(), code);
+  }
+  for (const auto& [loss, code] :
+       {std::pair(Loss::absolute, wire::ABSOLUTE_ERROR), std::pair(Loss::squared, wire::SQUARED_ERROR)}) {
+    data.tables[0].loss = loss;
+    EXPECT_EQ(coded().tables()[0].loss(), code);
+  }
+}
+
+TEST(WireForm, JointsAndDemesCountFromOneOnTheWire) {
+  const auto encoded = encode<wire::Migrants>(Migrants{1, {0, 4}, 1, {}});
+  EXPECT_EQ(encoded.joint(), 1u);
+  EXPECT_EQ(encoded.deme(), 5u);
+}
+
+TEST(WireForm, TextIsCutOffAtItsBound) {
+  WorkerStatus status;
+  status.worker = std::string(300, 'w');
+  EXPECT_EQ(decode<WorkerStatus>(encode<wire::WorkerStatus>(status))->worker, std::string(255, 'w'));
+}
+
+/// Migrants of which one is this formula.
+wire::Migrants with_formula(const wire::Formula& formula) {
+  auto migrants = encode<wire::Migrants>(Migrants{1, {0, 0}, 1, {}});
+  wire::Individual individual;
+  individual.formula(formula);
+  migrants.individuals({individual});
+  return migrants;
+}
+
+bool is_read(const wire::Formula& formula) {
+  return decode<Migrants>(with_formula(formula)).has_value();
+}
+
+wire::Formula formula_of(const Tree& tree) {
+  return encode<wire::Migrants>(Migrants{1, {0, 0}, 1, {{tree, 0.5}}}).individuals()[0].formula();
+}
+
+TEST(WireForm, FormulasWithUnknownCodesOrWrongCountsAreRefused) {
+  const wire::Formula sound = formula_of(apply(Primitive::add, variable_tree(0), constant_tree(0.5)));
+  ASSERT_TRUE(is_read(sound));
+  wire::Formula unknown = sound;
+  unknown.primitives()[1] = static_cast<std::uint8_t>(kPrimitives.size());
+  EXPECT_FALSE(is_read(unknown));
+  wire::Formula variable_missing = sound, variable_left = sound, constant_missing = sound, constant_left = sound;
+  variable_missing.variables().clear();
+  EXPECT_FALSE(is_read(variable_missing));
+  variable_left.variables().push_back(0);
+  EXPECT_FALSE(is_read(variable_left));
+  constant_missing.constants().clear();
+  EXPECT_FALSE(is_read(constant_missing));
+  constant_left.constants().push_back(1.0);
+  EXPECT_FALSE(is_read(constant_left));
+  wire::Formula endless;
+  endless.primitives().assign(65536, static_cast<std::uint8_t>(Primitive::sine));
+  EXPECT_FALSE(is_read(endless));
+}
+
+TEST(WireForm, AConstantThatIsNotFiniteIsRefused) {
+  for (const double value : {HUGE_VAL, -HUGE_VAL, std::nan("")})
+    EXPECT_FALSE(is_read(formula_of(constant_tree(value))));
+}
+
+TEST(WireForm, OneBadFormulaRefusesTheMessageThatHoldsIt) {
+  wire::Formula unknown;
+  unknown.primitives({200});
+  const wire::Migrants migrants = with_formula(unknown);
+  const std::vector<wire::Individual> bad = migrants.individuals();
+  auto of_state = encode<wire::Checkpoint>(RandomMessages(3).checkpoint());
+  of_state.state().front(bad);
+  EXPECT_FALSE(decode<Checkpoint>(of_state).has_value());
+  auto of_recent = encode<wire::Checkpoint>(RandomMessages(3).checkpoint());
+  of_recent.recent({migrants});
+  EXPECT_FALSE(decode<Checkpoint>(of_recent).has_value());
+  auto task = encode<wire::IslandTask>(RandomMessages(3).task());
+  task.start().population(bad);
+  EXPECT_FALSE(decode<IslandTask>(task).has_value());
+  auto outcome = encode<wire::Outcome>(RandomMessages(3).outcome());
+  outcome.front(bad);
+  EXPECT_FALSE(decode<Outcome>(outcome).has_value());
+}
+
+TEST(WireForm, JointOrDemeZeroIsRefused) {
+  auto progress = encode<wire::Progress>(RandomMessages(3).progress());
+  ASSERT_TRUE(decode<Progress>(progress).has_value());
+  progress.joint(0);
+  EXPECT_FALSE(decode<Progress>(progress).has_value());
+  progress.joint(1);
+  progress.deme(0);
+  EXPECT_FALSE(decode<Progress>(progress).has_value());
+}
+
+TEST(WireForm, UnknownCodesInARunsDataAreRefused) {
+  const auto sound = encode<wire::CalibrationData>(RandomMessages(3).data());
+  ASSERT_TRUE(decode<CalibrationData>(sound).has_value());
+  wire::CalibrationData topology = sound, function = sound, joint = sound;
+  topology.archipelago().topology(static_cast<wire::Topology>(3));
+  EXPECT_FALSE(decode<CalibrationData>(topology).has_value());
+  function.parameters().functions().push_back(static_cast<std::uint8_t>(kPrimitives.size()));
+  EXPECT_FALSE(decode<CalibrationData>(function).has_value());
+  joint.archipelago().joints().push_back(0);
+  EXPECT_FALSE(decode<CalibrationData>(joint).has_value());
+}
+
+TEST(WireForm, AnUnknownStageVerdictOrStateIsRefused) {
+  const auto sound = encode<wire::LoopNews>(RandomMessages(3).news());
+  ASSERT_TRUE(decode<LoopNews>(sound).has_value());
+  wire::LoopNews stage = sound, verdict = sound;
+  stage.stage(static_cast<wire::Stage>(6));
+  EXPECT_FALSE(decode<LoopNews>(stage).has_value());
+  verdict.verdict(static_cast<wire::RoundVerdict>(3));
+  EXPECT_FALSE(decode<LoopNews>(verdict).has_value());
+  wire::Control control;
+  control.run(1);
+  control.state(static_cast<wire::RunState>(3));
+  EXPECT_FALSE(decode<Control>(control).has_value());
+}
+
+TEST(WireForm, MoreEpochsAtOnceThanAreAllowedAreRefused) {
+  auto progress = encode<wire::Progress>(RandomMessages(3).progress());
+  progress.before().resize(255);
+  EXPECT_TRUE(decode<Progress>(progress).has_value());
+  progress.before().resize(256);
+  EXPECT_FALSE(decode<Progress>(progress).has_value());
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,138 @@
+// Names and runs stand for participants, and workers come and go as their writers do.
+#include "transport/participants.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "transport/mailbox.hpp"
+
+namespace demecal {
+namespace {
+
+TEST(ParticipantOf, DiffersForNamesThatDifferLittle) {
+  std::set<ParticipantId> seen;
+  for (int process = 0; process < 300; ++process)
+    for (const std::string host : {"a", "b", "host-1"})
+      seen.insert(participant_of(host + "-" + std::to_string(process)));
+  EXPECT_EQ(seen.size(), 900U);
+}
+
+TEST(RunOf, ShowsItsPublisherAndNoOther) {
+  const ParticipantId one = participant_of("one"), two = participant_of("two");
+  for (const std::uint16_t serial : {0, 1, 65535}) {
+    const std::uint64_t run = run_of(one, serial);
+    EXPECT_TRUE(shows_publisher(run));
+    EXPECT_TRUE(may_publish(one, run));
+    EXPECT_FALSE(may_publish(two, run));
+  }
+  EXPECT_NE(run_of(one, 1), run_of(one, 2));
+  EXPECT_TRUE(may_publish(two, 5));
+  EXPECT_FALSE(shows_publisher(5));
+}
+
+TEST(RunOf, TellsWhetherRunsHaveOnePublisher) {
+  const ParticipantId one = participant_of("one"), two = participant_of("two");
+  for (const std::uint16_t serial : {0, 1, 65535}) {
+    EXPECT_TRUE(have_one_publisher(run_of(one, serial), run_of(one, 7)));
+    EXPECT_FALSE(have_one_publisher(run_of(one, serial), run_of(two, serial)));
+  }
+  EXPECT_TRUE(have_one_publisher(5, 5));
+  EXPECT_FALSE(have_one_publisher(5, 6));
+  EXPECT_FALSE(have_one_publisher(run_of(one, 7), 7));
+}
+
+TEST(ParticipantOf, IsTheSameOnEveryHost) {
+  EXPECT_EQ(to_string(participant_of("worker")), to_string(participant_of(std::string("wor") + "ker")));
+  EXPECT_EQ(to_string(participant_of("worker")).substr(0, 6), "01.0f.");
+  EXPECT_EQ(to_string(participant_of("worker")).size(), 35U);
+}
+
+constexpr WriterId kOne{1};
+constexpr WriterId kTwo{2};
+
+WorkerStatus status(const std::string& worker, bool leaving = false) {
+  WorkerStatus result;
+  result.worker = worker;
+  result.leaving = leaving;
+  return result;
+}
+
+class Presences : public ::testing::Test {
+ protected:
+  /// All that has been put until now.
+  std::vector<Message> arrived() {
+    std::vector<Message> all;
+    while (auto message = mailbox.take(std::chrono::milliseconds{0})) all.push_back(*message);
+    return all;
+  }
+  using Messages = std::vector<Message>;
+
+  Mailbox mailbox;
+  Presence presence{mailbox};
+};
+
+TEST_F(Presences, SilenceLosesTheWorkerOnce) {
+  presence.receive(kOne, status("one"));
+  presence.receive(kTwo, status("two"));
+  presence.lost_liveliness(kOne);
+  presence.lost_liveliness(kOne);
+  presence.departed(kOne);
+  EXPECT_EQ(arrived(), (Messages{status("one"), status("two"), WorkerLost{"one"}}));
+}
+
+TEST_F(Presences, DepartureWithoutSilenceLosesTheWorkerToo) {
+  presence.receive(kOne, status("one"));
+  presence.departed(kOne);
+  EXPECT_EQ(arrived(), (Messages{status("one"), WorkerLost{"one"}}));
+}
+
+TEST_F(Presences, AWorkerThatLeavesIsNotLost) {
+  presence.receive(kOne, status("one"));
+  presence.receive(kOne, status("one", true));
+  presence.lost_liveliness(kOne);
+  presence.departed(kOne);
+  EXPECT_EQ(arrived(), (Messages{status("one"), status("one", true)}));
+}
+
+TEST_F(Presences, ALostWorkerThatIsAliveAgainIsAnnouncedAgain) {
+  presence.receive(kOne, status("one"));
+  presence.regained_liveliness(kOne);
+  presence.lost_liveliness(kOne);
+  presence.regained_liveliness(kOne);
+  presence.lost_liveliness(kOne);
+  EXPECT_EQ(arrived(), (Messages{status("one"), WorkerLost{"one"}, status("one"), WorkerLost{"one"}}));
+}
+
+TEST_F(Presences, ARepeatedStatusIsNewsOnlyOfALostWorker) {
+  presence.receive(kOne, status("one"));
+  presence.receive(kOne, status("one"));
+  presence.lost_liveliness(kOne);
+  presence.receive(kOne, status("one"));
+  presence.receive(kOne, status("one"));
+  presence.lost_liveliness(kOne);
+  EXPECT_EQ(arrived(), (Messages{status("one"), WorkerLost{"one"}, status("one"), WorkerLost{"one"}}));
+}
+
+TEST_F(Presences, NewsOfACalibrationComeFromOneWriterWhileItIsThere) {
+  Heralds heralds(mailbox);
+  LoopNews news;
+  news.calibration = 3;
+  EXPECT_TRUE(heralds.receive(kOne, news));
+  EXPECT_FALSE(heralds.receive(kTwo, news));
+  heralds.departed(kTwo);
+  heralds.departed(kOne);
+  EXPECT_EQ(arrived(), (Messages{news, CalibrationLost{3}}));
+  EXPECT_TRUE(heralds.receive(kTwo, news));
+  EXPECT_EQ(arrived(), Messages{news});
+}
+
+TEST_F(Presences, WritersThatPublishedNothingAreNobody) {
+  presence.lost_liveliness(kOne);
+  presence.regained_liveliness(kOne);
+  presence.departed(kOne);
+  EXPECT_TRUE(arrived().empty());
+}
+
+}  // namespace
+}  // namespace demecal
