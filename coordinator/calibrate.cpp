@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string words_for(Sought sought, int luck) {
+std::string to_string(Sought sought, int luck) {
   if (sought == Sought::corrections) return "evolving the joint corrections anew beside the effects";
   if (sought == Sought::formulas) return "evolving formulas over all circumstances on what is left";
   return "the same search on permuted poses, to know what luck finds: number " + std::to_string(luck);
@@ -28,7 +28,7 @@ bool evolves_on_islands(const Job& job) {
   return job.declared.joint_corrections && (job.method != Method::distal || job.distal.form == DistalForm::parallel);
 }
 
-std::string words_for(const std::vector<SharedFunction>& functions) {
+std::string to_string(const std::vector<SharedFunction>& functions) {
   if (functions.empty()) return "no structure shortens formulas of two joints: no function is shared yet";
   std::string words = "joints share";
   for (std::size_t i = 0; i < functions.size(); ++i) words += (i == 0 ? " " : "; ") + definition_text(functions[i], i);
@@ -43,7 +43,7 @@ std::vector<JointCandidates> learn_directly(const DataSet& data, const Job& job,
   LoopDisplay display(stderr, data.robot, options.quiet);
   bool first = true;
   const auto evolve = [&](const std::vector<JointTraining>& of_stage, const RoundTerms& terms) {
-    if (!std::exchange(first, false)) display.say(words_for(terms.functions));
+    if (!std::exchange(first, false)) display.say(to_string(terms.functions));
     return evolutions.run(of_stage, terms);
   };
   StagedOutcome outcome = learn_in_stages(training, job, evolve, [&] { return evolutions.end() == RunEnd::finished; });
@@ -72,7 +72,7 @@ void close_the_loop(const DataSet& data, const Job& job, Evolutions& evolutions,
   };
   int lucky = 0;
   const Evolve evolve = [&](const std::vector<JointTraining>& training, Sought sought) {
-    display.say(words_for(sought, sought == Sought::luck ? ++lucky : 0));
+    display.say(to_string(sought, sought == Sought::luck ? ++lucky : 0));
     RoundTerms terms{job.seed, job.gp.number_generations};
     if (sought == Sought::corrections && result.functions) terms.functions = *result.functions;
     std::optional<std::vector<JointCandidates>> candidates = evolutions.run(training, terms, sought != Sought::luck);
@@ -81,7 +81,7 @@ void close_the_loop(const DataSet& data, const Job& job, Evolutions& evolutions,
     return candidates;
   };
   LearnCorrections distally = [&](const Preparation& of) -> std::optional<std::vector<JointCandidates>> {
-    display.say(words_for(Sought::corrections, 0));
+    display.say(to_string(Sought::corrections, 0));
     DistalOutcome outcome = learn_distally(data, job, of, evolutions, result.functions);
     if (evolutions.end() != RunEnd::finished) return std::nullopt;
     return std::move(outcome.candidates);

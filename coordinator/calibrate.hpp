@@ -15,7 +15,7 @@
 #include "coordinator/exit_codes.hpp"
 #include "coordinator/run_journal.hpp"
 #include "data/data_set.hpp"
-#include "report/calibration_report.hpp"
+#include "report/make_report.hpp"
 #include "structure/found_transform.hpp"
 
 namespace demecal {

@@ -15,7 +15,7 @@
 #include "coordinator/job_identity.hpp"
 #include "coordinator/result_folder.hpp"
 #include "errors/input_error.hpp"
-#include "report/terminal.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 namespace {
@@ -70,7 +70,7 @@ std::string resuming(const CalibrateRequest& request) {
 }
 
 /// A full disk is no fault of the user's input, and the journal still has what was reached.
-CalibrationReport write(const CalibrateRequest& request, const DataSet& data, const CalibrateResult& result) {
+Report write(const CalibrateRequest& request, const DataSet& data, const CalibrateResult& result) {
   try {
     return write_results(request.out, data, result);
   } catch (const InputError& error) {
@@ -126,14 +126,14 @@ ExitCode run(CalibrateRequest request) {
                request.worker_timeout_s, request.fleet.dds->domain, resuming(request));
     return ExitCode::no_worker;
   }
-  const CalibrationReport report = write(request, data, result);
+  const Report report = write(request, data, result);
   if (end == RunEnd::interrupted) {
     chronicle.ends(LoopNews::Stage::interrupted, "interrupted");
   } else {
     chronicle.ends(LoopNews::Stage::finished, "finished");
   }
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
-             effort(job, report.runtime), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
+             effort(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
              request.out, job.method == Method::structural ? "" : ", history.csv");
   if (end == RunEnd::interrupted) {
     fmt::print("  {}\n", resuming(request));

@@ -9,9 +9,9 @@
 #include "data_check/check_data.hpp"
 #include "data_check/coverage.hpp"
 #include "effects/measurement.hpp"
-#include "report/data_check_text.hpp"
-#include "report/report_html.hpp"
-#include "report/report_json.hpp"
+#include "html/page.hpp"
+#include "report/make_report.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 
@@ -31,7 +31,7 @@ bool refuses(const CheckedData& checked, bool force) {
       stderr,
       "{}: the data and the robot's description contradict each other:\n{}Nothing was fitted. Correct the files, or "
       "go on all the same with --force.\n",
-      checked.data.file, data_check_to_terminal(checked.check));
+      checked.data.file, to_terminal(data_check_entry(checked.check)));
   return true;
 }
 
@@ -44,11 +44,11 @@ void add_force(CLI::App& command, bool& force) {
 
 void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked) {
   if (checked.check.verdict() != DataVerdict::contradiction)
-    fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file, data_check_to_terminal(checked.check));
-  const CalibrationReport report = refusal_report(checked.data, job, checked.check);
-  const std::string json = to_json(report);
-  write_result(folder, "report.json", json);
-  write_result(folder, "report.html", report_html(json, ""));
+    fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file,
+               to_terminal(data_check_entry(checked.check)));
+  const Report report = refusal_report(checked.data, job, checked.check);
+  write_result(folder, "report.json", to_json(report));
+  write_result(folder, "report.html", report_html(report, {}));
 }
 
 }  // namespace demecal

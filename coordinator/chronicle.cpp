@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "monitor/watched.hpp"
-#include "report/effect_entry.hpp"
+#include "report/loop_entries.hpp"
 
 namespace demecal {
 namespace {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "baselines/baseline.hpp"
-#include "baselines/comparison.hpp"
 #include "config/load_job.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
@@ -18,7 +17,9 @@
 #include "coordinator/interrupt.hpp"
 #include "coordinator/result_folder.hpp"
 #include "expression/simplify.hpp"
-#include "report/data_check_text.hpp"
+#include "report/evaluation.hpp"
+#include "terminal/report_text.hpp"
+#include "terminal/tables.hpp"
 
 namespace demecal {
 namespace {
@@ -51,8 +52,13 @@ void compare_baselines(const DataSet& data, const Job& job, Comparison& comparis
     const Clock::time_point begin = Clock::now();
     const BaselineFit fit = baseline.fit(registered_arm(data, job.declared));
     const double wall_s = seconds_since(begin);
-    comparison.methods.push_back(
-        {baseline.key, baseline.title, figures_by_set(fit, data), fit.parameters, wall_s, fit.chosen});
+    const std::array<ErrorFigures, 3> figures = figures_by_set(fit, data);
+    comparison.methods.push_back({baseline.key,
+                                  baseline.title,
+                                  fit.parameters,
+                                  wall_s,
+                                  fit.chosen,
+                                  {set_errors(figures[0]), set_errors(figures[1]), set_errors(figures[2])}});
   }
 }
 
@@ -94,10 +100,11 @@ ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const 
   const CalibrateResult result = calibrate(data, job, make_fleet, watch_for_interrupt(), options);
   if (result.end == RunEnd::no_worker) return ExitCode::no_worker;
   if (!request.out.empty()) write_results(request.out, data, result);
-  const ErrorBySet errors = errors_by_set(result.model.robot, data);
   const int fitted = fitted_in(result.model), constants = constants_in(result.model);
-  ComparedMethod ours{"demecal", "this job, closed loop and all"};
-  ours.figures = {errors.calibration, errors.validation, errors.accept};
+  ComparedMethod ours;
+  ours.key = "demecal";
+  ours.title = "this job, closed loop and all";
+  ours.error_mm = errors_by_set(result.model.robot, data);
   ours.parameters = fitted + constants;
   ours.wall_s = result.facts.wall_s;
   ours.chosen = fmt::format("{} effects; {} numbers by least squares, {} constants in formulas",
@@ -117,7 +124,7 @@ ExitCode run(const CompareRequest& request) {
     if (!request.out.empty()) write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
   }
-  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
   Comparison comparison{job.name, data.robot.name, data.name, data.sha256, {}, {}};
   for (const MeasuredPose& pose : data.poses) ++comparison.poses[static_cast<std::size_t>(pose.set)];
   compare_baselines(data, job, comparison);
@@ -125,8 +132,8 @@ ExitCode run(const CompareRequest& request) {
   if (code == ExitCode::no_worker) {
     fmt::print(stderr, "no worker came: the table is without this job's own method\n");
   }
-  if (!request.out.empty()) write_result(request.out, "comparison.json", comparison_json(comparison, 1));
-  fmt::print("{}", request.json ? comparison_json(comparison) : comparison_table(comparison));
+  if (!request.out.empty()) write_result(request.out, "comparison.json", to_json(comparison, 1));
+  fmt::print("{}", request.json ? to_json(comparison) : comparison_table(comparison));
   return code;
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "transport/dds.hpp"
+#include "dds/dds_transport.hpp"
 
 namespace demecal {
 

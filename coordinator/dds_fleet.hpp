@@ -6,7 +6,7 @@
 
 #include "coordinator/calibrate.hpp"
 #include "coordinator/local_workers.hpp"
-#include "transport/dds.hpp"
+#include "dds/dds_transport.hpp"
 
 namespace demecal {
 

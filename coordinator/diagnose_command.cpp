@@ -21,8 +21,7 @@
 #include "data/nearest_name.hpp"
 #include "diagnosis/proposal.hpp"
 #include "random/random_purpose.hpp"
-#include "report/report_json.hpp"
-#include "report/terminal.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 namespace {
@@ -54,7 +53,7 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
   return declared;
 }
 
-std::string words_of(const DeclaredModel& declared) {
+std::string to_string(const DeclaredModel& declared) {
   std::string words = "registration";
   if (declared.tool) words += ", tool";
   if (declared.joint_offset) words += ", joint_offset";
@@ -100,10 +99,10 @@ ExitCode run(const DiagnoseRequest& request) {
   LoopDisplay display(stderr, data.robot, request.quiet);
   if (request.declared.empty() && !known && !job.declared.geometry) {
     fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",
-               words_of(job.declared));
+               to_string(job.declared));
   }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
-                          words_of(job.declared)));
+                          to_string(job.declared)));
   Diagnosis diagnosis = fit_or_report(request.out, job.name, checked, [&] {
     return diagnose(data, job, known, [&](const Round& round) {
       display.on_round(round);
@@ -112,13 +111,13 @@ ExitCode run(const DiagnoseRequest& request) {
   });
   diagnosis.result.check = checked.check;
   const CalibrateResult& result = diagnosis.result;
-  const CalibrationReport report = write_results(request.out, data, result);
+  const Report report = write_results(request.out, data, result);
   if (request.proposed > 0) write_proposed(request, data, diagnosis);
   if (request.json) {
     fmt::print("{}", to_json(report));
   } else {
     fmt::print("{}\n  {:.1f} s; {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
-               report.runtime.wall_s, result.end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
+               result.facts.wall_s, result.end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
                request.out, request.proposed > 0 ? ", proposed.csv" : "");
   }
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;

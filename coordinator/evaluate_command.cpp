@@ -10,9 +10,7 @@
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "report/data_check_text.hpp"
-#include "report/report_json.hpp"
-#include "report/terminal.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 namespace {
@@ -38,13 +36,16 @@ ExitCode run(const EvaluateRequest& request) {
   if (refuses(checked, request.force)) return ExitCode::contradiction;
   const CorrectedRobot robot = request.refit_base ? registered(model, data) : model.robot;
   check_fitted(data, robot, checked.check);
-  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
-  const std::vector<UnappliedEffect> unapplied = unapplied_effects(robot, data);
-  for (const UnappliedEffect& one : unapplied) fmt::print(stderr, "{}: {}\n", data.file, one.sentence());
-  const ErrorBySet errors = errors_by_set(robot, data);
-  const std::vector<PoseErrorLine> poses = pose_errors(data, model, robot, nullptr);
-  fmt::print("{}", request.json ? errors_to_json(errors, checked.check, unapplied, poses)
-                                : errors_to_terminal(errors) + intervals_to_terminal(poses, model.interval));
+  Evaluation evaluation{errors_by_set(robot, data),
+                        pose_errors(data, model, robot, nullptr),
+                        data_check_entry(checked.check),
+                        unapplied_effects(robot, data),
+                        {}};
+  if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
+  fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
+  for (const UnappliedEffect& one : evaluation.effects_not_applied)
+    fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
+  fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));
   return ExitCode::done;
 }
 

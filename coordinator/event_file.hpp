@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor/event_line.hpp"
+#include "monitor/events.hpp"
 
 namespace demecal {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "protocol/faults.hpp"
-#include "transport/participant_of.hpp"
+#include "transport/participants.hpp"
 
 namespace demecal {
 namespace {
@@ -52,7 +52,7 @@ RunResult EvolutionRun::run(const std::atomic<bool>& interrupt, RunPatience pati
   count_strangers();
   result.present = std::move(present_);
   result.waited_share = std::move(waited_share_);
-  result.dropped = transport_.dropped();
+  result.dropped = transport_.rejected();
   return result;
 }
 
@@ -108,7 +108,7 @@ void EvolutionRun::receive(const Message& message) {
 }
 
 void EvolutionRun::take(const WorkerStatus& status) {
-  if (const Fault fault = find_fault(status)) return transport_.drop(status.worker, *fault);
+  if (const Fault fault = find_fault(status)) return transport_.reject(status.worker, *fault);
   if (status.only_run != 0 && !have_one_publisher(status.only_run, state_.data().run)) return;
   waited_share_[status.worker] = status.waited_share;
   if (status.leaving) {
@@ -136,11 +136,11 @@ bool EvolutionRun::is_credible(const IslandMessage& message) {
   }
   const auto named = named_.find(message.island);
   if (named == named_.end() || !named->second.contains(message.worker)) {
-    transport_.drop(message.worker, "it tells of an island that it was not given");
+    transport_.reject(message.worker, "it reports on an island it was not assigned");
     return false;
   }
   const Fault fault = find_fault(message, state_.data());
-  if (fault) transport_.drop(message.worker, *fault);
+  if (fault) transport_.reject(message.worker, *fault);
   return !fault;
 }
 
@@ -189,7 +189,7 @@ void EvolutionRun::set_idle_aside(std::chrono::milliseconds patience) {
     aside.now = true;
     aside.until = now + patience * (1 << std::min(aside.times++, kMostDoublings));
     assignment_.remove_worker(worker);
-    std::fprintf(stderr, "worker %s does not get on with its islands: others go on with them\n", worker.c_str());
+    std::fprintf(stderr, "worker %s has stalled; its islands are being reassigned\n", worker.c_str());
   }
 }
 
@@ -206,7 +206,7 @@ void EvolutionRun::take_back(Clock::time_point now) {
 void EvolutionRun::count_strangers() {
   for (const auto& [worker, count] : of_other_runs_) {
     if (waited_share_.contains(worker)) continue;
-    for (std::uint64_t i = 0; i < count; ++i) transport_.drop(worker, "it tells of another run");
+    for (std::uint64_t i = 0; i < count; ++i) transport_.reject(worker, "it tells of another run");
   }
 }
 

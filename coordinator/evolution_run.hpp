@@ -60,7 +60,7 @@ class EvolutionRun {
     bool answered = false;  ///< by word of an epoch beyond it
   };
 
-  /// A worker that is given no islands for a while, since it does not get on with them.
+  /// A worker that is given no islands for a while, since it has stalled.
   struct Aside {
     std::uint32_t slots = 1;
     Clock::time_point until;

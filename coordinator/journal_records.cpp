@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "protocol/faults.hpp"
-#include "transport/message_bytes.hpp"
+#include "protocol/message_bytes.hpp"
 
 namespace demecal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "report/effect_entry.hpp"
+#include "report/loop_entries.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "monitor/monitor_page.hpp"
+#include "terminal/monitor_page.hpp"
 
 namespace demecal {
 namespace {

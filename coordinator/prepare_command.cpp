@@ -13,7 +13,7 @@
 #include "errors/input_error.hpp"
 #include "preparation/false_targets.hpp"
 #include "preparation/statistic.hpp"
-#include "report/data_check_text.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 namespace {
@@ -78,7 +78,7 @@ ExitCode run(const PrepareRequest& request) {
   warn(request, raw, prepared);
   const CheckedData checked{data, check_data(data)};
   if (refuses(checked, request.force)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
 
   std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml"};
   for (const WrittenFile& file : files) names.push_back(file.name);

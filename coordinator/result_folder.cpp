@@ -14,9 +14,8 @@
 #include "coordinator/written_files.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
+#include "html/page.hpp"
 #include "report/history.hpp"
-#include "report/report_html.hpp"
-#include "report/report_json.hpp"
 
 namespace demecal {
 namespace {
@@ -76,28 +75,31 @@ FilesBeingWritten::~FilesBeingWritten() {
   }
 }
 
-CalibrationReport write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result) {
+Report write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result) {
+  const Method method = result.model.method;
   const std::string model_path = folder + "/model.yaml";
   write_result(folder, "model.yaml", model_text(result.model));
   CalibratedModel written = load_model(model_path);
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
-  const CorrectedRobot& before = added_any(result.loop) ? result.before : written.robot;
-  CalibrationReport report =
-      make_report(data, written, before, result.loop, result.preparation, result.calibration, result.facts);
-  report.check = result.check;
-  check_fitted(data, written.robot, report.check);
-  const bool evolves = result.model.method != Method::diagnose && result.model.method != Method::structural;
-  if (!evolves && !has_corrections(written.robot)) report.joints.clear();
-  report.structure = result.structure;
-  if (result.model.method == Method::structural) report.unidentified.clear();  // they are of the fit to compare with
-  report.distal = result.distal;
-  const std::string json = to_json(report);
-  write_result(folder, "report.json", json);
-  const std::string history = history_csv(history_rows(result.history));
-  if (result.model.method == Method::distal) write_result(folder, "distal.csv", distal_csv(result.distal));
-  if (evolves) write_result(folder, "history.csv", history);
-  write_result(folder, "report.html", report_html(json, evolves ? history : ""));
+  DataCheck check = result.check;
+  check_fitted(data, written.robot, check);
+  const Report report = make_report({.data = data,
+                                     .model = written,
+                                     .before = added_any(result.loop) ? result.before : written.robot,
+                                     .loop = result.loop,
+                                     .preparation = result.preparation,
+                                     .calibration = result.calibration,
+                                     .check = check,
+                                     .distal = result.distal,
+                                     .structure = result.structure,
+                                     .runtime = result.facts});
+  write_result(folder, "report.json", to_json(report));
+  const bool evolves = method != Method::diagnose && method != Method::structural;
+  const std::vector<HistoryRow> history = evolves ? history_rows(result.history) : std::vector<HistoryRow>{};
+  if (report.distal) write_result(folder, "distal.csv", distal_csv(*report.distal));
+  if (evolves) write_result(folder, "history.csv", history_csv(history));
+  write_result(folder, "report.html", report_html(report, fitness_of(history)));
   return report;
 }
 

@@ -35,6 +35,6 @@ std::vector<std::string> result_files(Method method);
 
 /// Writes the model, reads it back, and writes the report of what was read, so that evaluating model.yaml gives the
 /// same figures to the last digit. Each file appears whole or not at all.
-CalibrationReport write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result);
+Report write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result);
 
 }  // namespace demecal

@@ -2,13 +2,16 @@
 
 #include <utility>
 
+#include "report/evaluation.hpp"
+
 namespace demecal {
 
 StudyRun figures_of(const DataSet& data, const CalibrateResult& result) {
   const ErrorBySet errors = errors_by_set(result.model.robot, data);
   StudyRun run;
   run.calibration_mm = errors.calibration.rms_mm;
-  run.validation_mm = result.calibration.unseen ? result.calibration.unseen->after_mm : errors.validation.rms_mm;
+  run.validation_mm = errors.validation.rms_mm;
+  if (const auto& unseen = result.calibration.unseen) run.validation_mm = unseen->after_mm;
   run.accept_mm = errors.accept.rms_mm;
   for (const JointCorrection& correction : result.model.robot.corrections) {
     if (correction.is_neutral()) continue;

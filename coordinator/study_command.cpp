@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -16,7 +15,8 @@
 #include "coordinator/result_folder.hpp"
 #include "coordinator/study.hpp"
 #include "errors/input_error.hpp"
-#include "report/data_check_text.hpp"
+#include "terminal/report_text.hpp"
+#include "terminal/tables.hpp"
 
 namespace demecal {
 namespace {
@@ -75,20 +75,19 @@ void tell(const Study& study, const StudyRun& run) {
   for (std::size_t i = 0; i < study.keys.size(); ++i) {
     cell += fmt::format("{} {}, ", study.keys[i], study.cells[run.cell][i]);
   }
-  const bool validated = std::isfinite(run.validation_mm);
   fmt::print(stderr, "[{}/{}] {}seed {}: {} rms {:.4f} mm, {} nodes, {:.1f} s\n", study.runs.size(),
-             study.cells.size() * study.seeds.size(), cell, run.seed, validated ? "validation" : "calibration",
-             validated ? run.validation_mm : run.calibration_mm, run.nodes, run.wall_s);
+             study.cells.size() * study.seeds.size(), cell, run.seed, run.validation_mm ? "validation" : "calibration",
+             run.validation_mm.value_or(run.calibration_mm.value_or(0.0)), run.nodes, run.wall_s);
 }
 
 void write(const std::string& folder, const Study& study) {
   write_result(folder, "study.csv", study_csv(study));
-  write_result(folder, "study.json", study_json(study, 1));
+  write_result(folder, "study.json", to_json(study, 1));
 }
 
 ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) {
   if (request.json) {
-    fmt::print("{}", study_json(study));
+    fmt::print("{}", to_json(study));
   } else {
     fmt::print("{}", study_table(study));
     if (request.blocks > 0) fmt::print("\n{}", blocks_table(study, request.blocks));
@@ -108,7 +107,7 @@ ExitCode run(const StudyRequest& request) {
   const std::string& data_file = request.data_file.empty() ? cells.front().job.data_file : request.data_file;
   const CheckedData checked = load_checked(data_file);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", data_check_to_terminal(checked.check));
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
   const DataSet& data = checked.data;
   make_writable(request.out, {"study.csv", "study.json"}, request.force);
   Study study = study_of(request, axes, cells, data);

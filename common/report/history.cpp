@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include "data/csv.hpp"
-#include "expression/text.hpp"
+#include "data/number.hpp"
+#include "errors/input_error.hpp"
 
 namespace demecal {
 namespace {
@@ -26,10 +31,65 @@ CsvRow written(const HistoryRow& row) {
            on_one_line(row.worker)}};
 }
 
-std::string text_of(const CsvTable& table) {
+std::string csv_of(const CsvTable& table) {
   std::ostringstream text;
   write_csv(text, table);
   return text.str();
+}
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+const std::string kHistoryFile = "history.csv";
+
+bool has_rows(const std::string& csv) {
+  std::istringstream lines(csv);
+  int written = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string::npos && line[first] != '#') ++written;
+  }
+  return written > 1;
+}
+
+std::size_t column(const CsvTable& table, const std::string& name) {
+  const std::optional<std::size_t> found = table.find(name);
+  if (!found) throw InputError({kHistoryFile, table.header_line}, "", "has no column " + name);
+  return *found;
+}
+
+std::uint64_t number_from_one(const CsvRow& row, std::size_t at) {
+  const std::optional<double> value = parse_number(row.fields[at]);
+  const bool counts = value && *value >= 1.0 && *value <= 1e6 && *value == std::floor(*value);
+  if (!counts) throw InputError({kHistoryFile, row.line}, row.fields[at], "must be a whole number from 1");
+  return static_cast<std::uint64_t>(*value);
+}
+
+double number_of(const CsvRow& row, std::size_t at) {
+  const std::optional<double> value = parse_number(row.fields[at]);
+  if (!value) throw InputError({kHistoryFile, row.line}, row.fields[at], "must be a number");
+  return *value;
+}
+
+/// Nothing where the fitness is written, but is not finite.
+std::optional<double> fitness_of(const CsvRow& row, std::size_t at) {
+  for (const char* const word : {"inf", "-inf", "nan", "-nan"}) {
+    if (row.fields[at] == word) return std::nullopt;
+  }
+  return number_of(row, at);
+}
+
+void find_extent(FitnessHistory& history) {
+  std::vector<double> positive;
+  for (const auto& [joint, curves] : history.joints) {
+    for (const auto& [island, points] : curves) {
+      for (const FitnessPoint& point : points) {
+        if (point.best > 0.0) positive.push_back(point.best);
+      }
+    }
+  }
+  if (positive.empty()) positive = {1.0};
+  const auto [lowest, highest] = std::ranges::minmax(positive);
+  history.lowest = lowest;
+  history.highest = highest;
 }
 
 }  // namespace
@@ -39,18 +99,44 @@ std::string history_csv(const std::vector<HistoryRow>& rows) {
   table.columns = {"joint",       "island",      "generation",     "best_fitness", "median_fitness",
                    "best_length", "evaluations", "migrants_taken", "worker"};
   for (const HistoryRow& row : rows) table.rows.push_back(written(row));
-  return text_of(table);
+  return csv_of(table);
 }
 
-std::string distal_csv(const std::vector<DistalStep>& steps) {
+std::string distal_csv(const std::vector<DistalEntry>& steps) {
   CsvTable table{.file = {}, .header_line = 0, .columns = {}, .rows = {}};
   table.columns = {"joint", "generation", "expression", "index_mm2"};
-  for (const DistalStep& step : steps) {
+  for (const DistalEntry& step : steps) {
     table.rows.push_back({0,
-                          {std::to_string(step.joint + 1), std::to_string(step.generation),
-                           to_text(step.correction.formula()), fmt::format("{}", step.index_mm2)}});
+                          {std::to_string(step.joint), std::to_string(step.generation), step.expression,
+                           fmt::format("{}", step.index_mm2.value_or(kNotANumber))}});
   }
-  return text_of(table);
+  return csv_of(table);
+}
+
+FitnessHistory fitness_of(const std::vector<HistoryRow>& rows) {
+  FitnessHistory history;
+  for (const HistoryRow& row : rows) {
+    std::vector<FitnessPoint>& points = history.joints[row.island.joint + 1][row.island.deme + 1];
+    if (std::isfinite(row.figures.best)) points.push_back({static_cast<double>(row.generation), row.figures.best});
+  }
+  find_extent(history);
+  return history;
+}
+
+FitnessHistory read_fitness(const std::string& csv) {
+  FitnessHistory history;
+  if (has_rows(csv)) {
+    std::istringstream text(csv);
+    const CsvTable table = read_csv(text, kHistoryFile);
+    const std::size_t joint = column(table, "joint"), island = column(table, "island");
+    const std::size_t generation = column(table, "generation"), best = column(table, "best_fitness");
+    for (const CsvRow& row : table.rows) {
+      std::vector<FitnessPoint>& points = history.joints[number_from_one(row, joint)][number_from_one(row, island)];
+      if (const auto fitness = fitness_of(row, best)) points.push_back({number_of(row, generation), *fitness});
+    }
+  }
+  find_extent(history);
+  return history;
 }
 
 }  // namespace demecal

@@ -1,12 +1,13 @@
-// The course of evolution as tables: one row per joint, island and epoch; of distal learning one per step.
+// The course of evolution: tables with a row per joint, island and epoch, or step of distal learning, and its curves.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "calibration/distal_steps.hpp"
 #include "evolution/island.hpp"
+#include "report/report.hpp"
 
 namespace demecal {
 
@@ -25,6 +26,27 @@ std::string history_csv(const std::vector<HistoryRow>& rows);
 
 /// CSV with header joint,generation,expression,index_mm2 (thesis Table 4-1); joints count from 1, the expression is
 /// g(theta) in rad.
-std::string distal_csv(const std::vector<DistalStep>& steps);
+std::string distal_csv(const std::vector<DistalEntry>& steps);
+
+struct FitnessPoint {
+  double generation = 0.0;
+  double best = 0.0;  ///< finite, smaller is better
+};
+
+/// One joint's islands by their number, from 1; points in the order of the history's rows.
+using FitnessCurves = std::map<std::uint64_t, std::vector<FitnessPoint>>;
+
+/// The best fitness of every island over the generations.
+struct FitnessHistory {
+  std::map<std::uint64_t, FitnessCurves> joints;  ///< by their number, from 1
+  double lowest = 0.0, highest = 0.0;             ///< of all points above 0; both 1 where there are none
+};
+
+/// Rows whose fitness is infinite or no number are left out.
+FitnessHistory fitness_of(const std::vector<HistoryRow>& rows);
+
+/// The same of what history_csv() wrote; no joints where `csv` has no rows. Throws InputError naming history.csv, line
+/// and value where a column is missing or a field is no number.
+FitnessHistory read_fitness(const std::string& csv);
 
 }  // namespace demecal

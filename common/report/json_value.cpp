@@ -119,11 +119,4 @@ std::vector<double> JsonValue::numbers() const {
   return found;
 }
 
-std::string JsonValue::words() const {
-  if (!exists()) return {};
-  if (value_->is_string()) return value_->get<std::string>();
-  if (value_->is_number_float()) return fmt::format("{:.6g}", value_->get<double>());
-  return value_->dump();
-}
-
 }  // namespace demecal

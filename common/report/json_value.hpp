@@ -30,8 +30,6 @@ class JsonValue {
   std::string text() const;                ///< empty where missing
   std::vector<std::string> texts() const;  ///< of an array of texts
   std::vector<double> numbers() const;     ///< of an array of numbers
-  /// Whatever it is, in few words: a text as it stands, a number with 6 digits, anything else as JSON.
-  std::string words() const;
 
   /// An error about this value: `rule` goes on from the value's path, as in "must be a number".
   [[noreturn]] void refuse(const std::string& rule) const;

@@ -1,181 +1,221 @@
-#include "report/report_json.hpp"
+#include <algorithm>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "expression/text.hpp"
-#include "kinematics/units.hpp"
-#include "report/data_check_text.hpp"
-#include "report/json_number.hpp"
-#include "report/loop_json.hpp"
-#include "report/pose_errors_json.hpp"
+#include "report/error_fields.hpp"
+#include "report/report.hpp"
 
 namespace demecal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Names come from files and may hold bytes that are no UTF-8: they are replaced, lest there be no report.
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Json figures(const ErrorFigures& errors) {
-  return {{"mean", number_or_null(errors.mean_mm)},
-          {"rms", number_or_null(errors.rms_mm)},
-          {"p95", number_or_null(errors.p95_mm)},
-          {"max", number_or_null(errors.max_mm)}};
-}
-
-Json by_set(const ErrorBySet& errors) {
-  return {{"calibration", figures(errors.calibration)},
-          {"validation", figures(errors.validation)},
-          {"accept", figures(errors.accept)}};
-}
-
-Json joint(const JointLine& line) {
-  Json entry{{"joint", line.summary.joint + 1},
-             {"kept", line.summary.kept},
-             {"expression", line.expression},
-             {"mean_abs_error_rad",
-              {{"before", number_or_null(line.summary.before_rad)}, {"after", number_or_null(line.summary.after_rad)}}},
-             {"range_rad", {number_or_null(line.range_rad.lower), number_or_null(line.range_rad.upper)}},
-             {"bound_rad", number_or_null(line.summary.bound_rad)},
-             {"discontinuities_rad", line.summary.discontinuities_rad}};
-  if (!line.with_functions.empty()) entry["with_functions"] = line.with_functions;
-  if (!line.summary.note.empty()) entry["note"] = line.summary.note;
-  return entry;
-}
-
-Json shared_function(const SharedFunctionLine& line) {
-  Json joints = Json::array();
-  for (const int joint : line.joints) joints.push_back(joint + 1);
-  return {{"definition", line.definition}, {"joints", joints}};
-}
-
-Json step(const DistalStep& step) {
-  return {{"joint", step.joint + 1},
-          {"generation", step.generation},
-          {"expression", to_text(step.correction.formula())},
-          {"index_mm2", number_or_null(step.index_mm2)}};
-}
-
-Json parameter(const ParameterEstimate& estimate) {
-  const bool angle = estimate.id.is_angle();
-  const double border = angle ? degrees(1.0) : millimetres(1.0);
-  return {{"name", estimate.id.name()},
-          {"nominal", number_or_null(estimate.nominal * border)},
-          {"value", number_or_null(estimate.value * border)},
-          {"standard_error", number_or_null(estimate.standard_error * border)}};
-}
-
-/// Beside the parameters of base and tool: nominally there is nothing between the links.
-Json parameter(const FoundTransform& transform) {
-  return {{"name", transform.name()},
-          {"nominal", 0.0},
-          {"value", number_or_null(transform.at_border(transform.value))},
-          {"standard_error", number_or_null(transform.at_border(transform.standard_error))}};
-}
-
-Json waited_share(const RunFacts& facts) {
-  Json all = Json::array();
-  for (const auto& [worker, share] : facts.waited_share)
-    all.push_back({{"worker", worker}, {"share", number_or_null(share)}});
-  return all;
-}
-
-Json runtime(const RunFacts& facts) {
-  return {{"wall_s", number_or_null(facts.wall_s)},
-          {"workers", facts.workers},
-          {"islands", facts.islands},
-          {"generations", facts.generations},
-          {"evaluations", facts.evaluations},
-          {"migrations", facts.migrations},
-          {"dropped_samples", facts.dropped_samples},
-          {"interrupted", facts.interrupted},
-          {"asynchronous", facts.asynchronous},
-          {"resumed", facts.resumed},
-          {"waited_share", waited_share(facts)}};
-}
-
-Json excluded(const std::vector<ExcludedPose>& poses) {
-  Json all = Json::array();
-  for (const ExcludedPose& pose : poses)
-    all.push_back({{"id", pose.id}, {"set", pose.set}, {"error_mm", number_or_null(pose.error_mm)}});
-  return all;
-}
-
-Json error_stages(const CalibrationReport& report) {
-  return {{"nominal", by_set(report.nominal)},
-          {"registered", by_set(report.registered)},
-          {"declared", by_set(report.declared)},
-          {"before", by_set(report.before)},
-          {"after", by_set(report.after)}};
-}
-
-/// Which poses the numbers of the model come from, and what validation poses said while they were unseen.
-Json last_fit(const CalibrationReport& report) {
-  if (!report.unseen) return {{"poses", {"calibration"}}};
-  return {{"poses", {"calibration", "validation"}},
-          {"unseen_validation_rms_mm",
-           {{"before", number_or_null(report.unseen->before_mm)}, {"after", number_or_null(report.unseen->after_mm)}}}};
-}
+constexpr std::uint64_t kReportVersion = 1;
 
 }  // namespace
 
-std::string to_json(const CalibrationReport& report) {
-  Json json{{"demecal_report", 1},      {"job", report.job},   {"robot", report.robot},
-            {"method", report.method},  {"seed", report.seed}, {"data_sha256", report.data_sha256},
-            {"version", report.version}};
-  json["data_check"] = data_check_to_json(report.check);
-  json["poses"] = {{"calibration", report.poses.calibration}, {"validation", report.poses.validation},
-                   {"accept", report.poses.accept},           {"outliers", report.outliers},
-                   {"excluded", excluded(report.excluded)},   {"near_singular", report.near_singular}};
-  json["error_mm"] = error_stages(report);
-  json["last_fit"] = last_fit(report);
-  json["pose_errors"] = pose_errors_to_json(report.pose_errors);
-  json["prediction_interval"] = report.interval ? prediction_to_json(*report.interval) : Json(nullptr);
-  json["noise_floor_mm"] = report.noise_floor_mm ? number_or_null(*report.noise_floor_mm) : Json(nullptr);
-  add_loop(report.loop, report.described, json);
-  json["performance_index_mm2"] = {{"before", number_or_null(report.index_before_mm2)},
-                                   {"after", number_or_null(report.index_after_mm2)}};
-  json["joints"] = Json::array();
-  for (const JointLine& line : report.joints) json["joints"].push_back(joint(line));
-  if (report.functions) {
-    json["shared_functions"] = Json::array();
-    for (const SharedFunctionLine& line : *report.functions) json["shared_functions"].push_back(shared_function(line));
-  }
-  if (report.method == word_of(Method::distal)) {
-    json["distal"] = Json::array();
-    for (const DistalStep& one : report.distal) json["distal"].push_back(step(one));
-  }
-  json["parameters"] = Json::array();
-  for (const ParameterEstimate& estimate : report.estimates) {
-    if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects stand with the rounds that added them
-    json["parameters"].push_back(parameter(estimate));
-  }
-  for (const FoundTransform& transform : report.structure) json["parameters"].push_back(parameter(transform));
-  json["unidentified"] = report.unidentified;
-  json["runtime"] = runtime(report.runtime);
-  return text_of(json, 2);
+// Not in an anonymous namespace: json_of() and read_json() find these by their arguments.
+
+nlohmann::ordered_json json_of(const std::vector<NamedNumber>& numbers) {
+  nlohmann::ordered_json named = nlohmann::ordered_json::object();
+  for (const NamedNumber& number : numbers) named[number.name] = json_of(number.value);
+  return named;
 }
 
-std::string errors_to_json(const ErrorBySet& errors, const DataCheck& check,
-                           const std::vector<UnappliedEffect>& unapplied, const std::vector<PoseErrorLine>& poses) {
-  Json effects = Json::array();
-  for (const UnappliedEffect& one : unapplied) {
-    effects.push_back({{"kind", one.kind},
-                       {"joint", one.joint < 0 ? Json(nullptr) : Json(one.joint + 1)},
-                       {"lacking", one.lacking},
-                       {"poses", one.poses},
-                       {"sentence", one.sentence()}});
+void read_json(const JsonValue& json, std::vector<NamedNumber>& numbers) {
+  for (const auto& [name, value] : json.members()) numbers.push_back({name, value.number()});
+}
+
+nlohmann::ordered_json json_of(const std::vector<NamedInterval>& intervals) {
+  nlohmann::ordered_json named = nlohmann::ordered_json::object();
+  for (const NamedInterval& interval : intervals)
+    named[interval.name] = {json_of(interval.lower), json_of(interval.upper)};
+  return named;
+}
+
+void read_json(const JsonValue& json, std::vector<NamedInterval>& intervals) {
+  for (const auto& [name, ends] : json.members()) {
+    const std::vector<JsonValue> both = ends.elements();
+    NamedInterval& interval = intervals.emplace_back(NamedInterval{name, std::nullopt, std::nullopt});
+    if (both.size() != 2) continue;
+    interval.lower = both[0].number();
+    interval.upper = both[1].number();
   }
-  const Json found = data_check_to_json(check), of_poses = pose_errors_to_json(poses);
-  return text_of(Json{{"error_mm", by_set(errors)},
-                      {"pose_errors", of_poses},
-                      {"data_check", found},
-                      {"effects_not_applied", effects}},
-                 -1);
+}
+
+nlohmann::ordered_json json_of(const std::optional<Interval>& range) {
+  return range ? nlohmann::ordered_json{range->lower, range->upper} : nlohmann::ordered_json{nullptr, nullptr};
+}
+
+void read_json(const JsonValue& json, std::optional<Interval>& range) {
+  const std::vector<double> ends = json.numbers();
+  if (ends.empty()) return;
+  if (ends.size() != 2 || ends[0] > ends[1]) json.refuse("must be the two ends of a range, the lower one first");
+  range = Interval{ends[0], ends[1]};
+}
+
+void fields(auto& visit, Like<BeforeAfter> auto& figure) {
+  visit("before", figure.before, "after", figure.after);
+}
+
+void fields(auto& visit, Like<ExcludedPose> auto& pose) {
+  visit("id", pose.id, "set", pose.set, "error_mm", pose.error_mm);
+}
+
+void fields(auto& visit, Like<PredictionEntry> auto& prediction) {
+  visit("quantile", prediction.quantile, "noise_mm", prediction.noise_mm, "distance_noise_mm",
+        prediction.distance_noise_mm, "model_error_mm", prediction.model_error_mm, "told_by", prediction.told_by,
+        "poses", prediction.poses, "gross_errors", prediction.gross_errors, "remark", prediction.remark);
+}
+
+template <class Visit>
+void place_fields(Visit& visit, Like<EffectEntry> auto& effect) {
+  visit("kind", effect.kind, "joint", effect.joint);
+  if constexpr (kReads<Visit>) {
+    if (effect.joint == 0U) effect.joint.reset();
+  }
+  visit.when(!effect.form.empty(), "form", effect.form);
+  visit("parameters", effect.parameters);
+  visit.when(!effect.standard_errors.empty(), "standard_errors", effect.standard_errors);
+}
+
+void fields(auto& visit, Like<EffectEntry> auto& effect) {
+  place_fields(visit, effect);
+  const bool has_size = effect.amplitude || !effect.unit.empty();
+  visit.when(has_size, "amplitude", effect.amplitude);
+  visit.when(has_size, "unit", effect.unit);
+}
+
+void fields(auto& visit, Like<RivalEntry> auto& rival) {
+  fields(visit, rival.effect);
+  visit("cosine", rival.cosine, "nats_behind", rival.nats_behind);
+}
+
+void fields(auto& visit, Like<ClassMember> auto& member) {
+  visit("kind", member.kind, "joint", member.joint);
+}
+
+void fields(auto& visit, Like<FurtherEntry> auto& further) {
+  visit("sentence", further.sentence, "poses", further.poses);
+}
+
+void fields(auto& visit, Like<RoundEntry> auto& round) {
+  visit("round", round.round, "group", round.group, "verdict", round.verdict, "effect", round.effect, "diagnosis",
+        round.diagnosis, "formula", round.formula, "reason", round.reason, "implausible", round.implausible, "class",
+        round.members, "class_sentence", round.class_sentence, "rivals", round.rivals, "p_structure", round.p_structure,
+        "p_family", round.p_family, "permutations", round.permutations, "fall_nats", round.fall_nats, "confirmed",
+        round.confirmed, "confirmed_lower", round.confirmed_lower, "sign_stability", round.sign_stability, "interval",
+        round.interval, "validation_before_mm", round.validation_before_mm, "validation_after_mm",
+        round.validation_after_mm, "further", round.further);
+}
+
+void fields(auto& visit, Like<NotFoundEntry> auto& missing) {
+  place_fields(visit, missing.effect);
+  visit("smallest_detectable", missing.smallest_detectable, "unit", missing.unit, "sentence", missing.sentence);
+}
+
+void fields(auto& visit, Like<UnseenEntry> auto& unseen) {
+  visit("kind", unseen.kind, "reason", unseen.reason);
+}
+
+void fields(auto& visit, Like<DecoyEntry> auto& decoy) {
+  visit("name", decoy.name, "best_fall_nats", decoy.best_fall_nats, "p_left", decoy.p_left, "won", decoy.won);
+}
+
+void fields(auto& visit, Like<NoiseEntry> auto& noise) {
+  visit("independent_mm", noise.independent_mm, "estimated", noise.estimated, "joint_repeatability_mrad",
+        noise.joint_repeatability_mrad, "shared_by_repeats_mm", noise.shared_by_repeats_mm, "shared_in_order_mm",
+        noise.shared_in_order_mm, "correlation_in_order", noise.correlation_in_order);
+}
+
+template <class Visit>
+void fields(Visit& visit, Like<JointEntry> auto& joint) {
+  visit("joint", joint.joint, "kept", joint.kept, "expression", joint.expression, "mean_abs_error_rad",
+        joint.mean_abs_error_rad, "range_rad", joint.range_rad, "bound_rad", joint.bound_rad, "discontinuities_rad",
+        joint.discontinuities_rad);
+  visit.when(!joint.with_functions.empty(), "with_functions", joint.with_functions);
+  visit.when(!joint.note.empty(), "note", joint.note);
+  if constexpr (kReads<Visit>) {
+    if (!visit.has("kept")) joint.kept = !joint.expression.empty();
+  }
+}
+
+void fields(auto& visit, Like<SharedFunctionEntry> auto& function) {
+  visit("definition", function.definition, "joints", function.joints);
+}
+
+void fields(auto& visit, Like<DistalEntry> auto& step) {
+  visit("joint", step.joint, "generation", step.generation, "expression", step.expression, "index_mm2", step.index_mm2);
+}
+
+void fields(auto& visit, Like<ParameterEntry> auto& parameter) {
+  visit("name", parameter.name, "nominal", parameter.nominal, "value", parameter.value, "standard_error",
+        parameter.standard_error);
+}
+
+void fields(auto& visit, Like<WaitingEntry> auto& waited) {
+  visit("worker", waited.worker, "share", waited.share);
+}
+
+void fields(auto& visit, Like<RuntimeEntry> auto& runtime) {
+  visit("wall_s", runtime.wall_s, "workers", runtime.workers, "islands", runtime.islands, "generations",
+        runtime.generations, "evaluations", runtime.evaluations, "migrations", runtime.migrations, "dropped_samples",
+        runtime.dropped_samples, "interrupted", runtime.interrupted, "asynchronous", runtime.asynchronous, "resumed",
+        runtime.resumed, "waited_share", runtime.waited_share);
+}
+
+void loop_fields(auto& visit, Like<Report> auto& report) {
+  visit("rounds", report.rounds, "dropped", report.dropped, "not_found", report.not_found, "unseen", report.unseen,
+        "decoys", report.decoys, "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p, "explained_share",
+        report.explained_share, "structure_left_p", report.structure_left_p, "noise", report.noise, "candidates",
+        report.candidates, "permutations", report.permutations);
+}
+
+void fields(auto& visit, Like<Report> auto& report) {
+  visit("job", report.job, "robot", report.robot, "method", report.method, "seed", report.seed, "data_sha256",
+        report.data_sha256, "version", report.version, "data_check", report.data_check);
+  visit.within("poses", [&](auto& poses) {
+    poses("calibration", report.poses.calibration, "validation", report.poses.validation, "accept",
+          report.poses.accept);
+    poses("outliers", report.poses.outliers, "excluded", report.poses.excluded, "near_singular",
+          report.poses.near_singular);
+  });
+  visit.within("error_mm", [&](auto& stage) {
+    stage("nominal", report.nominal, "registered", report.registered, "declared", report.declared, "before",
+          report.before, "after", report.after);
+  });
+  visit.within("last_fit", [&](auto& fit) {
+    fit("poses", report.fitted_sets);
+    fit.when(report.unseen_validation_rms_mm.has_value(), "unseen_validation_rms_mm", report.unseen_validation_rms_mm);
+  });
+  visit("pose_errors", report.pose_errors, "prediction_interval", report.prediction_interval, "noise_floor_mm",
+        report.noise_floor_mm);
+  loop_fields(visit, report);
+  visit("performance_index_mm2", report.performance_index_mm2, "joints", report.joints);
+  visit.when(report.shared_functions.has_value(), "shared_functions", report.shared_functions);
+  visit.when(report.distal.has_value(), "distal", report.distal);
+  visit("parameters", report.parameters, "unidentified", report.unidentified, "runtime", report.runtime);
+}
+
+std::string to_json(const Report& report) {
+  nlohmann::ordered_json json{{"demecal_report", kReportVersion}};
+  JsonWriter write(json);
+  fields(write, report);
+  return dumped(json, 2);
+}
+
+Report read_report(const std::string& text, const std::string& file) {
+  const JsonValue json = JsonValue::parse(text, file);
+  const JsonValue version = json["demecal_report"];
+  if (version.count() != kReportVersion)
+    version.refuse("must be 1, the version of the reports that this program reads");
+  Report report;
+  read_json(json, report);
+  // Reports that other programs wrote may leave it to the order.
+  for (std::size_t i = 0; i < report.rounds.size(); ++i) {
+    if (report.rounds[i].round == 0) report.rounds[i].round = i + 1;
+  }
+  for (std::size_t i = 0; i < report.joints.size(); ++i) {
+    if (report.joints[i].joint == 0) report.joints[i].joint = i + 1;
+    std::ranges::sort(report.joints[i].discontinuities_rad);
+  }
+  return report;
 }
 
 }  // namespace demecal

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "evolution/building_blocks.hpp"
+#include "fitting/median_interval.hpp"
 
 namespace demecal {
 
@@ -15,9 +16,7 @@ namespace demecal {
 struct StudyRun {
   std::size_t cell = 0;  ///< from 0
   std::uint64_t seed = 0;
-  double calibration_mm = std::numeric_limits<double>::quiet_NaN();  ///< rms; NaN where the set is empty, as below
-  double validation_mm = std::numeric_limits<double>::quiet_NaN();
-  double accept_mm = std::numeric_limits<double>::quiet_NaN();
+  std::optional<double> calibration_mm, validation_mm, accept_mm;  ///< rms; nothing where the set is empty
   std::size_t nodes = 0;      ///< of the joints' corrections, with the factor that gives each its unit
   std::size_t corrected = 0;  ///< joints that got one
   std::uint64_t evaluations = 0;
@@ -36,16 +35,20 @@ struct Study {
   bool interrupted = false;           ///< before all runs were made
 };
 
-/// A line for every cell, with medians over its seeds and how sure they are, in words below.
-std::string study_table(const Study& study);
+/// The figures of a cell over its seeds.
+struct StudyCell {
+  std::size_t runs = 0;
+  /// Nothing where there is no run, or one without such poses.
+  std::optional<MedianInterval> calibration_mm, validation_mm, accept_mm, nodes, evaluations, wall_s;
+};
 
-/// The first `most` blocks, a line each; a sentence where there are none.
-std::string blocks_table(const Study& study, std::size_t most);
+/// One for every cell, in their order.
+std::vector<StudyCell> study_cells(const Study& study);
 
 /// A row for every run.
 std::string study_csv(const Study& study);
 
 /// Everything: runs, medians and intervals of the cells, and all blocks.
-std::string study_json(const Study& study, int indent = -1);
+std::string to_json(const Study& study, int indent = -1);
 
 }  // namespace demecal

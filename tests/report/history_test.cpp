@@ -10,8 +10,6 @@
 #include "data/csv.hpp"
 #include "errors/input_error.hpp"
 #include "made_up_report.hpp"
-#include "page_reading.hpp"
-#include "report/fitness_chart.hpp"
 
 namespace demecal {
 namespace {
@@ -85,6 +83,25 @@ TEST(FitnessHistory, HoldsEveryRowAtItsIsland) {
   EXPECT_EQ(at, rows.size());
 }
 
+TEST(FitnessHistory, IsTheSameOfRowsAndOfTheirTable) {
+  std::vector<HistoryRow> rows = made_up_history(3, 2, 4);
+  rows[2].figures.best = std::numeric_limits<double>::infinity();
+  const FitnessHistory direct = fitness_of(rows), read = read_fitness(history_csv(rows));
+  EXPECT_EQ(direct.lowest, read.lowest);
+  EXPECT_EQ(direct.highest, read.highest);
+  ASSERT_EQ(direct.joints.size(), read.joints.size());
+  for (const auto& [joint, curves] : direct.joints) {
+    for (const auto& [island, points] : curves) {
+      const std::vector<FitnessPoint>& others = read.joints.at(joint).at(island);
+      ASSERT_EQ(points.size(), others.size());
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_EQ(points[i].generation, others[i].generation);
+        EXPECT_EQ(points[i].best, others[i].best);
+      }
+    }
+  }
+}
+
 TEST(FitnessHistory, IsEmptyWithoutRows) {
   for (const std::string& csv : {std::string(), kHeader, "\n# nothing yet\n" + kHeader + "\n\n"}) {
     EXPECT_THAT(read_fitness(csv).joints, IsEmpty());
@@ -106,30 +123,6 @@ TEST(FitnessHistory, NamesLineAndValueOfWhatItCannotRead) {
   EXPECT_THAT(complaint(kHeader + "1,1,soon,2,4,5,6,7,w\n"), HasSubstr("'soon': must be a number"));
   EXPECT_THAT(complaint(kHeader + "1,1\n"), HasSubstr("history.csv:2"));
   EXPECT_THAT(complaint("joint,island,generation\n1,1,0\n"), HasSubstr("has no column best_fitness"));
-}
-
-TEST(FitnessChart, HasOneLinePerIslandWithOnePointPerRow) {
-  const FitnessHistory history = read_fitness(history_csv(made_up_history(2, 3, 7)));
-  const std::vector<Points> lines = lines_of(fitness_chart(history, 2), "island");
-  ASSERT_EQ(lines.size(), 3u);
-  for (const Points& line : lines) {
-    EXPECT_EQ(line.size(), 8u);
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      EXPECT_GT(line[i].first, line[i - 1].first) << "generations run to the right";
-      EXPECT_GE(line[i].second, line[i - 1].second) << "better fitness stands lower";
-    }
-  }
-  EXPECT_EQ(fitness_chart(history, 3), "");
-  EXPECT_EQ(fitness_caption(history, 3), "");
-}
-
-TEST(FitnessChart, ShowsEqualGainsAsEqualHeights) {
-  const FitnessHistory history =
-      read_fitness(kHeader + "1,1,0,8,9,1,1,0,w\n1,1,10,4,9,1,1,0,w\n1,1,20,2,9,1,1,0,w\n1,1,30,0,9,1,1,0,w\n");
-  const Points line = lines_of(fitness_chart(history, 1), "island").at(0);
-  EXPECT_NEAR(line[1].second - line[0].second, line[2].second - line[1].second, 0.02);
-  EXPECT_GT(line[3].second, line[2].second) << "a perfect fitness stands at the foot of the chart";
-  EXPECT_EQ(fitness_caption(history, 1), "best 0 in generation 30, island 1");
 }
 
 }  // namespace

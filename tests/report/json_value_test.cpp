@@ -47,7 +47,6 @@ TEST(JsonValue, IsMissingWhereKeysAreAbsentOrNull) {
     EXPECT_EQ(missing.count(), std::nullopt);
     EXPECT_EQ(missing.truth(), std::nullopt);
     EXPECT_EQ(missing.text(), "");
-    EXPECT_EQ(missing.words(), "");
     EXPECT_THAT(missing.elements(), IsEmpty());
     EXPECT_THAT(missing.members(), IsEmpty());
   }
@@ -79,14 +78,6 @@ TEST(JsonValue, EveryCutOffDocumentIsRefused) {
   for (std::size_t length = 0; length < whole.size(); ++length) {
     EXPECT_NE(complaint([&] { read(whole.substr(0, length)); }), "none") << whole.substr(0, length);
   }
-}
-
-TEST(JsonValue, SaysAnythingInWords) {
-  const JsonValue json = read(R"({"a": 0.00041249999, "b": 71, "c": "x", "d": [1, 2]})");
-  EXPECT_EQ(json["a"].words(), "0.0004125");
-  EXPECT_EQ(json["b"].words(), "71");
-  EXPECT_EQ(json["c"].words(), "x");
-  EXPECT_EQ(json["d"].words(), "[1,2]");
 }
 
 }  // namespace

@@ -5,23 +5,26 @@
 #include <nlohmann/json.hpp>
 
 #include "made_up_loop.hpp"
-#include "report/report_json.hpp"
 
 namespace demecal {
 namespace {
 
 using Parsed = nlohmann::json;
 
-Parsed written(const CalibrationReport& report) {
+Parsed written(const Report& report) {
   return Parsed::parse(to_json(report));
 }
 
+Parsed written(const LoopOutcome& loop) {
+  return written(made_up_looped_report(loop));
+}
+
 TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
-  const CalibrationReport report = made_up_looped_report(9);
-  const Parsed rounds = written(report)["rounds"];
-  ASSERT_EQ(rounds.size(), report.loop.rounds.size());
+  const LoopOutcome loop = made_up_loop(9);
+  const Parsed rounds = written(loop)["rounds"];
+  ASSERT_EQ(rounds.size(), loop.rounds.size());
   for (std::size_t i = 0; i < rounds.size(); ++i) {
-    const Round& round = report.loop.rounds[i];
+    const Round& round = loop.rounds[i];
     EXPECT_EQ(rounds[i].at("round"), round.number);
     EXPECT_EQ(rounds[i].at("group"), round.group);
     EXPECT_EQ(rounds[i].at("verdict"), word_of(round.verdict));
@@ -61,20 +64,20 @@ TEST(LoopJson, NamesWhatAnEffectIsMadeOfAndItsRivals) {
 }
 
 TEST(LoopJson, HasWhatWasNotFoundNotSeenAndNotTrue) {
-  const CalibrationReport report = made_up_looped_report();
-  const Parsed json_report = written(report);
-  ASSERT_EQ(json_report["not_found"].size(), report.loop.not_found.size());
-  for (std::size_t i = 0; i < report.loop.not_found.size(); ++i) {
-    const NotFound& missing = report.loop.not_found[i];
+  const LoopOutcome loop = made_up_loop(5);
+  const Parsed json_report = written(loop);
+  ASSERT_EQ(json_report["not_found"].size(), loop.not_found.size());
+  for (std::size_t i = 0; i < loop.not_found.size(); ++i) {
+    const NotFound& missing = loop.not_found[i];
     EXPECT_EQ(json_report["not_found"][i].at("kind"), missing.effect.kind);
     EXPECT_EQ(json_report["not_found"][i].at("smallest_detectable"), missing.smallest_detectable);
     EXPECT_EQ(json_report["not_found"][i].at("unit"), missing.unit);
   }
   EXPECT_TRUE(json_report["not_found"].back().at("joint").is_null()) << "of the whole arm";
   EXPECT_EQ(json_report["not_found"][0].at("joint"), 1);
-  ASSERT_EQ(json_report["unseen"].size(), report.loop.unseen.size());
+  ASSERT_EQ(json_report["unseen"].size(), loop.unseen.size());
   EXPECT_EQ(json_report["unseen"][2], Parsed({{"kind", "drift"}, {"reason", "no time column"}}));
-  ASSERT_EQ(json_report["decoys"].size(), report.loop.decoys.size());
+  ASSERT_EQ(json_report["decoys"].size(), loop.decoys.size());
   EXPECT_EQ(json_report["decoys"][0]["best_fall_nats"], 1.25);
   EXPECT_EQ(json_report["decoys"][0]["won"], false);
   EXPECT_EQ(json_report["dropped"][0]["parameters"], Parsed({{"ratio", 77.0}}));
@@ -99,15 +102,15 @@ TEST(LoopJson, SaysThatTheLoopDidNotRun) {
 }
 
 TEST(LoopJson, WritesNullForNumbersThatDoNotExist) {
-  CalibrationReport report = made_up_looped_report();
+  LoopOutcome loop = made_up_loop(5);
   const double none = std::nan("");
-  Round& round = report.loop.rounds[0];
+  Round& round = loop.rounds[0];
   round.p_family = round.confirmed_lower = round.validation_after_mm = round.rivals[0].cosine = none;
   round.interval[0] = {none, std::numeric_limits<double>::infinity()};
-  report.loop.not_found[0].smallest_detectable = std::numeric_limits<double>::infinity();
-  report.loop.decoys[0].best_fall_nats = none;
-  report.loop.explained_share = none;
-  const Parsed json_report = written(report);
+  loop.not_found[0].smallest_detectable = std::numeric_limits<double>::infinity();
+  loop.decoys[0].best_fall_nats = none;
+  loop.explained_share = none;
+  const Parsed json_report = written(loop);
   for (const char* const key : {"p_family", "confirmed_lower", "validation_after_mm"}) {
     EXPECT_TRUE(json_report["rounds"][0][key].is_null()) << key;
   }
@@ -119,9 +122,9 @@ TEST(LoopJson, WritesNullForNumbersThatDoNotExist) {
 }
 
 TEST(LoopJson, HasARoundThatFoundNothing) {
-  CalibrationReport report = made_up_looped_report();
-  report.loop.rounds.push_back({});
-  const Parsed round = written(report)["rounds"].back();
+  LoopOutcome loop = made_up_loop(5);
+  loop.rounds.push_back({});
+  const Parsed round = written(loop)["rounds"].back();
   EXPECT_EQ(round["verdict"], "none");
   EXPECT_EQ(round["effect"]["kind"], "");
   EXPECT_TRUE(round["effect"]["joint"].is_null());

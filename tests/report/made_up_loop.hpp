@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "made_up_report.hpp"
+#include "report/loop_entries.hpp"
 
 namespace demecal {
 
@@ -120,13 +121,16 @@ inline LoopOutcome made_up_loop(int harmonics) {
   return loop;
 }
 
-inline CalibrationReport made_up_looped_report(int harmonics = 5) {
-  CalibrationReport report = made_up_report();
+inline Report made_up_looped_report(const LoopOutcome& loop) {
+  Report report = made_up_report();
   RandomStream random{832};
-  report.loop = made_up_loop(harmonics);
-  report.described = made_up_arm();
+  set_loop(loop, made_up_arm(), report);
   report.after = errors_about(0.311, random);
   return report;
+}
+
+inline Report made_up_looped_report(int harmonics = 5) {
+  return made_up_looped_report(made_up_loop(harmonics));
 }
 
 }  // namespace demecal

@@ -9,53 +9,57 @@
 #include "expression/bound.hpp"
 #include "expression/text.hpp"
 #include "random/random_stream.hpp"
-#include "report/calibration_report.hpp"
 #include "report/history.hpp"
+#include "report/make_report.hpp"
 
 namespace demecal {
 
-inline ErrorFigures figures_about(double mean_mm, RandomStream& random) {
+inline SetErrors figures_about(double mean_mm, RandomStream& random) {
   return {mean_mm, mean_mm * random.real(1.05, 1.15), mean_mm * random.real(1.6, 1.9), mean_mm * random.real(2.0, 2.6)};
 }
 
 inline ErrorBySet errors_about(double mean_mm, RandomStream& random) {
-  ErrorBySet errors{};
+  ErrorBySet errors;
   errors.calibration = figures_about(mean_mm * random.real(0.85, 0.95), random);
   errors.validation = figures_about(mean_mm, random);
-  errors.accept = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
   return errors;
 }
 
-inline JointLine kept_joint(int joint, const std::string& expression, double before_rad, double after_rad,
-                            Interval range_rad) {
+inline JointEntry kept_joint(std::uint64_t joint, const std::string& expression, double before_rad, double after_rad,
+                             Interval range_rad) {
   const Tree formula = parse(expression);
-  JointLine line;
-  line.summary = {.joint = joint, .kept = true, .before_rad = before_rad, .after_rad = after_rad, .note = {}};
-  line.summary.bound_rad = magnitude_bound(formula, range_rad);
-  line.summary.discontinuities_rad = discontinuities(formula, range_rad, 1e-5);
-  line.expression = expression;
-  line.range_rad = range_rad;
-  return line;
+  JointEntry entry;
+  entry.joint = joint;
+  entry.kept = true;
+  entry.mean_abs_error_rad = {before_rad, after_rad};
+  entry.bound_rad = if_finite(magnitude_bound(formula, range_rad));
+  entry.discontinuities_rad = discontinuities(formula, range_rad, 1e-5);
+  entry.expression = expression;
+  entry.range_rad = range_rad;
+  return entry;
 }
 
-inline JointLine neutral_joint(int joint, double error_rad, const std::string& note) {
-  JointLine line;
-  line.summary = {.joint = joint, .before_rad = error_rad, .after_rad = error_rad, .note = note};
-  line.expression = to_text(neutral_tree());
-  line.range_rad = {-1.5, 1.7};
-  return line;
+inline JointEntry neutral_joint(std::uint64_t joint, double error_rad, const std::string& note) {
+  JointEntry entry;
+  entry.joint = joint;
+  entry.mean_abs_error_rad = {error_rad, error_rad};
+  entry.bound_rad = 0.0;
+  entry.note = note;
+  entry.expression = to_text(neutral_tree());
+  entry.range_rad = Interval{-1.5, 1.7};
+  return entry;
 }
 
-inline std::vector<JointLine> made_up_joints() {
-  return {kept_joint(0, "0.00042 * SIN(theta + 0.7) + 0.00011 * COS(4.1 * theta)", 4.6e-4, 1.4e-4, {-2.62, 2.44}),
-          kept_joint(1,
+inline std::vector<JointEntry> made_up_joints() {
+  return {kept_joint(1, "0.00042 * SIN(theta + 0.7) + 0.00011 * COS(4.1 * theta)", 4.6e-4, 1.4e-4, {-2.62, 2.44}),
+          kept_joint(2,
                      "0.00093 * COS(theta + 0.31) - 0.00018 * SIGN(theta + 0.85) + 0.00007 * SIN(theta * theta * 1.7 - "
                      "0.2) + SQRTp(theta * 0.0000000612 + 0.00000000214) * (0.21 - COS(theta % 1.9 + 0.4) * 0.17)",
                      1.12e-3, 2.7e-4, {-2.3, 1.1}),
-          kept_joint(2, "0.00061 * SIN(1.02 * theta + 1.4)", 7.1e-4, 2.9e-4, {-0.9, 3.1}),
-          neutral_joint(3, 5.2e-4, "no evolved correction earned its place on the validation poses"),
-          kept_joint(4, "0.00002 % (theta - 0.4) - 0.0003 * theta", 6.6e-4, 4.1e-4, {-1.6, 1.8}),
-          neutral_joint(5, 8.9e-4, "the joint hardly moves over the calibration poses")};
+          kept_joint(3, "0.00061 * SIN(1.02 * theta + 1.4)", 7.1e-4, 2.9e-4, {-0.9, 3.1}),
+          neutral_joint(4, 5.2e-4, "no evolved correction earned its place on the validation poses"),
+          kept_joint(5, "0.00002 % (theta - 0.4) - 0.0003 * theta", 6.6e-4, 4.1e-4, {-1.6, 1.8}),
+          neutral_joint(6, 8.9e-4, "the joint hardly moves over the calibration poses")};
 }
 
 inline ParameterEstimate estimate_of(ParameterId::Kind kind, int index, double nominal, double value, double error) {
@@ -94,28 +98,28 @@ inline std::vector<ParameterEstimate> made_up_estimates(RandomStream& random) {
   return estimates;
 }
 
-inline CalibrationReport made_up_report() {
+inline Report made_up_report() {
   RandomStream random{20240611};
-  CalibrationReport report;
+  Report report;
   report.job = "puma761-demo";
   report.robot = "PUMA 761";
   report.method = "direct";
   report.data_sha256 = "5f70bf18a086007016e948b04aed3b82103a36bea41755b6cddfaf10ace3c6ef";
   report.version = "0.1.0";
   report.seed = 18446744073709551557u;
-  report.poses = {60, 30, 0};
-  report.outliers = {"P17", "P41"};
-  report.near_singular = {"P03", "P22", "P58"};
+  report.poses = {60, 30, 0, {"P17", "P41"}, {}, {}};
+  report.poses.near_singular = {"P03", "P22", "P58"};
   report.nominal = errors_about(1523.4, random);
   report.registered = errors_about(1.852, random);
   report.declared = errors_about(1.114, random);
   report.before = errors_about(0.771, random);
   report.after = report.before;
   report.noise_floor_mm = 0.0513;
-  report.index_before_mm2 = 81.27;
-  report.index_after_mm2 = 39.91;
+  report.fitted_sets = {"calibration"};
+  report.performance_index_mm2 = {81.27, 39.91};
   report.joints = made_up_joints();
-  report.estimates = made_up_estimates(random);
+  for (const ParameterEstimate& estimate : made_up_estimates(random))
+    report.parameters.push_back(parameter_entry(estimate));
   report.unidentified = {"joint 1 d_mm and base_z_mm cannot be told apart by these poses (1 : -1 by effect)"};
   report.runtime.wall_s = 754.3;
   report.runtime.workers = 4;
@@ -127,9 +131,9 @@ inline CalibrationReport made_up_report() {
 }
 
 /// The same whose joints share functions, of which two call the first and none the second.
-inline CalibrationReport made_up_sharing_report() {
-  CalibrationReport report = made_up_report();
-  report.functions = {{"F1(c1, c2, a1) = c1 * SIN(a1 + c2)", {0, 2}}, {"F2(a1) = TANH(ATAN(a1))", {}}};
+inline Report made_up_sharing_report() {
+  Report report = made_up_report();
+  report.shared_functions = {{"F1(c1, c2, a1) = c1 * SIN(a1 + c2)", {1, 3}}, {"F2(a1) = TANH(ATAN(a1))", {}}};
   report.joints[0].with_functions = "F1(0.00042, 0.7, theta) + 0.00011 * COS(4.1 * theta)";
   report.joints[2].with_functions = "F1(0.00061, 1.4, 1.02 * theta)";
   return report;

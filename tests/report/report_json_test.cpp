@@ -1,5 +1,5 @@
 // The report's JSON has the keys that other programs rely on, and the report's figures to the bit.
-#include "report/report_json.hpp"
+#include "report/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,18 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "kinematics/units.hpp"
-#include "made_up_report.hpp"
+#include "made_up_loop.hpp"
+#include "report/evaluation.hpp"
 
 namespace demecal {
 namespace {
 
 using Parsed = nlohmann::json;
 
-void expect_figures(const Parsed& written, const ErrorFigures& figures) {
-  EXPECT_EQ(written.at("mean"), figures.mean_mm);
-  EXPECT_EQ(written.at("rms"), figures.rms_mm);
-  EXPECT_EQ(written.at("p95"), figures.p95_mm);
-  EXPECT_EQ(written.at("max"), figures.max_mm);
+void expect_figures(const Parsed& written, const SetErrors& figures) {
+  EXPECT_EQ(written.at("mean"), *figures.mean_mm);
+  EXPECT_EQ(written.at("rms"), *figures.rms_mm);
+  EXPECT_EQ(written.at("p95"), *figures.p95_mm);
+  EXPECT_EQ(written.at("max"), *figures.max_mm);
 }
 
 TEST(ReportJson, HasEveryPromisedKeyAtTheTop) {
@@ -71,47 +72,49 @@ TEST(ReportJson, HasEveryPromisedKeyBelow) {
 }
 
 TEST(ReportJson, ReadsBackToTheBit) {
-  const CalibrationReport report = made_up_report();
+  const Report report = made_up_report();
   const Parsed written = Parsed::parse(to_json(report));
-  EXPECT_EQ(written["seed"], report.seed);
+  EXPECT_EQ(written["seed"], *report.seed);
   EXPECT_EQ(written["robot"], report.robot);
   EXPECT_EQ(written["poses"]["calibration"], report.poses.calibration);
-  EXPECT_EQ(written["poses"]["outliers"], Parsed(report.outliers));
+  EXPECT_EQ(written["poses"]["outliers"], Parsed(report.poses.outliers));
   expect_figures(written["error_mm"]["nominal"]["calibration"], report.nominal.calibration);
   expect_figures(written["error_mm"]["registered"]["validation"], report.registered.validation);
   expect_figures(written["error_mm"]["declared"]["validation"], report.declared.validation);
   expect_figures(written["error_mm"]["before"]["calibration"], report.before.calibration);
   expect_figures(written["error_mm"]["after"]["validation"], report.after.validation);
   EXPECT_EQ(written["noise_floor_mm"], *report.noise_floor_mm);
-  EXPECT_EQ(written["performance_index_mm2"]["after"], report.index_after_mm2);
-  EXPECT_EQ(written["runtime"]["evaluations"], report.runtime.evaluations);
+  EXPECT_EQ(written["performance_index_mm2"]["after"], *report.performance_index_mm2.after);
+  EXPECT_EQ(written["runtime"]["evaluations"], *report.runtime.evaluations);
   for (std::size_t i = 0; i < report.joints.size(); ++i) {
     const Parsed& joint = written["joints"][i];
     EXPECT_EQ(joint["joint"], i + 1);
     EXPECT_EQ(joint["expression"], report.joints[i].expression);
-    EXPECT_EQ(joint["mean_abs_error_rad"]["after"], report.joints[i].summary.after_rad);
-    EXPECT_EQ(joint["range_rad"], Parsed({report.joints[i].range_rad.lower, report.joints[i].range_rad.upper}));
-    EXPECT_EQ(joint["discontinuities_rad"], Parsed(report.joints[i].summary.discontinuities_rad));
+    EXPECT_EQ(joint["mean_abs_error_rad"]["after"], *report.joints[i].mean_abs_error_rad.after);
+    EXPECT_EQ(joint["range_rad"], Parsed({report.joints[i].range_rad->lower, report.joints[i].range_rad->upper}));
+    EXPECT_EQ(joint["discontinuities_rad"], Parsed(report.joints[i].discontinuities_rad));
   }
 }
 
 TEST(ReportJson, WritesParametersInTheUnitsTheirNamesSay) {
-  const CalibrationReport report = made_up_report();
+  RandomStream random{20240612};
+  const std::vector<ParameterEstimate> estimates = made_up_estimates(random);
+  Report report;
+  for (const ParameterEstimate& estimate : estimates) report.parameters.push_back(parameter_entry(estimate));
   const Parsed written = Parsed::parse(to_json(report));
-  ASSERT_EQ(written["parameters"].size(), report.estimates.size());
-  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
-    const ParameterEstimate& estimate = report.estimates[i];
+  ASSERT_EQ(written["parameters"].size(), estimates.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
     const std::string name = written["parameters"][i]["name"];
     const double border = name.ends_with("_mm") ? millimetres(1.0) : degrees(1.0);
-    EXPECT_DOUBLE_EQ(written["parameters"][i]["value"], estimate.value * border) << name;
-    EXPECT_DOUBLE_EQ(written["parameters"][i]["standard_error"], estimate.standard_error * border) << name;
+    EXPECT_DOUBLE_EQ(written["parameters"][i]["value"], estimates[i].value * border) << name;
+    EXPECT_DOUBLE_EQ(written["parameters"][i]["standard_error"], estimates[i].standard_error * border) << name;
   }
 }
 
 TEST(ReportJson, HasAnIntervalOfEveryPoseAndSaysWhereItComesFrom) {
-  CalibrationReport report = made_up_report();
+  Report report = made_up_report();
   report.pose_errors = {{"P1", "", "calibration", 0.5, 0.1, 0.3, {"outlier"}}, {"P2", "B", "accept", 0.6, 0.2, 0.4}};
-  report.interval = PredictionInterval{.quantile = 1.7, .noise_m = 5e-5, .poses = 12, .fitted = true};
+  report.prediction_interval = prediction_entry({.quantile = 1.7, .noise_m = 5e-5, .poses = 12, .fitted = true});
   const Parsed written = Parsed::parse(to_json(report));
   ASSERT_EQ(written["pose_errors"].size(), 2u);
   EXPECT_EQ(written["pose_errors"][0]["flags"], Parsed{"outlier"});
@@ -125,9 +128,9 @@ TEST(ReportJson, HasAnIntervalOfEveryPoseAndSaysWhereItComesFrom) {
 }
 
 TEST(ReportJson, WritesNullForFiguresThatDoNotExist) {
-  CalibrationReport report = made_up_report();
+  Report report = made_up_report();
   report.noise_floor_mm.reset();
-  report.joints[4].summary.bound_rad = std::numeric_limits<double>::infinity();
+  report.joints[4].bound_rad = std::numeric_limits<double>::infinity();
   const Parsed written = Parsed::parse(to_json(report));
   EXPECT_TRUE(written["error_mm"]["after"]["accept"]["mean"].is_null());
   EXPECT_TRUE(written["noise_floor_mm"].is_null());
@@ -135,19 +138,58 @@ TEST(ReportJson, WritesNullForFiguresThatDoNotExist) {
 }
 
 TEST(ReportJson, ReplacesBytesThatAreNoUtf8) {
-  CalibrationReport report = made_up_report();
+  Report report = made_up_report();
   report.robot = "M\xFCller";
   EXPECT_EQ(Parsed::parse(to_json(report))["robot"], "M\xEF\xBF\xBDller");
 }
 
-TEST(ErrorsJson, StandOnOneLineWithAllSets) {
-  const ErrorBySet errors = made_up_report().after;
-  const std::string text = errors_to_json(errors);
-  EXPECT_EQ(text.find('\n'), text.size() - 1);
-  const Parsed written = Parsed::parse(text);
-  expect_figures(written["error_mm"]["calibration"], errors.calibration);
-  expect_figures(written["error_mm"]["validation"], errors.validation);
-  EXPECT_TRUE(written["error_mm"]["accept"]["max"].is_null());
+/// A report that has all a report can have, some of it missing.
+Report full_report(RandomStream& random) {
+  Report report =
+      random.chance(0.5) ? made_up_sharing_report() : made_up_looped_report(static_cast<int>(random.index(20)));
+  report.data_check = {"suspicious", {{"outlier", random.index(7), {"P1", "P2"}, random.real(), std::nullopt, "P1"}}};
+  report.poses.excluded = {{"P9", "validation", random.real()}, {"P8", "accept", std::nullopt}};
+  report.pose_errors = {{"P1", "A", "accept", random.real(), random.real(), std::nullopt, {"outlier"}}};
+  report.prediction_interval = prediction_entry({.quantile = random.real(), .poses = random.index(40)});
+  report.fitted_sets = {"calibration", "validation"};
+  report.unseen_validation_rms_mm = BeforeAfter{random.real(), random.real()};
+  report.distal = {{1 + random.index(6), random.index(100), "SIN(theta)", random.real()}};
+  report.runtime.waited_share = {{"cell-a", random.real()}, {"cell-b", std::nullopt}};
+  for (RoundEntry& round : report.rounds) {
+    round.members = {{"geometry", 2}, {"sensor_scale", std::nullopt}};
+    if (random.chance(0.3)) round.p_family.reset();
+    if (random.chance(0.3)) round.effect.amplitude.reset();
+    if (random.chance(0.3)) round.effect.parameters.push_back({"lever_mm", std::nullopt});
+    if (random.chance(0.3)) round.interval.push_back({"lever_mm", std::nullopt, random.real()});
+  }
+  for (NotFoundEntry& missing : report.not_found) {
+    if (random.chance(0.5)) missing.sentence = "not testable with these data";
+  }
+  return report;
+}
+
+TEST(ReportJson, IsTheSameWhenReadAndWrittenAgain) {
+  RandomStream random{20240613};
+  for (int trial = 0; trial < 100; ++trial) {
+    const std::string written = to_json(full_report(random));
+    EXPECT_EQ(to_json(read_report(written, "report.json")), written);
+  }
+  const std::string bare = to_json(Report{});
+  EXPECT_EQ(to_json(read_report(bare, "report.json")), bare);
+}
+
+TEST(ReportJson, ReadsWhatItWroteIntoTheSameMembers) {
+  RandomStream random{20240614};
+  const Report report = full_report(random), read = read_report(to_json(report), "report.json");
+  EXPECT_EQ(read.seed, report.seed);
+  EXPECT_EQ(read.poses.near_singular, report.poses.near_singular);
+  EXPECT_EQ(read.before.validation.p95_mm, report.before.validation.p95_mm);
+  EXPECT_EQ(read.after.accept.mean_mm, std::nullopt);
+  EXPECT_EQ(read.unseen_validation_rms_mm->after, report.unseen_validation_rms_mm->after);
+  EXPECT_EQ(read.joints[1].range_rad->upper, report.joints[1].range_rad->upper);
+  EXPECT_EQ(read.joints[5].note, report.joints[5].note);
+  EXPECT_EQ(read.distal->at(0).index_mm2, report.distal->at(0).index_mm2);
+  EXPECT_EQ(read.runtime.evaluations, report.runtime.evaluations);
 }
 
 }  // namespace

@@ -1,0 +1,142 @@
+#include "html/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "html/markup.hpp"
+#include "html/sections.hpp"
+
+namespace demecal {
+namespace {
+
+std::string counted(std::uint64_t count, const std::string& set) {
+  return fmt::format("{} {} pose{}", count, set, count == 1 ? "" : "s");
+}
+
+std::string subject(const Report& report) {
+  std::string text;
+  const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : " · ") + words; };
+  if (!report.job.empty()) add("job " + escaped(report.job));
+  if (report.method == "direct" || report.method == "distal") add(report.method + " learning");
+  for (const PoseSetOfReport& set : kPoseSets) {
+    if (report.poses.*set.poses > 0) add(counted(report.poses.*set.poses, set.name));
+  }
+  return "<p class=\"soft\">" + text + "</p>\n";
+}
+
+std::string role_of(const std::string& set) {
+  if (set == "accept") return "These poses took no part in fitting or in choosing the model.";
+  if (set == "validation") return "These poses took no part in fitting, only in choosing what the model keeps.";
+  return "The model was fitted to these same poses: no others were measured to judge it by.";
+}
+
+std::string headline(const Report& report, const std::optional<Judgement>& judged) {
+  if (!judged && report.data_check.verdict == "contradiction")
+    return "<p class=\"headline\">Nothing was fitted, and no model was written.</p>\n";
+  if (!judged) return "<p class=\"headline\">The report holds no tool error before and after calibration.</p>\n";
+  const double before = *judged->before.mean_mm, after = *judged->after.mean_mm;
+  const std::string how_much = change(before, after);
+  const std::string percent = how_much.starts_with('-') || how_much.starts_with('+') ? how_much.substr(1) : how_much;
+  const std::string outcome = before == 0.0 ? "" : ", " + percent + (after <= before ? " less" : " more");
+  const std::string set = judged->set.name;
+  const std::uint64_t poses = report.poses.*judged->set.poses;
+  const std::string measured = poses > 0 ? counted(poses, set) : set + " poses";
+  return fmt::format(
+      "<p class=\"headline\">Mean tool error on {}: <b>{} mm → {} mm</b>{}.</p>\n"
+      "<p class=\"soft\">From the stage “{}” to “{}”. {}</p>\n",
+      measured, fixed(before, 3), fixed(after, 3), outcome, judged->from, judged->to, role_of(set));
+}
+
+std::string tile(const std::string& what, const std::string& value, const std::string& unit, const std::string& below) {
+  return fmt::format(
+      "<div class=\"tile\"><div class=\"what\">{}</div><div class=\"value\">{} <small>{}</small></div>"
+      "<div class=\"from\">{}</div></div>\n",
+      what, value, unit, below);
+}
+
+std::string error_tile(const std::string& what, std::optional<double> before, std::optional<double> after) {
+  if (!after) return {};
+  return tile(what, fixed(after, 3), "mm",
+              before ? fmt::format("from {} · {}", fixed(before, 3), change(before, after)) : "");
+}
+
+/// The share of the error beyond the measurement's noise that the model explains.
+std::string explained_tile(const Report& report, const Judgement& judged) {
+  const std::optional<double>& floor = report.noise_floor_mm;
+  if (!floor || !judged.before.rms_mm || !judged.after.rms_mm) return {};
+  const double noise = 3.0 * *floor * *floor;
+  const double start = *judged.before.rms_mm * *judged.before.rms_mm - noise;
+  const double left = *judged.after.rms_mm * *judged.after.rms_mm - noise;
+  if (start <= 0.0) return {};
+  return tile("explained", fixed(100.0 * (1.0 - std::max(0.0, left) / start), 1), "%", "of mean-square error");
+}
+
+std::string noise_tile(const Report& report) {
+  const std::optional<double>& floor = report.noise_floor_mm;
+  if (!floor) return {};
+  return tile("noise floor", fixed(floor, 3), "mm", "per axis; mean " + fixed(noise_mean_mm(report), 3));
+}
+
+std::string tiles(const Report& report, const std::optional<Judgement>& judged) {
+  std::string all;
+  if (judged) {
+    all += error_tile("mean error", judged->before.mean_mm, judged->after.mean_mm);
+    all += error_tile("rms error", judged->before.rms_mm, judged->after.rms_mm);
+    all += error_tile("P95 error", judged->before.p95_mm, judged->after.p95_mm);
+    all += error_tile("largest error", judged->before.max_mm, judged->after.max_mm);
+  }
+  all += noise_tile(report);
+  if (judged) all += explained_tile(report, *judged);
+  return all.empty() ? all : "<div class=\"tiles\">\n" + all + "</div>\n";
+}
+
+std::string banner(const Report& report) {
+  if (!report.runtime.interrupted) return {};
+  return "<p class=\"banner\">The run was interrupted: all figures are of what it had reached.</p>\n";
+}
+
+/// What the check of the data found, above all figures.
+std::string data_check(const Report& report) {
+  std::string lines;
+  for (const FindingEntry& finding : report.data_check.findings)
+    lines += "<li>" + escaped(finding.sentence) + "</li>\n";
+  if (lines.empty()) return lines;
+  const bool contradiction = report.data_check.verdict == "contradiction";
+  return std::string("<div class=\"banner\" id=\"data-check\">") +
+         (contradiction ? "The data and the robot's description contradict each other:" : "Look at the data first:") +
+         "\n<ul class=\"plain\">\n" + lines + "</ul></div>\n";
+}
+
+/// What was calibrated, the error before and after in one sentence, and the figures to judge by.
+std::string opening(const Report& report) {
+  const std::optional<Judgement> judged = judgement(error_stages(report));
+  return "<p class=\"soft\">Robot calibration</p>\n<h1>" +
+         (report.robot.empty() ? "Unnamed robot" : escaped(report.robot)) + "</h1>\n" + subject(report) +
+         banner(report) + data_check(report) + headline(report, judged) + tiles(report, judged);
+}
+
+std::string head(const Report& report) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         (report.robot.empty() ? "Robot" : escaped(report.robot)) + " – calibration report</title>\n<style>" +
+         std::string(page_style()) + "</style>\n</head>\n";
+}
+
+}  // namespace
+
+std::optional<double> noise_mean_mm(const Report& report) {
+  if (!report.noise_floor_mm) return std::nullopt;
+  // The mean length of a vector with three independent normal components (Maxwell's distribution).
+  return *report.noise_floor_mm * std::sqrt(8.0 / std::numbers::pi);
+}
+
+std::string report_html(const Report& report, const FitnessHistory& history) {
+  return head(report) + "<body>\n<main>\n" + opening(report) + stages_section(report) + loop_section(report) +
+         joints_section(report, history) + parameters_section(report) + poses_section(report) + run_section(report) +
+         "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace demecal

@@ -1,0 +1,28 @@
+// The parts of the report's page, in its order: each the HTML of one part, empty where the report has nothing for it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "report/figures.hpp"
+#include "report/history.hpp"
+
+namespace demecal {
+
+/// The tool error from stage to stage, as table and bars.
+std::string stages_section(const Report& report);
+/// What the closed loop tried, found and could not find.
+std::string loop_section(const Report& report);
+/// Every joint's error, correction and evolution.
+std::string joints_section(const Report& report, const FitnessHistory& history);
+/// The identified numbers, and what these poses cannot identify.
+std::string parameters_section(const Report& report);
+/// Poses that were noticed, by name.
+std::string poses_section(const Report& report);
+/// What the run took, and what repeats it.
+std::string run_section(const Report& report);
+
+/// The mean tool error (mm) that the measurement's noise alone makes, from the floor's standard deviation per axis.
+std::optional<double> noise_mean_mm(const Report& report);
+
+}  // namespace demecal

@@ -1,0 +1,103 @@
+// How members of messages stand in a line of JSON where that is not as they are.
+#pragma once
+
+#include <charconv>
+#include <string>
+
+#include "protocol/printable.hpp"
+#include "report/json_fields.hpp"
+
+namespace demecal {
+
+// `Member` may be const: what is written is not changed.
+
+/// A number of more digits than some readers keep, as text; 0 is empty.
+template <class Member>
+struct AsText {
+  Member& number;
+};
+
+template <class Member>
+nlohmann::ordered_json json_of(const AsText<Member>& as_text) {
+  return as_text.number == 0 ? std::string() : std::to_string(as_text.number);
+}
+template <class Member>
+void read_json(const JsonValue& json, AsText<Member>& as_text) {
+  const std::string text = json.text();
+  const char* const end = text.data() + text.size();
+  as_text.number = 0;
+  const auto [stop, fault] = std::from_chars(text.data(), end, as_text.number);
+  if (!text.empty() && (fault != std::errc() || stop != end)) json.refuse("must be a number");
+}
+
+/// Counts from 1 in the line, from 0 inside.
+template <class Member>
+struct FromOne {
+  Member& place;
+};
+
+template <class Member>
+nlohmann::ordered_json json_of(const FromOne<Member>& from_one) {
+  return from_one.place + 1;
+}
+template <class Member>
+void read_json(const JsonValue& json, FromOne<Member>& from_one) {
+  read_json(json, from_one.place);
+  if (from_one.place == 0) json.refuse("must be a whole number from 1");
+  --from_one.place;
+}
+
+/// A text of a file that anybody may have written, fit for a terminal once it is read.
+template <class Member>
+struct Shown {
+  Member& text;
+};
+
+template <class Member>
+nlohmann::ordered_json json_of(const Shown<Member>& shown) {
+  return shown.text;
+}
+template <class Member>
+void read_json(const JsonValue& json, Shown<Member>& shown) {
+  shown.text = printable(json.text());
+}
+
+/// A figure that is `missing` where it is null, times `scale` in the line.
+template <class Member>
+struct FigureOr {
+  Member& figure;
+  double missing = 0.0, scale = 1.0;
+};
+
+template <class Member>
+nlohmann::ordered_json json_of(const FigureOr<Member>& figure_or) {
+  return json_of(figure_or.scale * figure_or.figure);
+}
+template <class Member>
+void read_json(const JsonValue& json, FigureOr<Member>& figure_or) {
+  figure_or.figure = json.number().value_or(figure_or.missing) / figure_or.scale;
+}
+
+/// An enumeration by its words.
+template <class Member, class Words>
+struct OneOf {
+  Member& value;
+  const Words& words;
+};
+
+template <class Member, class Words>
+nlohmann::ordered_json json_of(const OneOf<Member, Words>& one_of) {
+  return one_of.words.at(static_cast<std::size_t>(one_of.value));
+}
+template <class Member, class Words>
+void read_json(const JsonValue& json, OneOf<Member, Words>& one_of) {
+  const std::string word = json.text();
+  for (std::size_t i = 0; i < one_of.words.size(); ++i) {
+    if (word != one_of.words[i]) continue;
+    one_of.value = static_cast<Member>(i);
+    return;
+  }
+  json.refuse("is not a word that stands there");
+}
+
+}  // namespace demecal

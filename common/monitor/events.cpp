@@ -1,0 +1,194 @@
+#include "monitor/events.hpp"
+
+#include <array>
+#include <limits>
+
+#include "errors/input_error.hpp"
+#include "monitor/event_members.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::array kStages{"preparing", "evolving", "closing", "finished", "interrupted", "failed"};
+constexpr std::array kVerdicts{"added", "rejected", "none"};
+constexpr std::array kStates{"running", "finished", "cancelled"};
+
+}  // namespace
+
+// Not in an anonymous namespace: json_of() and read_json() find these by their arguments.
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+template <class Visit>
+void fields(Visit& visit, Like<CalibrationData> auto& m) {
+  visit("run", AsText{m.run}, "job", Shown{m.job}, "seed", m.seed, "population_size", m.parameters.population_size,
+        "generations", m.parameters.number_generations);
+  std::vector<std::uint32_t> joints;
+  for (const std::uint32_t joint : m.archipelago.joints) joints.push_back(joint + 1);
+  visit("joints", joints);
+  if constexpr (kReads<Visit>) {
+    for (const std::uint32_t joint : joints) m.archipelago.joints.push_back(joint - 1);
+  }
+  visit("islands_per_joint", m.archipelago.demes_per_joint, "migration_interval", m.archipelago.migration_interval,
+        "migrants", m.archipelago.migrants);
+}
+
+void fields(auto& visit, Like<Progress> auto& m) {
+  visit("run", AsText{m.run}, "joint", FromOne{m.island.joint}, "island", FromOne{m.island.deme}, "worker",
+        Shown{m.worker}, "epoch", m.epoch, "generation", m.generation);
+  visit("best_fitness", FigureOr{m.figures.best, kInfinity}, "median_fitness", FigureOr{m.figures.median, kInfinity},
+        "best_length", m.figures.best_length, "diversity", FigureOr{m.figures.diversity}, "evaluations", m.evaluations,
+        "evaluations_per_s", FigureOr{m.evaluations_per_s}, "migrants_sent", m.migrants_sent, "migrants_taken",
+        m.migrants_taken, "waited_share", FigureOr{m.waited_share});
+}
+
+void fields(auto& visit, Like<Control> auto& m) {
+  visit("run", AsText{m.run}, "state", OneOf{m.state, kStates}, "note", Shown{m.note});
+}
+
+void fields(auto& visit, Like<WorkerStatus> auto& m) {
+  visit("worker", Shown{m.worker}, "host", Shown{m.host}, "process", m.process, "slots", m.slots, "version",
+        Shown{m.version}, "leaving", m.leaving, "only_run", AsText{m.only_run}, "waited_share",
+        FigureOr{m.waited_share});
+}
+
+void fields(auto& visit, Like<WorkerLost> auto& m) {
+  visit("worker", Shown{m.worker});
+}
+
+void fields(auto& visit, Like<CalibrationLost> auto& m) {
+  visit("calibration", AsText{m.calibration});
+}
+
+void stage_fields(auto& visit, Like<LoopNews> auto& m) {
+  visit("calibration", AsText{m.calibration}, "job", Shown{m.job}, "run", AsText{m.run}, "stage",
+        OneOf{m.stage, kStages}, "text", Shown{m.text});
+}
+
+template <class Visit>
+void round_fields(Visit& visit, Like<LoopNews> auto& m) {
+  std::uint32_t round = m.round == 0 ? 0 : m.round - 1;
+  visit("calibration", AsText{m.calibration}, "job", Shown{m.job}, "round", FromOne{round});
+  std::optional<std::uint32_t> joint;
+  if (m.joint != 0) joint = m.joint;
+  visit("verdict", OneOf{m.verdict, kVerdicts}, "kind", Shown{m.kind}, "joint", joint, "label", Shown{m.label}, "text",
+        Shown{m.text});
+  visit("validation_before_mm", FigureOr{m.validation_before_m, kUnknown, 1e3}, "validation_after_mm",
+        FigureOr{m.validation_after_m, kUnknown, 1e3});
+  if constexpr (kReads<Visit>) {
+    m.round = round + 1;
+    m.joint = joint.value_or(0);
+  }
+}
+
+namespace {
+
+/// The word of a kind of message, and how its members stand after it.
+struct Kind {
+  const char* word;
+  bool (*is_its)(const Message&);
+  void (*write)(JsonWriter&, const Message&);
+  Message (*read)(JsonReader&);
+};
+
+template <class Plain>
+constexpr Kind kind_of(const char* word) {
+  return {word, [](const Message& message) { return std::holds_alternative<Plain>(message); },
+          [](JsonWriter& write, const Message& message) { fields(write, std::get<Plain>(message)); },
+          [](JsonReader& read) -> Message {
+            Plain message;
+            fields(read, message);
+            return message;
+          }};
+}
+
+bool is_round(const Message& message) {
+  const LoopNews* const news = std::get_if<LoopNews>(&message);
+  return news != nullptr && news->round > 0;
+}
+
+bool is_stage(const Message& message) {
+  return std::holds_alternative<LoopNews>(message) && !is_round(message);
+}
+
+constexpr Kind kKinds[] = {
+    kind_of<CalibrationData>("run"),
+    kind_of<Progress>("progress"),
+    kind_of<Control>("run_state"),
+    kind_of<WorkerStatus>("worker"),
+    kind_of<WorkerLost>("worker_lost"),
+    {"stage", is_stage,
+     [](JsonWriter& write, const Message& message) { stage_fields(write, std::get<LoopNews>(message)); },
+     [](JsonReader& read) -> Message {
+       LoopNews news;
+       stage_fields(read, news);
+       return news;
+     }},
+    {"round", is_round,
+     [](JsonWriter& write, const Message& message) { round_fields(write, std::get<LoopNews>(message)); },
+     [](JsonReader& read) -> Message {
+       LoopNews news;
+       round_fields(read, news);
+       return news;
+     }},
+    kind_of<CalibrationLost>("calibration_lost")};
+
+std::string one_line(const nlohmann::ordered_json& json) {
+  std::string line = dumped(json, -1);
+  line.pop_back();
+  return line;
+}
+
+std::optional<Event> read(const JsonValue& json) {
+  const std::string word = json["event"].text();
+  if (word.empty()) json["event"].refuse("must be the word of an event");
+  if (word == "begin" && json["demecal_events"].count() != std::uint64_t{kEventsVersion}) {
+    json["demecal_events"].refuse("must be " + std::to_string(kEventsVersion));
+  }
+  for (const Kind& kind : kKinds) {
+    if (word != kind.word) continue;
+    JsonReader reader(json);
+    return Event{json["t_s"].number().value_or(0.0), kind.read(reader)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string to_string(LoopNews::Stage stage) {
+  return kStages.at(static_cast<std::size_t>(stage));
+}
+
+std::string to_string(LoopNews::Verdict verdict) {
+  return kVerdicts.at(static_cast<std::size_t>(verdict));
+}
+
+std::string to_string(Control::State state) {
+  return kStates.at(static_cast<std::size_t>(state));
+}
+
+std::string first_event_line() {
+  return one_line({{"event", "begin"}, {"demecal_events", kEventsVersion}, {"version", DEMECAL_VERSION}});
+}
+
+std::string event_line(const Message& message, double time_s) {
+  for (const Kind& kind : kKinds) {
+    if (!kind.is_its(message)) continue;
+    nlohmann::ordered_json json{{"event", kind.word}, {"t_s", time_s}};
+    JsonWriter write(json);
+    kind.write(write, message);
+    return one_line(json);
+  }
+  return {};
+}
+
+std::optional<Event> read_event(const std::string& text, const std::string& file, int line) {
+  try {
+    return read(JsonValue::parse(text, file));
+  } catch (const InputError& error) {
+    throw InputError({file, static_cast<std::size_t>(line)}, error.value(), error.rule());
+  }
+}
+
+}  // namespace demecal

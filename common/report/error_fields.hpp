@@ -1,0 +1,35 @@
+// Errors, poses and findings as JSON objects: what reports, evaluations and comparisons share.
+#pragma once
+
+#include "report/json_fields.hpp"
+#include "report/report.hpp"
+
+namespace demecal {
+
+void fields(auto& visit, Like<SetErrors> auto& errors) {
+  visit("mean", errors.mean_mm, "rms", errors.rms_mm, "p95", errors.p95_mm, "max", errors.max_mm);
+}
+
+void fields(auto& visit, Like<ErrorBySet> auto& errors) {
+  visit("calibration", errors.calibration, "validation", errors.validation, "accept", errors.accept);
+}
+
+void fields(auto& visit, Like<FindingEntry> auto& finding) {
+  visit("kind", finding.kind, "joint", finding.joint, "poses", finding.poses);
+  visit.within("error_mm", [&](auto& error) {
+    error("as_given", finding.as_given_mm);
+    error("if_changed", finding.if_changed_mm);
+  });
+  visit("sentence", finding.sentence);
+}
+
+void fields(auto& visit, Like<DataCheckEntry> auto& check) {
+  visit("verdict", check.verdict, "findings", check.findings);
+}
+
+void fields(auto& visit, Like<PoseErrorEntry> auto& pose) {
+  visit("id", pose.id, "target", pose.target, "set", pose.set, "before_mm", pose.before_mm, "after_mm", pose.after_mm,
+        "interval95_mm", pose.interval95_mm, "flags", pose.flags);
+}
+
+}  // namespace demecal

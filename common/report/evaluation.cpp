@@ -1,0 +1,172 @@
+#include "report/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fitting/median.hpp"
+#include "kinematics/units.hpp"
+#include "report/error_fields.hpp"
+
+namespace demecal {
+namespace {
+
+/// A circumstance that an effect may need, and whether a pose has it.
+struct Circumstance {
+  const char* name;
+  const char* words;    ///< what a pose without it has not
+  const char* instead;  ///< what the model takes there
+  bool Needs::*needed;
+  bool (*has)(const MeasuredPose&);
+};
+
+constexpr Circumstance kCircumstances[] = {
+    {"approach", "approach direction", "no side", &Needs::approach,
+     [](const MeasuredPose& pose) { return pose.approach.has_value(); }},
+    {"payload", "payload", "an empty hand", &Needs::payload,
+     [](const MeasuredPose& pose) { return pose.payload_kg.has_value(); }},
+    {"temperature", "temperature", "the effect's reference", &Needs::temperature,
+     [](const MeasuredPose& pose) { return pose.temperature_celsius.has_value(); }},
+    {"time", "time", "the effect's reference", &Needs::time,
+     [](const MeasuredPose& pose) { return pose.time_s.has_value(); }}};
+
+UnappliedEffect unapplied(const Effect& effect, const Circumstance& lacking, std::size_t without, std::size_t poses) {
+  UnappliedEffect one{effect.kind, std::nullopt, lacking.name, without, {}};
+  if (effect.joint >= 0) one.joint = static_cast<std::uint64_t>(effect.joint) + 1;
+  one.sentence = fmt::format(
+      "{}{} cannot be applied as it was calibrated at {} of {} poses: they have no {}, and {} is taken", one.kind,
+      one.joint ? fmt::format(" of joint {}", *one.joint) : "", without, poses, lacking.words, lacking.instead);
+  return one;
+}
+
+/// Where the radii come from: a sentence for an engineer.
+std::string origin_of(const PredictionInterval& interval) {
+  constexpr std::size_t kFewest = 19;
+  const std::string poses =
+      fmt::format("{} distinct {} poses", interval.poses, interval.fitted ? "calibration" : "validation");
+  std::string text = interval.fitted ? "no validation poses: the intervals come from " + poses +
+                                           ", to which the model was fitted, and may be too narrow"
+                                     : "the intervals come from " + poses + " while they were unseen";
+  if (interval.poses < kFewest) text += "; too few for an empirical quantile: normal errors are assumed";
+  if (interval.gross_errors > 0)
+    text += fmt::format("; {} far out left out: intervals hold for poses measured without gross errors",
+                        interval.gross_errors);
+  return text;
+}
+
+}  // namespace
+
+void fields(auto& visit, Like<UnappliedEffect> auto& effect) {
+  visit("kind", effect.kind, "joint", effect.joint, "lacking", effect.lacking, "poses", effect.poses, "sentence",
+        effect.sentence);
+}
+
+void fields(auto& visit, Like<Evaluation> auto& evaluation) {
+  visit("error_mm", evaluation.error_mm, "pose_errors", evaluation.pose_errors, "data_check", evaluation.data_check,
+        "effects_not_applied", evaluation.effects_not_applied);
+}
+
+void fields(auto& visit, Like<ComparedMethod> auto& method) {
+  visit("method", method.key, "title", method.title, "parameters", method.parameters, "wall_s", method.wall_s, "chosen",
+        method.chosen, "error_mm", method.error_mm);
+}
+
+void fields(auto& visit, Like<Comparison> auto& comparison) {
+  visit("job", comparison.job, "robot", comparison.robot, "data", comparison.data, "data_sha256",
+        comparison.data_sha256);
+  visit.within("poses", [&](auto& poses) {
+    poses("calibration", comparison.poses[0], "validation", comparison.poses[1], "accept", comparison.poses[2]);
+  });
+  visit("methods", comparison.methods);
+}
+
+SetErrors set_errors(const ErrorFigures& figures) {
+  return {if_finite(figures.mean_mm), if_finite(figures.rms_mm), if_finite(figures.p95_mm), if_finite(figures.max_mm)};
+}
+
+ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
+  const auto of = [&](PoseSet set) { return set_errors(error_figures(robot, data, poses_of(data, set))); };
+  return {of(PoseSet::calibration), of(PoseSet::validation), of(PoseSet::accept)};
+}
+
+std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
+                                        const CorrectedRobot* before) {
+  std::vector<PoseErrorEntry> poses;
+  for (const MeasuredPose& pose : data.poses) {
+    PoseErrorEntry entry{pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
+    if (before != nullptr) entry.before_mm = if_finite(millimetres(tool_error_m(*before, data, pose)));
+    entry.after_mm = if_finite(millimetres(tool_error_m(robot, data, pose)));
+    if (model.posterior && model.interval)
+      entry.interval95_mm = if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose)));
+    poses.push_back(std::move(entry));
+  }
+  return poses;
+}
+
+PredictionEntry prediction_entry(const PredictionInterval& interval) {
+  return {.quantile = if_finite(interval.quantile),
+          .noise_mm = if_finite(millimetres(interval.noise_m)),
+          .distance_noise_mm = if_finite(millimetres(interval.distance_noise_m)),
+          .model_error_mm = if_finite(millimetres(interval.model_error_m)),
+          .told_by = interval.fitted ? "calibration" : "validation",
+          .poses = interval.poses,
+          .gross_errors = interval.gross_errors,
+          .remark = origin_of(interval)};
+}
+
+IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses) {
+  IntervalCoverage coverage;
+  std::vector<double> radii_mm;
+  for (const PoseErrorEntry& pose : poses) {
+    if (pose.set != to_string(PoseSet::accept) || !pose.after_mm || !pose.interval95_mm) continue;
+    ++coverage.poses;
+    coverage.inside += *pose.after_mm <= *pose.interval95_mm ? 1 : 0;
+    radii_mm.push_back(*pose.interval95_mm);
+  }
+  if (!radii_mm.empty()) coverage.median_mm = median(radii_mm);
+  return coverage;
+}
+
+DataCheckEntry data_check_entry(const DataCheck& check) {
+  DataCheckEntry entry{std::string(to_string(check.verdict())), {}};
+  for (const Finding& finding : check.findings) {
+    entry.findings.push_back({std::string(to_string(finding.kind)), static_cast<std::uint64_t>(finding.joint + 1),
+                              finding.poses, if_finite(finding.as_given_mm), if_finite(finding.if_changed_mm),
+                              finding.sentence});
+  }
+  return entry;
+}
+
+bool contradicts(const FindingEntry& finding) {
+  for (int kind = 0; kind <= static_cast<int>(FindingKind::other_robot); ++kind) {
+    if (finding.kind == to_string(static_cast<FindingKind>(kind))) return contradicts(static_cast<FindingKind>(kind));
+  }
+  return false;
+}
+
+std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, const DataSet& data) {
+  std::vector<UnappliedEffect> all;
+  for (const Effect& effect : robot.effects) {
+    const Needs needs = law_of(effect).needs(effect, data.robot);
+    for (const Circumstance& one : kCircumstances) {
+      if (!(needs.*one.needed)) continue;
+      const auto without = static_cast<std::size_t>(
+          std::ranges::count_if(data.poses, [&one](const MeasuredPose& pose) { return !one.has(pose); }));
+      if (without > 0) all.push_back(unapplied(effect, one, without, data.poses.size()));
+    }
+  }
+  return all;
+}
+
+std::string to_json(const Evaluation& evaluation) {
+  return dumped(json_of(evaluation), -1);
+}
+
+std::string to_json(const Comparison& comparison, int indent) {
+  nlohmann::ordered_json json{{"demecal_comparison", 1}};
+  JsonWriter write(json);
+  fields(write, comparison);
+  return dumped(json, indent);
+}
+
+}  // namespace demecal

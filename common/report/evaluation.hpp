@@ -1,0 +1,83 @@
+// The error of models at the poses of a data set: one model's, as `evaluate` prints it, or several side by side.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrated_model.hpp"
+#include "data_check/finding.hpp"
+#include "effects/measurement.hpp"
+#include "report/report.hpp"
+
+namespace demecal {
+
+SetErrors set_errors(const ErrorFigures& figures);
+ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data);
+
+/// Of all poses of the data, in their order, by a model that predicts them with `robot` (its own, or the same with
+/// another base). `before`: none where it is not known.
+std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
+                                        const CorrectedRobot* before);
+
+/// Where the radii of poses come from.
+PredictionEntry prediction_entry(const PredictionInterval& interval);
+
+/// How many accept poses lie within their radius, of how many, and the radii's median, mm.
+struct IntervalCoverage {
+  std::size_t poses = 0, inside = 0;
+  double median_mm = 0.0;
+};
+IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses);
+
+DataCheckEntry data_check_entry(const DataCheck& check);
+
+/// Whether a finding is of the data set as a whole, so that no model of it means anything.
+bool contradicts(const FindingEntry& finding);
+
+/// An effect of the model that some poses lack a circumstance for: there the model predicts as if it were not.
+struct UnappliedEffect {
+  std::string kind;
+  std::optional<std::uint64_t> joint;  ///< from 1; none: of the whole arm
+  std::string lacking;                 ///< "approach", "payload", "temperature" or "time"
+  std::size_t poses = 0;               ///< without it
+  std::string sentence;  ///< "backlash of joint 2 cannot be applied as it was calibrated at 30 of 30 poses: ..."
+};
+
+/// In the order of the model's effects.
+std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, const DataSet& data);
+
+/// A model on a data set.
+struct Evaluation {
+  ErrorBySet error_mm;
+  std::vector<PoseErrorEntry> pose_errors;  ///< before_mm is none
+  DataCheckEntry data_check;
+  std::vector<UnappliedEffect> effects_not_applied;
+  std::optional<PredictionEntry> prediction;  ///< for people alone
+};
+
+/// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "pose_errors": [...],
+/// "data_check": ..., "effects_not_applied": [...]} on one line.
+std::string to_json(const Evaluation& evaluation);
+
+struct ComparedMethod {
+  std::string key, title;
+  int parameters = 0;  ///< numbers identified
+  double wall_s = 0.0;
+  std::string chosen;  ///< by cross-validation, or why there are no figures
+  ErrorBySet error_mm;
+};
+
+/// What several methods make of the same poses.
+struct Comparison {
+  std::string job, robot, data, data_sha256;
+  std::array<std::size_t, 3> poses{};  ///< of calibration, validation, accept
+  std::vector<ComparedMethod> methods;
+};
+
+/// {"demecal_comparison": 1, ..., "methods": [{"method", "title", "parameters", "wall_s", "chosen", "error_mm"}]}, on
+/// one line, or with an indent where that is not negative; figures that do not exist are null.
+std::string to_json(const Comparison& comparison, int indent = -1);
+
+}  // namespace demecal

@@ -1,0 +1,158 @@
+#include "report/loop_entries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/likely_causes.hpp"
+#include "kinematics/units.hpp"
+#include "report/wording.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kAsOne = 0.98;  ///< cosine above which an effect goes by the name of its class
+
+/// The names and units of the coefficients; none for a kind that is not of the catalogue.
+std::vector<CoefficientLabel> labels_of(const Effect& effect, const Robot& robot) {
+  const EffectLaw* const law = find_law(effect.kind);
+  return law == nullptr ? std::vector<CoefficientLabel>{} : law->coefficients(effect, robot);
+}
+
+/// How much of an effect there is: its one coefficient, or the root of the sum of squares of those that have the same
+/// unit as the first (for a cosine and a sine that is the amplitude of the wave). Nothing without values.
+std::optional<double> amplitude_of(const Effect& effect, const std::vector<CoefficientLabel>& labels) {
+  const std::size_t count = std::min(effect.values.size(), labels.size());
+  if (count == 0) return std::nullopt;
+  double size = 0.0;
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (labels[i].unit != labels[0].unit) continue;
+    size = std::hypot(size, effect.values[i]);
+    ++alike;
+  }
+  return alike == 1 ? effect.values[0] : size;
+}
+
+std::uint64_t count_of(int number) {
+  return static_cast<std::uint64_t>(std::max(number, 0));
+}
+
+std::vector<NamedInterval> intervals(const Round& round, const Robot& robot) {
+  const std::vector<CoefficientLabel> labels = labels_of(round.effect, robot);
+  std::vector<NamedInterval> named;
+  for (std::size_t i = 0; i < std::min(labels.size(), round.interval.size()); ++i)
+    named.push_back({labels[i].name, if_finite(round.interval[i][0]), if_finite(round.interval[i][1])});
+  return named;
+}
+
+RoundEntry round_entry(const Round& round, const Robot& robot) {
+  RoundEntry entry{.round = count_of(round.number),
+                   .group = count_of(round.group),
+                   .verdict = word_of(round.verdict),
+                   .effect = effect_entry(round.effect, robot),
+                   .diagnosis = round.diagnosis,
+                   .formula = round.formula,
+                   .reason = round.reason,
+                   .implausible = round.implausible,
+                   .members = {},
+                   .class_sentence = {},
+                   .rivals = {},
+                   .p_structure = if_finite(round.p_structure),
+                   .p_family = if_finite(round.p_family),
+                   .permutations = count_of(round.permutations),
+                   .fall_nats = if_finite(round.fall_nats),
+                   .confirmed = if_finite(round.confirmed),
+                   .confirmed_lower = if_finite(round.confirmed_lower),
+                   .sign_stability = if_finite(round.sign_stability),
+                   .interval = intervals(round, robot),
+                   .validation_before_mm = if_finite(round.validation_before_mm),
+                   .validation_after_mm = if_finite(round.validation_after_mm),
+                   .further = {}};
+  for (const Rival& rival : round.rivals) {
+    entry.rivals.push_back({effect_entry(rival.effect, robot), if_finite(rival.cosine), if_finite(rival.nats_behind)});
+  }
+  entry.members = effect_class(entry.effect, entry.rivals);
+  entry.class_sentence = class_sentence(entry.members);
+  if (round.further) entry.further = FurtherEntry{round.further->sentence, count_of(round.further->poses)};
+  return entry;
+}
+
+NotFoundEntry not_found_entry(const NotFound& missing, const Robot& robot) {
+  NotFoundEntry entry{.effect = effect_entry(missing.effect, robot),
+                      .smallest_detectable = {},
+                      .unit = missing.unit,
+                      .sentence = missing.testable ? "" : "not testable with these data"};
+  entry.effect.amplitude.reset();  // whatever was fitted, it was not found
+  entry.effect.unit.clear();
+  if (missing.testable) entry.smallest_detectable = if_finite(missing.smallest_detectable);
+  return entry;
+}
+
+NoiseEntry noise_entry(const LoopOutcome& loop) {
+  const double independent_mm = millimetres(loop.independent_m);
+  return {.independent_mm = if_finite(independent_mm),
+          .estimated = loop.noise_estimated,
+          .joint_repeatability_mrad = if_finite(1e3 * loop.noise.joint_rad),
+          .shared_by_repeats_mm = if_finite(independent_mm * loop.noise.repeats),
+          .shared_in_order_mm = if_finite(independent_mm * loop.noise.order),
+          .correlation_in_order = if_finite(loop.noise.correlation)};
+}
+
+std::optional<double> if_any(const std::optional<double>& value) {
+  return value ? if_finite(*value) : std::nullopt;
+}
+
+}  // namespace
+
+EffectEntry effect_entry(const Effect& effect, const Robot& robot) {
+  EffectEntry entry;
+  entry.kind = effect.kind;
+  if (effect.joint >= 0) entry.joint = count_of(effect.joint) + 1;
+  entry.form = effect.form;
+  for (const auto& [name, value] : effect.settings) entry.parameters.push_back({name, if_finite(value)});
+  const std::vector<CoefficientLabel> labels = labels_of(effect, robot);
+  for (std::size_t i = 0; i < std::min(labels.size(), effect.values.size()); ++i) {
+    entry.parameters.push_back({labels[i].name, if_finite(effect.values[i])});
+    if (i < effect.standard_errors.size())
+      entry.standard_errors.push_back({labels[i].name, if_finite(effect.standard_errors[i])});
+  }
+  if (const std::optional<double> amplitude = amplitude_of(effect, labels)) {
+    entry.amplitude = if_finite(*amplitude);
+    entry.unit = labels.front().unit;
+  }
+  return entry;
+}
+
+std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vector<RivalEntry>& rivals) {
+  std::vector<ClassMember> members{{effect.kind, effect.joint}};
+  for (const auto& [rival, cosine, nats_behind] : rivals) {
+    const auto is_it = [&one = rival](const ClassMember& member) {
+      return member.kind == one.kind && member.joint == one.joint;
+    };
+    if (cosine > kAsOne && std::ranges::none_of(members, is_it)) members.push_back({rival.kind, rival.joint});
+  }
+  if (members.size() < 2) return {};
+  std::ranges::stable_sort(members, [](const ClassMember& a, const ClassMember& b) {
+    return std::pair(rarity(a.kind), a.joint) < std::pair(rarity(b.kind), b.joint);
+  });
+  return members;
+}
+
+void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
+  for (const Round& round : loop.rounds) report.rounds.push_back(round_entry(round, described));
+  for (const Effect& effect : loop.dropped) report.dropped.push_back(effect_entry(effect, described));
+  for (const NotFound& missing : loop.not_found) report.not_found.push_back(not_found_entry(missing, described));
+  for (const Unseen& unseen : loop.unseen) report.unseen.push_back({unseen.kind, unseen.reason});
+  for (const Decoy& decoy : loop.decoys)
+    report.decoys.push_back({decoy.name, if_finite(decoy.best_fall_nats), if_finite(decoy.p_left), decoy.won});
+  report.stopped = word_of(loop.stopped);
+  report.lack_of_fit_p = if_any(loop.lack_of_fit_p);
+  report.explained_share = if_any(loop.explained_share);
+  report.candidates = count_of(loop.candidates);
+  report.permutations = count_of(loop.permutations);
+  if (!report.loop_ran()) return;
+  report.structure_left_p = if_finite(loop.p_structure_left);
+  report.noise = noise_entry(loop);
+}
+
+}  // namespace demecal

@@ -1,0 +1,59 @@
+// From what a run concluded to the document of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrated_model.hpp"
+#include "calibration/distal_steps.hpp"
+#include "data_check/finding.hpp"
+#include "diagnosis/outcome.hpp"
+#include "report/report.hpp"
+#include "structure/found_transform.hpp"
+
+namespace demecal {
+
+struct RunFacts {
+  double wall_s = 0.0;
+  std::size_t workers = 0;
+  std::size_t islands = 0;
+  std::uint64_t generations = 0;
+  std::uint64_t evaluations = 0;
+  std::uint64_t migrations = 0;
+  bool interrupted = false;
+  bool asynchronous = false;          ///< islands waited for no neighbour: the result depends on timing
+  std::uint64_t dropped_samples = 0;  ///< of the network, not acted on since they could not be believed
+  bool resumed = false;               ///< part of it comes from a journal; wall_s and workers are of the last process
+  std::map<std::string, double> waited_share;  ///< of each worker: of its slots' time while it had islands to breed,
+                                               ///< the share without work
+};
+
+/// What a finished calibration leaves to report on.
+struct Conclusions {
+  const DataSet& data;
+  const CalibratedModel&
+      model;  ///< as it was written to the model file, so that evaluating that gives the same figures
+  const CorrectedRobot& before;  ///< what the closed loop started from
+  const LoopOutcome& loop;       ///< what the loop made of it
+  const Preparation& preparation;
+  const Calibration& calibration;
+  const DataCheck& check;
+  const std::vector<DistalStep>& distal;
+  const std::vector<FoundTransform>& structure;
+  const RunFacts& runtime;
+};
+Report make_report(const Conclusions& run);
+
+/// Of data that contradict the robot: what was found, the errors of the nominal robot, and nothing fitted.
+Report refusal_report(const DataSet& data, const std::string& job, const DataCheck& check);
+
+/// The standard deviation per axis of position about the mean of its repeats, mm; nothing where no pose is repeated.
+std::optional<double> noise_floor_mm(const DataSet& data);
+
+/// In the unit that its name ends with.
+ParameterEntry parameter_entry(const ParameterEstimate& estimate);
+
+}  // namespace demecal

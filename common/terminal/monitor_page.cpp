@@ -1,0 +1,142 @@
+#include "terminal/monitor_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "monitor/events.hpp"
+#include "monitor/pace.hpp"
+#include "terminal/island_grid.hpp"
+#include "terminal/page_tables.hpp"
+#include "terminal/text.hpp"
+
+namespace demecal {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+constexpr std::size_t kFewestColumns = 40;
+constexpr std::size_t kFewestGridLines = 4;
+
+/// `first` at the left end, `last` at the right end where both fit.
+std::string both_ends(const std::string& first, const std::string& last, std::size_t columns) {
+  if (last.empty()) return cut(first, columns);
+  const std::size_t taken = columns_of(first) + columns_of(last) + 2;
+  return taken > columns ? cut(first, columns) : first + std::string(columns + 2 - taken, ' ') + last;
+}
+
+class Page {
+ public:
+  Page(const Watched& watched, const PageOptions& options)
+      : watched_(watched),
+        options_(options),
+        columns_(std::max(options.columns, kFewestColumns)),
+        calibration_(watched.calibration()),
+        run_(watched.run()) {}
+
+  Lines lines() const;
+
+ private:
+  bool is_evolving() const;
+  std::string title() const;
+  std::string stage() const;
+  std::string time_left() const;
+  Lines progress() const;
+  Lines below() const;
+  std::string paint(const std::string& text, Ink ink) const { return painted(text, ink, options_.colours); }
+
+  const Watched& watched_;
+  const PageOptions& options_;
+  std::size_t columns_;
+  const WatchedCalibration* calibration_;
+  const WatchedRun* run_;
+};
+
+std::string Page::stage() const {
+  if (calibration_ == nullptr) return run_ == nullptr ? "no calibration" : "run " + to_string(run_->state);
+  if (calibration_->lost) return "its coordinator is gone: waiting for the next calibration";
+  const LoopNews& news = calibration_->stage;
+  if (!news.text.empty()) return news.text;
+  return to_string(news.stage);
+}
+
+std::string Page::title() const {
+  std::string name = calibration_ != nullptr ? calibration_->stage.job : "";
+  if (name.empty() && run_ != nullptr) name = run_->data.job;
+  std::string text = "demecal monitor";
+  if (!name.empty()) text += "  " + name;
+  const bool evolves = run_ != nullptr && run_->has_data();
+  const std::string size = evolves ? fmt::format("{} generations", run_->data.parameters.number_generations) : "";
+  return both_ends(text + "  " + stage(), size, columns_);
+}
+
+bool Page::is_evolving() const {
+  return run_ != nullptr && run_->state == Control::State::running &&
+         (calibration_ == nullptr || calibration_->is_live());
+}
+
+std::string Page::time_left() const {
+  if (!is_evolving()) return "";
+  const auto left = time_left_s(watched_, *run_, options_.now_s);
+  return left && *left > 0.0 ? "about " + short_time(*left) + " left" : "";
+}
+
+/// How far the run is: a bar over the whole width, and what the islands did together.
+Lines Page::progress() const {
+  if (run_ == nullptr || !run_->has_data()) return {};
+  double taken = 0.0;
+  for (const auto& [key, island] : run_->islands) taken += static_cast<double>(island.migrants_taken);
+  const std::string end = fmt::format(" {:>4}", percent(share_done(*run_)));
+  const BarParts parts = bar_parts(share_done(*run_), columns_ - columns_of(end));
+  std::string counts = short_count(static_cast<double>(run_->evaluations)) + " evaluations";
+  const double speed = is_evolving() ? evaluations_per_s(watched_, *run_, options_.now_s) : 0.0;
+  if (speed > 0.0) counts += ", " + short_count(speed) + "/s";
+  counts += ", " + short_count(taken) + " migrants taken";
+  return {paint(parts.full, Ink::bar) + paint(parts.empty, Ink::faint) + end, both_ends(counts, time_left(), columns_)};
+}
+
+/// What stands under the islands.
+Lines Page::below() const {
+  const bool is_short = options_.lines != 0;
+  Lines lines;
+  for (const Lines& table : {worker_lines(watched_, options_.now_s, {columns_, is_short ? 6U : 0U, options_.colours}),
+                             round_lines(calibration_, {columns_, is_short ? 6U : 0U, options_.colours}),
+                             happening_lines(watched_, options_.now_s, {columns_, 3, options_.colours})}) {
+    if (table.empty()) continue;
+    lines.emplace_back();
+    lines.insert(lines.end(), table.begin(), table.end());
+  }
+  if (const std::size_t others = watched_.other_calibrations(); others > 0) {
+    lines.push_back(fmt::format("{} other calibration{} going on here", others, others == 1 ? " is" : "s are"));
+  }
+  return lines;
+}
+
+Lines Page::lines() const {
+  if (!watched_.has_seen_anything()) {
+    return {cut("demecal monitor  nobody is calibrating in " + options_.place + " yet", columns_)};
+  }
+  Lines lines{paint(title(), Ink::strong)};
+  for (const std::string& line : progress()) lines.push_back(line);
+  const Lines under = below();
+  if (run_ != nullptr && run_->has_data()) {
+    const std::size_t taken = lines.size() + 1 + under.size();
+    const std::size_t room = options_.lines > taken ? options_.lines - taken : 0;
+    const std::size_t grid_lines = options_.lines == 0 ? 0 : std::max(room, kFewestGridLines);
+    lines.emplace_back();
+    for (const std::string& line : island_grid(*run_, watched_.workers(), {columns_, grid_lines, options_.colours})) {
+      lines.push_back(line);
+    }
+  }
+  lines.insert(lines.end(), under.begin(), under.end());
+  if (options_.lines != 0 && lines.size() > options_.lines) lines.resize(options_.lines);
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> monitor_page(const Watched& watched, const PageOptions& options) {
+  return Page(watched, options).lines();
+}
+
+}  // namespace demecal

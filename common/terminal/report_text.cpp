@@ -1,0 +1,172 @@
+#include "terminal/report_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "report/figures.hpp"
+#include "terminal/loop_text.hpp"
+#include "terminal/text.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::size_t kStageColumns = 42, kSetColumns = 38;  // of what heads a line of figures
+
+std::string figures_line(const std::string& head, std::size_t columns, const SetErrors& errors) {
+  std::string line = "  " + left(head, columns);
+  for (const std::optional<double>& figure : {errors.mean_mm, errors.rms_mm, errors.p95_mm, errors.max_mm})
+    line += right(figure ? fmt::format("{:.3f}", *figure) : "–", 9);
+  return line + "\n";
+}
+
+std::string heading(const std::string& what, std::size_t columns) {
+  return fmt::format("  {:<{}}{:>9}{:>9}{:>9}{:>9}\n", what, columns, "mean", "rms", "P95", "max");
+}
+
+std::string last_fit(const Report& report) {
+  if (!report.unseen_validation_rms_mm) return {};
+  const double before_mm = report.unseen_validation_rms_mm->before.value_or(0.0);
+  const double after_mm = report.unseen_validation_rms_mm->after.value_or(0.0);
+  const std::string figures = report.added_any()
+                                  ? fmt::format("{:.3f} mm without and {:.3f} mm with the effects", before_mm, after_mm)
+                                  : fmt::format("{:.3f} mm", after_mm);
+  return wrapped(" ",
+                 "The numbers come from calibration and validation poses together; while the validation poses were "
+                 "unseen, their rms was " +
+                     figures + ". Accept poses had no part in anything.",
+                 2);
+}
+
+/// How far single poses are predicted to err, and how many accept poses did not keep to it.
+std::string intervals(const std::vector<PoseErrorEntry>& poses, const std::optional<PredictionEntry>& prediction) {
+  const IntervalCoverage accept = coverage_of(poses);
+  if (!prediction || (accept.poses == 0 && prediction->told_by != "calibration")) return {};
+  const std::string within =
+      accept.poses == 0 ? "radii that hold 95 % of errors stand in report.json"
+                        : fmt::format(
+                              "95 % of errors are predicted within {:.3f} mm (median over accept poses): {} of {} "
+                              "accept poses are",
+                              accept.median_mm, accept.inside, accept.poses);
+  return wrapped("  prediction:", within + "; " + prediction->remark, 4);
+}
+
+std::string stages(const Report& report) {
+  const std::vector<Stage> all = error_stages(report);
+  std::string text;
+  for (const PoseSetOfReport& set : kPoseSets) {
+    if (!(report.before.*set.errors).mean_mm) continue;
+    text += heading(fmt::format("{} poses, tool error in mm", set.name), kStageColumns);
+    for (const Stage& stage : all) text += figures_line("  " + stage.title, kStageColumns, stage.on(set));
+  }
+  return text + last_fit(report) + intervals(report.pose_errors, report.prediction_interval);
+}
+
+std::string joints(const Report& report) {
+  std::string text =
+      fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
+  const auto rad = [](const std::optional<double>& error) { return error ? fmt::format("{:.3e}", *error) : "–"; };
+  for (const JointEntry& joint : report.joints) {
+    const std::string figures = "  " + left(std::to_string(joint.joint), 8) +
+                                right(rad(joint.mean_abs_error_rad.before), 16) +
+                                right(rad(joint.mean_abs_error_rad.after), 16) + "  ";
+    text += wrapped(figures, joint.kept ? "corrected" : "neutral: " + joint.note, figures.size() + 1);
+  }
+  return text;
+}
+
+/// The functions, and the corrections that call them.
+std::string shared_functions(const Report& report) {
+  if (!report.shared_functions) return {};
+  if (report.shared_functions->empty()) {
+    return "  no structure shortened formulas of two joints: they share no function\n";
+  }
+  std::string text = "  functions that joints share\n";
+  for (const auto& [definition, joints] : *report.shared_functions) {
+    const std::string callers = fmt::format("; joint{} {}", joints.size() == 1 ? "" : "s", fmt::join(joints, ", "));
+    text += wrapped("   ", definition + (joints.empty() ? "; no correction calls it" : callers), 6);
+  }
+  for (const JointEntry& joint : report.joints) {
+    if (!joint.with_functions.empty())
+      text += wrapped(fmt::format("    joint {}:", joint.joint), joint.with_functions, 6);
+  }
+  return text;
+}
+
+/// Of the structural method: what stands between the links.
+std::string structure(const Report& report) {
+  if (report.method != "structural") return {};
+  std::string rows;
+  for (const auto& [name, nominal, value, error] : report.parameters) {
+    if (name.starts_with("after link "))
+      rows += fmt::format("  {:<28}{:>12.4f}{:>18.4f}\n", name, value.value_or(0.0), error.value_or(0.0));
+  }
+  if (rows.empty()) return "\n  nothing between the links that the validation poses bear out\n";
+  return fmt::format("\n  {:<28}{:>12}{:>18}\n", "transforms found", "value", "standard error") + rows +
+         "  model.yaml has them in its links and tools, which then predict the same everywhere\n";
+}
+
+std::string named(const std::string& title, const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  constexpr std::size_t kShown = 8;
+  std::string shown;
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) shown += names[i] + " ";
+  if (names.size() > kShown) shown += "...";
+  return wrapped(fmt::format("  {} ({}):", title, names.size()), shown, 4);
+}
+
+/// What to look at before the figures.
+std::string data_check(const Report& report) {
+  const std::string findings = to_terminal(report.data_check);
+  return findings.empty() ? findings : "  Look at the data first:\n" + findings + "\n";
+}
+
+std::string excluded(const Report& report) {
+  std::vector<std::string> names;
+  for (const ExcludedPose& pose : report.poses.excluded)
+    names.push_back(fmt::format("{} ({:.2f} mm)", pose.id, pose.error_mm.value_or(0.0)));
+  return named("poses excluded by name, in no figure", names);
+}
+
+}  // namespace
+
+std::string to_terminal(const Report& report) {
+  std::string text = data_check(report) + stages(report) + structure(report);
+  if (!report.joints.empty()) text.append("\n").append(joints(report)).append(shared_functions(report));
+  if (const std::string loop = loop_to_terminal(report); !loop.empty()) text.append("\n").append(loop).append("\n");
+  text += named("suspected outliers (down-weighted in the fit, included in all errors)", report.poses.outliers);
+  text += excluded(report);
+  text += named("poses near a singularity, weighed less", report.poses.near_singular);
+  for (const std::string& sentence : report.unidentified) text += wrapped("  not seen by these poses:", sentence, 4);
+  if (report.noise_floor_mm)
+    text += fmt::format("  noise floor from repeats: {:.3f} mm per axis\n", *report.noise_floor_mm);
+  if (report.runtime.asynchronous)
+    text += "  The islands did not wait for each other: another run of this job gives another result.\n";
+  return text;
+}
+
+std::string to_terminal(const Evaluation& evaluation) {
+  std::string text = heading("tool error in mm", kSetColumns);
+  for (const PoseSetOfReport& set : kPoseSets) {
+    const SetErrors& errors = evaluation.error_mm.*set.errors;
+    if (errors.mean_mm) text += figures_line(std::string("  ") + set.name, kSetColumns, errors);
+  }
+  return text + intervals(evaluation.pose_errors, evaluation.prediction);
+}
+
+std::string to_terminal(const DataCheckEntry& check) {
+  constexpr std::size_t kMostShown = 10;
+  std::vector<const FindingEntry*> findings;
+  for (const FindingEntry& finding : check.findings) findings.push_back(&finding);
+  std::ranges::stable_sort(findings, [](const FindingEntry* one, const FindingEntry* other) {
+    return contradicts(*one) && !contradicts(*other);
+  });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(findings.size(), kMostShown); ++i)
+    text += wrapped("  -", findings[i]->sentence, 4);
+  if (findings.size() > kMostShown) text += fmt::format("  - {} more in report.json\n", findings.size() - kMostShown);
+  return text;
+}
+
+}  // namespace demecal

@@ -1,0 +1,83 @@
+// What a model, or several, do at the poses of a data set, and what a model holds that poses do not let it apply.
+#include "report/evaluation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "made_up_comparison.hpp"
+#include "made_up_loop.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::IsEmpty;
+
+DataSet three_poses() {
+  DataSet data;
+  data.robot = made_up_arm();
+  data.poses.resize(3);
+  for (MeasuredPose& pose : data.poses) pose.approach = ApproachSigns::Ones(6);
+  return data;
+}
+
+CorrectedRobot with_backlash() {
+  CorrectedRobot robot;
+  robot.effects = {made_up_backlash(), made_up_harmonic(2, 9, 1e-4, 0.0)};
+  return robot;
+}
+
+TEST(UnappliedEffects, AreNoneWherePosesHoldWhatEffectsNeed) {
+  EXPECT_THAT(unapplied_effects(with_backlash(), three_poses()), IsEmpty());
+}
+
+TEST(UnappliedEffects, NameTheEffectItsNeedAndThePoses) {
+  DataSet data = three_poses();
+  data.poses[0].approach.reset();
+  data.poses[2].approach.reset();
+  const std::vector<UnappliedEffect> found = unapplied_effects(with_backlash(), data);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].lacking, "approach");
+  EXPECT_EQ(found[0].sentence,
+            "backlash of joint 2 cannot be applied as it was calibrated at 2 of 3 poses: they have no approach "
+            "direction, and no side is taken");
+}
+
+TEST(UnappliedEffects, StandInTheJsonOfAnEvaluation) {
+  DataSet data = three_poses();
+  data.poses[1].approach.reset();
+  const std::vector<UnappliedEffect> found = unapplied_effects(with_backlash(), data);
+  const nlohmann::json written =
+      nlohmann::json::parse(to_json(Evaluation{{}, {}, {}, found, {}}))["effects_not_applied"];
+  ASSERT_EQ(written.size(), 1u);
+  EXPECT_EQ(written[0]["kind"], "backlash");
+  EXPECT_EQ(written[0]["joint"], 2);
+  EXPECT_EQ(written[0]["poses"], 1);
+  EXPECT_EQ(written[0]["lacking"], "approach");
+}
+
+TEST(EvaluationJson, StandsOnOneLineWithAllSets) {
+  const ErrorBySet errors = made_up_report().after;
+  const std::string text = to_json(Evaluation{errors, {}, {}, {}, {}});
+  EXPECT_EQ(text.find('\n'), text.size() - 1);
+  const nlohmann::json written = nlohmann::json::parse(text);
+  EXPECT_EQ(written["error_mm"]["calibration"]["mean"], *errors.calibration.mean_mm);
+  EXPECT_EQ(written["error_mm"]["calibration"]["max"], *errors.calibration.max_mm);
+  EXPECT_EQ(written["error_mm"]["validation"]["rms"], *errors.validation.rms_mm);
+  EXPECT_EQ(written["error_mm"]["validation"]["p95"], *errors.validation.p95_mm);
+  EXPECT_TRUE(written["error_mm"]["accept"]["max"].is_null());
+}
+
+TEST(Comparison, HoldsItsFiguresInJsonAndNullWhereThereAreNone) {
+  const auto json = nlohmann::json::parse(to_json(two_methods()));
+  EXPECT_EQ(json["demecal_comparison"], 1);
+  EXPECT_EQ(json["poses"]["validation"], 20);
+  EXPECT_EQ(json["methods"][0]["error_mm"]["validation"]["mean"], 5.25);
+  EXPECT_EQ(json["methods"][0]["parameters"], 81);
+  EXPECT_TRUE(json["methods"][0]["error_mm"]["accept"]["rms"].is_null());
+  EXPECT_TRUE(json["methods"][1]["error_mm"]["calibration"]["max"].is_null());
+}
+
+}  // namespace
+}  // namespace demecal

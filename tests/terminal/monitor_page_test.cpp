@@ -1,0 +1,144 @@
+// The page fits the terminal it is made for, and every figure that it should show is on it.
+#include "terminal/monitor_page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "made_up_run.hpp"
+#include "terminal/island_grid.hpp"
+#include "terminal/text.hpp"
+
+namespace demecal {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+PageOptions page_of(std::size_t columns, std::size_t lines = 0) {
+  return {.columns = columns, .lines = lines, .colours = false, .now_s = 2.0, .place = "domain 3"};
+}
+
+std::string joined(const Lines& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+std::string without_codes(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\033')
+      i = text.find('m', i);
+    else
+      plain += text[i];
+  }
+  return plain;
+}
+
+TEST(MonitorPage, SaysThatNobodyIsThere) {
+  const Lines lines = monitor_page(Watched(), page_of(80));
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("nobody is calibrating in domain 3"), std::string::npos);
+}
+
+TEST(MonitorPage, IsNeverWiderThanTheTerminal) {
+  for (const std::uint32_t demes : {1u, 2u, 3u, 16u, 200u}) {
+    const Watched watched = watched_after(made_up_messages(made_up_data(6, demes)));
+    for (std::size_t columns = 40; columns <= 240; columns += 7) {
+      for (const std::string& line : monitor_page(watched, page_of(columns))) {
+        EXPECT_LE(columns_of(line), columns) << line;
+      }
+    }
+  }
+}
+
+TEST(MonitorPage, IsNeverHigherThanTheTerminal) {
+  for (const std::uint32_t joints : {1u, 6u, 7u, 40u}) {
+    const Watched watched = watched_after(made_up_messages(made_up_data(joints, 3)));
+    for (std::size_t lines = 10; lines <= 80; lines += 5) {
+      EXPECT_LE(monitor_page(watched, page_of(80, lines)).size(), lines);
+    }
+  }
+}
+
+TEST(MonitorPage, ShowsEveryFigureOfEveryIslandOnEightyAndOnAHundredAndFortyColumns) {
+  const CalibrationData data = made_up_data();
+  const std::vector<Message> messages = made_up_messages(data);
+  const Watched watched = watched_after(messages);
+  for (const std::size_t columns : {80u, 140u}) {
+    const std::string page = joined(monitor_page(watched, page_of(columns)));
+    for (const auto& [key, island] : watched.run()->islands) {
+      for (const std::string& figure :
+           {std::to_string(island.generation), short_real(island.figures.best), short_real(island.figures.median),
+            percent(island.figures.diversity), short_count(island.evaluations_per_s),
+            short_count(static_cast<double>(island.migrants_sent)),
+            short_count(static_cast<double>(island.migrants_taken)), percent(island.waited_share)}) {
+        EXPECT_NE(page.find(" " + figure), std::string::npos) << figure;
+      }
+    }
+    for (const WatchedWorker* worker : watched.workers()) {
+      EXPECT_NE(page.find(worker->status.host), std::string::npos);
+    }
+    for (const char* const word : {"puma761-demo", "evolving", "left", "lost", "backlash, joint 2", "0.354 -> 0.233",
+                                   "rejected", "eval/s", "joint 6"}) {
+      EXPECT_NE(page.find(word), std::string::npos) << word << "\n" << page;
+    }
+  }
+}
+
+TEST(MonitorPage, StandsIslandsOfAJointSideBySideWhereTheyFit) {
+  const Watched watched = watched_after(made_up_messages(made_up_data(6, 2)));
+  const auto grid = [&](std::size_t columns) {
+    return island_grid(*watched.run(), watched.workers(), {.columns = columns, .lines = 0, .colours = false});
+  };
+  EXPECT_EQ(grid(80).size(), 1u + 12u);
+  EXPECT_EQ(grid(140).size(), 1u + 6u);
+}
+
+TEST(MonitorPage, ShowsLessOfEachIslandBeforeItLeavesIslandsOut) {
+  const Watched watched = watched_after(made_up_messages(made_up_data(6, 8)));
+  const auto grid = [&](std::size_t lines) {
+    return joined(island_grid(*watched.run(), watched.workers(), {.columns = 80, .lines = lines, .colours = false}));
+  };
+  EXPECT_NE(grid(0).find("median"), std::string::npos);
+  EXPECT_EQ(grid(20).find("median"), std::string::npos);
+  EXPECT_EQ(grid(20).find("more"), std::string::npos);
+  EXPECT_NE(grid(20).find("joint 6"), std::string::npos);
+  EXPECT_NE(grid(5).find("islands more"), std::string::npos);
+}
+
+TEST(MonitorPage, ColoursChangeNoLetter) {
+  const Watched watched = watched_after(made_up_messages(made_up_data()));
+  PageOptions coloured = page_of(120);
+  coloured.colours = true;
+  const Lines with = monitor_page(watched, coloured), plain = monitor_page(watched, page_of(120));
+  ASSERT_EQ(with.size(), plain.size());
+  EXPECT_NE(with, plain);
+  for (std::size_t i = 0; i < with.size(); ++i) EXPECT_EQ(without_codes(with[i]), plain[i]);
+}
+
+TEST(MonitorPage, SaysWhenTheCoordinatorIsGone) {
+  Watched watched = watched_after(made_up_messages(made_up_data()));
+  watched.take(CalibrationLost{kCalibration}, 3.0);
+  const std::string page = joined(monitor_page(watched, page_of(100)));
+  EXPECT_NE(page.find("coordinator is gone: waiting for the next"), std::string::npos) << page;
+  EXPECT_EQ(page.find(" left\n"), std::string::npos) << page;
+}
+
+TEST(ShortFigures, AreNeverLongerThanTheirColumn) {
+  RandomStream random{21};
+  for (int i = 0; i < 2000; ++i) {
+    const double value = std::pow(10.0, random.real(-12.0, 12.0));
+    EXPECT_LE(short_real(value).size(), 7u) << value;
+    EXPECT_LE(short_count(value).size(), 5u) << value;
+    EXPECT_NEAR(std::stod(short_real(value)), value, 0.06 * value);
+  }
+  EXPECT_EQ(short_count(999.0), "999");
+  EXPECT_EQ(short_count(999.6), "1.00k");
+  EXPECT_EQ(short_real(0.0123456), "0.01235");
+  EXPECT_EQ(short_time(59.6), "1 min 0 s");
+  EXPECT_EQ(percent(2.0), "100%");
+}
+
+}  // namespace
+}  // namespace demecal

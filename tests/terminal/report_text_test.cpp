@@ -1,0 +1,93 @@
+// What a terminal shows of a report.
+#include "terminal/report_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "made_up_report.hpp"
+#include "page_reading.hpp"
+#include "screen_reading.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Terminal, ShowsEveryStageOfEverySetThatHasPoses) {
+  const Report report = made_up_report();
+  const std::string text = to_terminal(report);
+  for (const ErrorBySet* const stage : {&report.nominal, &report.registered, &report.declared, &report.before}) {
+    for (const SetErrors& figures : {stage->calibration, stage->validation}) {
+      for (const std::optional<double>& value : {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm}) {
+        EXPECT_THAT(text, HasSubstr(" " + rounded(*value, 3)));
+      }
+    }
+  }
+  EXPECT_THAT(text, HasSubstr("calibration poses"));
+  EXPECT_THAT(text, HasSubstr("validation poses"));
+  EXPECT_THAT(text, Not(HasSubstr("accept poses")));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
+  const Report report = made_up_report();
+  const std::string text = to_terminal(report);
+  for (const JointEntry& joint : report.joints) {
+    EXPECT_THAT(text, HasSubstr("\n  " + std::to_string(joint.joint) + "  "));
+  }
+  for (const std::string& pose : report.poses.outliers) EXPECT_THAT(text, HasSubstr(pose));
+  for (const std::string& pose : report.poses.near_singular) EXPECT_THAT(text, HasSubstr(pose));
+  EXPECT_THAT(text, HasSubstr("noise floor from repeats: 0.051 mm per axis"));
+}
+
+TEST(Terminal, DefinesSharedFunctionsAndShowsWhoCallsThem) {
+  EXPECT_THAT(to_terminal(made_up_report()), Not(HasSubstr("share")));
+  Report report = made_up_sharing_report();
+  const std::string text = to_terminal(report);
+  EXPECT_THAT(text, HasSubstr("F1(c1, c2, a1) = c1 * SIN(a1 + c2); joints 1, 3"));
+  EXPECT_THAT(text, HasSubstr("F2(a1) = TANH(ATAN(a1)); no correction calls it"));
+  EXPECT_THAT(text, HasSubstr("joint 1: F1(0.00042, 0.7, theta) + 0.00011 * COS(4.1 * theta)"));
+  EXPECT_THAT(text, HasSubstr("joint 3: F1(0.00061, 1.4, 1.02 * theta)"));
+  report.shared_functions->clear();
+  EXPECT_THAT(to_terminal(report), HasSubstr("they share no function"));
+}
+
+TEST(Terminal, IsAtMostAHundredColumnsWide) {
+  RandomStream random{451};
+  for (int trial = 0; trial < 100; ++trial) {
+    Report report = made_up_report();
+    const auto name = [&random] {
+      std::string text;
+      for (std::size_t i = random.index(140); i > 0; --i) text += random.chance(0.1) ? " " : "ü";
+      return text;
+    };
+    report.shared_functions = {{name(), {1, 2}}};
+    for (JointEntry& joint : report.joints) joint.note = joint.with_functions = name();
+    report.unidentified = {name() + name() + name(), name()};
+    report.poses.outliers = {name(), name(), name()};
+    for (const std::string& line : screen_lines(to_terminal(report))) EXPECT_LE(letters_of(line), 100u) << line;
+  }
+}
+
+TEST(Terminal, KeepsEveryWordThatFitsOnALine) {
+  Report report = made_up_report();
+  std::string sentence;
+  for (int word = 0; word < 60; ++word) sentence += "word" + std::to_string(word) + " ";
+  report.unidentified = {sentence};
+  std::istringstream words(to_terminal(report));
+  int next = 0;
+  for (std::string word; words >> word;) next += word == "word" + std::to_string(next) ? 1 : 0;
+  EXPECT_EQ(next, 60);
+}
+
+TEST(Terminal, ShowsOneStageWithItsSets) {
+  const ErrorBySet errors = made_up_report().after;
+  const std::string text = to_terminal(Evaluation{errors, {}, {}, {}, {}});
+  EXPECT_EQ(screen_lines(text).size(), 3u);
+  EXPECT_THAT(text, HasSubstr(rounded(*errors.validation.p95_mm, 3)));
+  EXPECT_THAT(text, Not(HasSubstr("accept")));
+}
+
+}  // namespace
+}  // namespace demecal
