@@ -13,6 +13,8 @@ struct SeedFormula {
   static constexpr int kEveryJoint = -1;
   int joint = kEveryJoint;  ///< from 0
   Tree formula;             ///< of theta, rad
+
+  bool operator==(const SeedFormula&) const = default;
 };
 
 /// Whether joints are to share functions (thesis 7.1 ii): how many, and into how many stages the generations are
@@ -20,12 +22,16 @@ struct SeedFormula {
 struct SharingOptions {
   int functions = 0;  ///< at most; 0: none, and no stages
   int stages = 4;
+
+  bool operator==(const SharingOptions&) const = default;
 };
 
 struct CorrectionOptions {
   double largest_rad = std::numeric_limits<double>::infinity();  ///< that any correction may become in its range
   std::vector<SeedFormula> seeds;
   SharingOptions sharing{};
+
+  bool operator==(const CorrectionOptions&) const = default;
 };
 
 }  // namespace demecal

@@ -32,6 +32,8 @@ struct IslandOptions {
   bool between_joints = false;
   Replacement replacement = Replacement::worst;
   double spread = 0.0;  ///< how far the parameters of a joint's islands lie apart, 0 to 1
+
+  bool operator==(const IslandOptions&) const = default;
 };
 
 struct ClosedLoopOptions {
@@ -40,6 +42,8 @@ struct ClosedLoopOptions {
   std::vector<std::string> candidates;  ///< kinds of effects to consider, by the words of reports; empty: all
   int highest_ratio = 200;              ///< of the scan over gear harmonics
   std::vector<double> ratios;           ///< of gears, beyond the scan
+
+  bool operator==(const ClosedLoopOptions&) const = default;
 };
 
 /// In which order joints learn from the whole model's error (thesis 4.4): all at once, round by round, each against
@@ -55,6 +59,8 @@ struct DistalOptions {
   /// Nothing: fitted in the parallel form, whose joints learn side by side and have to be brought together, and as
   /// evolved in the sequential, which is the thesis's.
   std::optional<Amplitudes> amplitudes{};
+
+  bool operator==(const DistalOptions&) const = default;
 };
 
 struct Job {
@@ -69,6 +75,8 @@ struct Job {
   IslandOptions islands;
   ClosedLoopOptions closed_loop;
   DistalOptions distal;
+
+  bool operator==(const Job&) const = default;
 };
 
 }  // namespace demecal

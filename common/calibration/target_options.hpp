@@ -10,6 +10,8 @@ enum class TargetKind { posterior, exact };
 struct TargetOptions {
   TargetKind kind = TargetKind::posterior;
   double joint_error_rad = 1e-3;  ///< standard deviation of a joint's error before a pose is looked at; posterior only
+
+  bool operator==(const TargetOptions&) const = default;
 };
 
 }  // namespace demecal

@@ -18,6 +18,7 @@ SymbolNames read_names(Algebra& algebra, const YamlNode& file, std::vector<Expre
     list.fail("", "must name 1 to " + std::to_string(kMaxJoints) + " joints");
   }
   if (const YamlNode* values = file.find("values")) {
+    if (values->kind != YamlNode::Kind::map) values->fail("must be a map of names and numbers");
     for (const YamlNode& value : values->children) {
       if (!names.emplace(value.name, algebra.constant(value.number())).second) value.fail("is a joint as well");
     }

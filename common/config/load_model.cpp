@@ -69,6 +69,12 @@ KnownFunctions read_functions(const YamlNode* node) {
   return functions;
 }
 
+/// Estimates are for people: nothing but their keys is looked at.
+void check_estimates(const YamlNode* list) {
+  if (list == nullptr) return;
+  for (const YamlNode& entry : list->list()) entry.with_keys({"name", "nominal", "value", "standard_error"});
+}
+
 /// Reads one entry of `corrections` into summary and correction.
 JointCorrection read_correction(const YamlNode& node, const CalibratedModel& model, JointSummary& summary) {
   node.with_keys({"joint", "expression", "with_functions", "range_rad", "branch_centre_rad", "bound_rad",
@@ -112,8 +118,9 @@ CalibratedModel load_model(const std::filesystem::path& path) {
                                                    {"diagnose", Method::diagnose},
                                                    {"structural", Method::structural}});
   model.seed = file.at("seed").seed();
-  model.data_name = file.at("data").at("name").text();
-  model.data_sha256 = file.at("data").at("sha256").text();
+  const YamlNode& data = file.at("data").with_keys({"name", "sha256"});
+  model.data_name = data.at("name").text();
+  model.data_sha256 = data.at("sha256").text();
   model.nominal = robot_from(file.at("robot"));
   model.declared = read_declared(file.at("declared"));
   model.robot.chain = model.nominal.chain;
@@ -125,6 +132,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
     const YamlNode* target = tool.find("target");
     model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
   }
+  check_estimates(file.find("estimates"));
   model.functions = read_functions(file.find("shared_functions"));
   read_corrections(file.at("corrections"), model);
   model.robot.effects = read_effects(file.at("effects"), model.nominal);

@@ -5,7 +5,6 @@
 
 #include "data/nearest_name.hpp"
 #include "data/number.hpp"
-#include "errors/input_error.hpp"
 
 namespace demecal {
 namespace {
@@ -45,9 +44,10 @@ const YamlNode& YamlNode::with_keys(std::span<const std::string> allowed) const 
   require_map(*this);
   for (const YamlNode& child : children) {
     if (std::find(allowed.begin(), allowed.end(), child.name) != allowed.end()) continue;
-    throw InputError({child.file, child.line}, child.name,
-                     "is no key" + (key.empty() ? "" : " of " + key) + "; the nearest is '" +
-                         nearest_name(child.name, allowed) + "'");
+    const std::string where = key.empty() ? "" : " of " + key;
+    const InputError fault({child.file, child.line}, child.name,
+                           "is no key" + where + "; the nearest is '" + nearest_name(child.name, allowed) + "'");
+    throw UnknownKey(fault, {allowed.begin(), allowed.end()});
   }
   return *this;
 }

@@ -10,7 +10,21 @@
 #include <utility>
 #include <vector>
 
+#include "errors/input_error.hpp"
+
 namespace demecal {
+
+/// A key that its map may not have, beside those that it may: tests ask readers in this way what they accept.
+class UnknownKey : public InputError {
+ public:
+  UnknownKey(const InputError& fault, std::vector<std::string> allowed)
+      : InputError(fault), allowed_(std::move(allowed)) {}
+
+  const std::vector<std::string>& allowed() const { return allowed_; }
+
+ private:
+  std::vector<std::string> allowed_;
+};
 
 /// A scalar, list or map of a YAML file. Every accessor throws InputError with file, line, value and "KEY RULE" where
 /// the value is not what is asked for. Made by read_yaml().
@@ -31,7 +45,7 @@ struct YamlNode {
   [[noreturn]] void fail(const std::string& rule) const { fail(scalar, rule); }
 
   // of a map
-  /// This node, a map with no keys but these; an unknown key's error names the nearest.
+  /// This node, a map with no keys but these; throws UnknownKey, which names the nearest, where it has another.
   const YamlNode& with_keys(std::initializer_list<std::string_view> allowed) const;
   const YamlNode& with_keys(std::span<const std::string> allowed) const;
   /// This node, a file of the kind that the key "demecal_KIND: VERSION" declares.

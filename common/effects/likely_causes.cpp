@@ -32,7 +32,7 @@ constexpr std::array<Cause, 18> kCauses{{{"geometry", "link geometry", 0.02, 0.0
                                          {"link_bending", "bending of the link", 0.02, 0.02},
                                          {"coupling", "coupling to another joint", 0.02, 0.02},
                                          {"axis_wobble", "wobble of the axis", 0.005, 0.005},
-                                         {"thermal_offset", "the zero's shift with warmth", 0.005, 0.005},
+                                         {"thermal_offset", "the zero's shift with temperature", 0.005, 0.005},
                                          {"thermal_length", "thermal growth", 0.005, 0.005},
                                          {"drift", "drift of base or instrument", 0.005, 0.005},
                                          {"symbolic", "a formula", 0.02, 0.02},

@@ -14,6 +14,8 @@ struct DeclaredModel {
   bool joint_offset = false;  ///< theta of revolute, d of prismatic joints
   bool geometry = false;  ///< d, a, alpha (theta, d with joint_offset); beta in place of d where axes are near-parallel
   bool joint_corrections = false;  ///< evolved, not fitted here
+
+  bool operator==(const DeclaredModel&) const = default;
 };
 
 /// One number of the model that can be identified.

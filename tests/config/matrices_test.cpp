@@ -55,6 +55,8 @@ TEST(Matrices, AreRefusedWithTheLineAndPlaceOfTheFault) {
   EXPECT_THAT(fault_of("a2*cos(theta2)", "a2*cos(theta2"), HasSubstr("row 1, element 4, column 14"));
   EXPECT_THAT(fault_of("[0, 0, 1, d2]", "[0, 0, 1]"), HasSubstr("4"));
   EXPECT_THAT(fault_of("values: {a2", "values: {theta1"), HasSubstr("is a joint as well"));
+  EXPECT_THAT(fault_of("values: {a2: 0.650, d2: 0.191, d4: 0.600, d6: 0.125}", "values: [0.65]"),
+              HasSubstr("values must be a map of names and numbers"));
   EXPECT_THAT(fault_of("theta1, theta2,", "theta2, theta2,"), HasSubstr("is named twice"));
   EXPECT_THAT(fault_of("demecal_matrices: 1", "demecal_matrices: 2"), HasSubstr("2"));
 }

@@ -73,6 +73,7 @@ class Forgetful : public Transport {
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
+  RunId new_run() override { return sound_->new_run(); }
 
  private:
   std::unique_ptr<Transport> sound_;

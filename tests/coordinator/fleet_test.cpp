@@ -7,7 +7,7 @@
 #include "coordinator/evolutions.hpp"
 #include "in_memory_fleet.hpp"
 #include "mortal_transport.hpp"
-#include "transport/participant_of.hpp"
+#include "transport/participants.hpp"
 
 namespace demecal {
 namespace {
@@ -27,6 +27,7 @@ class ToldOnce : public Transport {
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
+  RunId new_run() override { return sound_->new_run(); }
 
  private:
   std::unique_ptr<Transport> sound_;

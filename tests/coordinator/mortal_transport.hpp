@@ -79,8 +79,9 @@ class MortalTransport final : public Transport {
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
-  void drop(const std::string& source, const std::string& why) override { sound_->drop(source, why); }
-  std::uint64_t dropped() const override { return sound_->dropped(); }
+  RunId new_run() override { return sound_->new_run(); }
+  void reject(const std::string& source, const std::string& why) override { sound_->reject(source, why); }
+  std::uint64_t rejected() const override { return sound_->rejected(); }
 
  private:
   enum class State { running, stopped, dead };

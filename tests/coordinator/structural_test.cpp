@@ -9,8 +9,7 @@
 #include "coordinator/result_folder.hpp"
 #include "in_memory_fleet.hpp"
 #include "lacking_puma.hpp"
-#include "report/report_json.hpp"
-#include "report/terminal.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 namespace {
@@ -61,7 +60,7 @@ TEST(Structural, WritesAModelThatPredictsTheSameAndAReportThatNamesTheTransforms
   const CalibrateResult result = calibrated(data, structural_job());
   const auto folder = std::filesystem::temp_directory_path() / ("demecal-structural-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  const CalibrationReport report = write_results(folder, data, result);
+  const Report report = write_results(folder, data, result);
   const CalibratedModel model = load_model(folder / "model.yaml");
   EXPECT_EQ(model.method, Method::structural);
   EXPECT_NEAR(accept_mm(model.robot, data), accept_mm(result.model.robot, data), 1e-6);

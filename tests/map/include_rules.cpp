@@ -15,9 +15,9 @@ std::string library_of(const std::string& header) {
                                                                {"yaml-cpp/", "yaml-cpp"},
                                                                {"openssl/", "OpenSSL::Crypto"},
                                                                {"CLI/", "CLI11::CLI11"},
-                                                               {"fastdds/", "demecal_idl"},
-                                                               {"fastrtps/", "demecal_idl"},
-                                                               {"fastcdr/", "demecal_idl"},
+                                                               {"fastdds/", "fastrtps"},
+                                                               {"fastrtps/", "fastrtps"},
+                                                               {"fastcdr/", "fastcdr"},
                                                                {"calibration.h", "demecal_idl"},
                                                                {"calibrationPubSubTypes.h", "demecal_idl"}};
   for (const auto& [beginning, library] : libraries) {
@@ -76,7 +76,8 @@ Violations check_libraries(const Source& source, const Map& map) {
 }
 
 Violations check_owners(const Source& source) {
-  static const std::map<std::string, std::string> owners = {{"yaml-cpp", "config"}, {"demecal_idl", "transport"}};
+  static const std::map<std::string, std::string> owners = {
+      {"yaml-cpp", "config"}, {"fastrtps", "dds"}, {"fastcdr", "tests"}, {"demecal_idl", "tests"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;

@@ -17,10 +17,11 @@ const Map& made_up_map() {
                          "demecal_room(evolution)\n"
                          "demecal_room(report ROOMS fitting PRIVATE_LIBRARIES fmt::fmt)\n"
                          "demecal_room(config ROOMS report PRIVATE_LIBRARIES yaml-cpp)\n"
-                         "demecal_room(transport PRIVATE_LIBRARIES demecal_idl)\n"),
+                         "demecal_room(transport)\n"
+                         "demecal_room(dds ROOMS transport PRIVATE_LIBRARIES fastrtps)\n"),
              {}};
     made.programs["coordinator"] = parse_program("target_link_libraries(x PUBLIC demecal_config)", made.rooms);
-    made.programs["worker"] = parse_program("target_link_libraries(x PUBLIC demecal_transport)", made.rooms);
+    made.programs["worker"] = parse_program("target_link_libraries(x PUBLIC demecal_dds)", made.rooms);
     return made;
   }();
   return map;
@@ -83,7 +84,8 @@ TEST(OwnerRule, KeepsEachLibraryInItsRoom) {
     EXPECT_THAT(check_owners(including("tests/report/html_test.cpp", what)), IsEmpty()) << what;
   }
   EXPECT_THAT(check_owners(including("common/config/job.cpp", "<yaml-cpp/yaml.h>")), IsEmpty());
-  EXPECT_THAT(check_owners(including("common/transport/dds.cpp", "\"calibrationPubSubTypes.h\"")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/dds/types.cpp", "<fastdds/dds/topic/TypeSupport.hpp>")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/dds/types.cpp", "\"calibrationPubSubTypes.h\"")), SizeIs(1));
 }
 
 TEST(PureHeaderRule, ForbidsFilesThreadsAndClocks) {
@@ -91,7 +93,8 @@ TEST(PureHeaderRule, ForbidsFilesThreadsAndClocks) {
        {"<fstream>", "<thread>", "<mutex>", "<chrono>", "<filesystem>", "<iostream>", "<sys/stat.h>"}) {
     EXPECT_THAT(check_pure_headers(including("common/data/read.cpp", what)), SizeIs(1)) << what;
     EXPECT_THAT(check_pure_headers(including("common/config/read.cpp", what)), IsEmpty()) << what;
-    EXPECT_THAT(check_pure_headers(including("common/transport/dds.cpp", what)), IsEmpty()) << what;
+    EXPECT_THAT(check_pure_headers(including("common/transport/mailbox.cpp", what)), IsEmpty()) << what;
+    EXPECT_THAT(check_pure_headers(including("common/dds/writers.cpp", what)), IsEmpty()) << what;
     EXPECT_THAT(check_pure_headers(including("worker/main.cpp", what)), IsEmpty()) << what;
   }
   EXPECT_THAT(check_pure_headers(including("common/data/read.cpp", "<istream>")), IsEmpty());
@@ -103,7 +106,7 @@ TEST(PureCallRule, ForbidsChanceClocksAndPrinting) {
         "std::normal_distribution<double> d;", "std::cout << 1;", "std::printf(\"x\");",
         "auto t = steady_clock::now();", "std::getenv(\"HOME\");", "std::ofstream out;"}) {
     EXPECT_THAT(check_pure_calls({"common/evolution/island.cpp", std::string(line) + "\n"}), SizeIs(1)) << line;
-    EXPECT_THAT(check_pure_calls({"common/transport/dds.cpp", std::string(line) + "\n"}), IsEmpty()) << line;
+    EXPECT_THAT(check_pure_calls({"common/transport/mailbox.cpp", std::string(line) + "\n"}), IsEmpty()) << line;
   }
 }
 
