@@ -108,16 +108,17 @@ double amplitude(const std::vector<Showing>& showings) {
 
 /// What terms could take of a column one after another, the one that takes most first: of its squared length.
 /// `moments`: terms^T column; `gram`: of the terms.
-std::vector<double> taken_by_terms(Eigen::VectorXd moments, Eigen::MatrixXd gram) {
+std::vector<double> taken_by_terms(Eigen::VectorXd moments, const Eigen::MatrixXd& gram) {
   constexpr int kMostTerms = 8;
   std::vector<double> parts;
-  const Eigen::VectorXd lengths = gram.diagonal();
+  Eigen::VectorXd lengths = gram.diagonal();  // squared, of what of the terms is left
+  Eigen::MatrixXd directions(gram.rows(), kMostTerms);
   for (int round = 0; round < kMostTerms; ++round) {
     Eigen::Index best = -1;
     double most = 0.0;
     for (Eigen::Index i = 0; i < moments.size(); ++i) {
-      if (gram(i, i) <= kNewShare * lengths[i] || gram(i, i) < kNoColumn) continue;
-      const double part = moments[i] * moments[i] / gram(i, i);
+      if (lengths[i] <= kNewShare * gram(i, i) || lengths[i] < kNoColumn) continue;
+      const double part = moments[i] * moments[i] / lengths[i];
       if (part > most) {
         most = part;
         best = i;
@@ -125,9 +126,11 @@ std::vector<double> taken_by_terms(Eigen::VectorXd moments, Eigen::MatrixXd gram
     }
     if (best < 0) break;
     parts.push_back(most);
-    const Eigen::VectorXd direction = gram.col(best) / std::sqrt(gram(best, best));
-    moments -= direction * (moments[best] / std::sqrt(gram(best, best)));
-    gram -= direction * direction.transpose();
+    const auto before = directions.leftCols(round);
+    auto direction = directions.col(round);
+    direction = (gram.col(best) - before * before.row(best).transpose()) / std::sqrt(lengths[best]);
+    moments -= direction * (moments[best] / std::sqrt(lengths[best]));
+    lengths -= direction.cwiseAbs2();
   }
   return parts;
 }

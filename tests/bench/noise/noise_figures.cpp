@@ -103,6 +103,16 @@ void take_intervals(const Cases& cases, Taking& taking) {
              {.at_least = 0.92, .at_most = 0.98});
 }
 
+/// Accept poses of the runs without bad poses or effects put in, whose errors are within what is to hold 95 % of them.
+void take_prediction_intervals(const Cases& cases, Taking& taking) {
+  int accept = 0, within = 0;
+  for (const NoisyCaseFigures& one : cases) {
+    accept += one.clean.accept;
+    within += one.clean.within;
+  }
+  taking.add("accept poses within their 95 %", accept, share(within, accept), {.at_least = 0.93, .at_most = 0.97});
+}
+
 std::vector<double> seconds_of(const Cases& cases) {
   std::vector<double> seconds;
   for (const NoisyCaseFigures& one : cases) {
@@ -120,6 +130,7 @@ std::vector<NoiseFigure> noise_figures(const std::vector<NoisyCaseFigures>& case
   switch (cases.front().plan.condition.question) {
     case Question::false_effects:
       take_false_effects(cases, taking);
+      take_prediction_intervals(cases, taking);
       break;
     case Question::bad_poses:
       take_bad_poses(cases, taking);
@@ -129,6 +140,7 @@ std::vector<NoiseFigure> noise_figures(const std::vector<NoisyCaseFigures>& case
       break;
     case Question::intervals:
       take_intervals(cases, taking);
+      take_prediction_intervals(cases, taking);
       break;
   }
   taking.add_share("cases refused, or without a model", [](const auto& one) {

@@ -41,6 +41,8 @@ Line run_line(const DiagnosisFigures& run, const Robot& robot) {
       {"first_p", run.first_p},
       {"clean_before_mm", run.clean_before_mm},
       {"clean_after_mm", run.clean_after_mm},
+      {"accept", run.accept},
+      {"within", run.within},
       {"seconds", run.seconds},
       {"effects", effects_json(run.effects, robot)},
       {"noise", {run.noise.joint_rad, run.noise.repeats, run.noise.order, run.noise.correlation, run.independent_m}},

@@ -12,6 +12,7 @@
 #include "coordinator/diagnose.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/coverage.hpp"
+#include "effects/measurement.hpp"
 #include "engine/thread_seconds.hpp"
 #include "errors/input_error.hpp"
 #include "noisy_measurement.hpp"
@@ -77,11 +78,21 @@ class NoisyCase {
       figures.independent_m = diagnosis.result.loop.independent_m;
       figures.not_found = diagnosis.result.loop.not_found;
       if (!figures.rounds.empty()) figures.first_p = figures.rounds.front().p_family;
+      count_within(data, diagnosis.result.model, figures);
     } catch (const InputError&) {
       figures.failed = true;
     }
     figures.seconds = engine::thread_seconds() - begin;
     return figures;
+  }
+
+  static void count_within(const DataSet& data, const CalibratedModel& model, DiagnosisFigures& figures) {
+    for (const std::size_t index : poses_of(data, PoseSet::accept)) {
+      const MeasuredPose& pose = data.poses[index];
+      const double radius_m = radius95_m(*model.interval, *model.posterior, model.robot, data, pose);
+      ++figures.accept;
+      figures.within += tool_error_m(model.robot, data, pose) <= radius_m ? 1 : 0;
+    }
   }
 
   /// The fault in calibration poses, for what it does to the model; then in any poses, for whether it is named.

@@ -20,6 +20,7 @@ struct DiagnosisFigures {
   double independent_m = 0.0;     ///< standard deviation of positions beside it
   std::vector<Effect> effects{};  ///< of the model
   std::vector<NotFound> not_found{};
+  int accept = 0, within = 0;  ///< accept poses, and those whose error is within the radius that is to hold 95 %
   double seconds = 0.0;  ///< of processor time
 };
 
