@@ -2,7 +2,7 @@
 
 #include "calibration/last_fit.hpp"
 #include "calibration/loop_passes.hpp"
-#include "library/known_arm.hpp"
+#include "coordinator/known_arm.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 #include "config/model_text.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
-#include "library/known_arm.hpp"
+#include "coordinator/known_arm.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"

@@ -10,7 +10,6 @@
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"
 #include "library/conversion.hpp"
-#include "library/known_arm.hpp"
 #include "programs/correct_program.hpp"
 #include "programs/mark.hpp"
 #include "programs/read_program.hpp"
@@ -92,7 +91,12 @@ std::string CalibratedArm::correct_program(const std::string& text, const std::s
 PositionErrors CalibratedArm::errors(const Measurements& measured, PoseUse use) const {
   const CalibratedModel& model = implementation_->model;
   const DataSet& data = measured.implementation().data;
-  require_same_arm(model, data);
+  if (data.robot.chain.size() != model.robot.chain.size())
+    throw InputError({data.file, 0}, data.robot.name, "has another number of joints than the model");
+  for (const MeasuredPose& pose : data.poses) {
+    if (!model.robot.tools.contains(pose.target))
+      throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
+  }
   const ErrorFigures figures = error_figures(model.robot, data, poses_of(data, to_pose_set(use)));
   return {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm};
 }

@@ -1,4 +1,4 @@
-#include "library/known_arm.hpp"
+#include "coordinator/known_arm.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,11 @@
-#include "library/local_islands.hpp"
+#include "library/local_evolver.hpp"
 
 #include <algorithm>
 #include <exception>
 #include <functional>
 #include <map>
 #include <thread>
+#include <utility>
 
 #include "evolution/island.hpp"
 
@@ -48,7 +49,7 @@ void for_each_index(std::size_t count, unsigned threads, const std::function<voi
 
 class LocalIslands {
  public:
-  LocalIslands(const Job& job, const std::vector<JointTraining>& trainings, const RoundTerms& terms)
+  LocalIslands(const Job& job, const std::vector<JointTraining>& trainings, const EvolutionTerms& terms)
       : archipelago_(archipelago_of(job.islands, trainings)) {
     GpParameters parameters = job.gp;
     parameters.number_generations = terms.generations;
@@ -96,13 +97,25 @@ class LocalIslands {
 
 }  // namespace
 
-std::vector<JointCandidates> evolve_locally(const Job& job, const std::vector<JointTraining>& trainings,
-                                            const RoundTerms& terms, unsigned threads) {
-  LocalIslands islands(job, trainings, terms);
-  islands.run(std::max(threads, 1U));
-  std::vector<JointCandidates> candidates;
-  for (const JointTraining& training : trainings) candidates.push_back({training, islands.front(training.joint)});
-  return candidates;
+LocalEvolver::LocalEvolver(const Job& job, unsigned threads, std::function<bool(const std::string&)> progress)
+    : job_(job), threads_(std::max(threads, 1U)), progress_(std::move(progress)) {}
+
+EvolvedJoints LocalEvolver::evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) {
+  LocalIslands islands(job_, trainings, terms);
+  if (!interrupted_) islands.run(threads_);
+  EvolvedJoints evolved{.joints = {}, .is_complete = !interrupted_};
+  for (const JointTraining& training : trainings) evolved.joints.push_back({training, islands.front(training.joint)});
+  return evolved;
+}
+
+void LocalEvolver::announce(Purpose purpose) {
+  if (purpose == Purpose::corrections) say("evolving the joint corrections anew beside the effects");
+  if (purpose == Purpose::formulas) say("evolving formulas over all circumstances on what is left");
+  if (purpose == Purpose::null_distribution) say("the same search on permuted poses, to know what chance finds");
+}
+
+void LocalEvolver::say(const std::string& sentence) {
+  if (progress_ && !progress_(sentence)) interrupted_ = true;
 }
 
 }  // namespace demecal
