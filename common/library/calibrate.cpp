@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "calibration/prediction_scores.hpp"
 #include "config/load_job.hpp"
 #include "config/read_declared.hpp"
+#include "data/nearest_name.hpp"
 #include "errors/input_error.hpp"
 #include "library/conversion.hpp"
 #include "library/local_evolver.hpp"
@@ -15,11 +17,20 @@
 namespace demecal {
 namespace {
 
+DeclaredModel declared_model(const std::vector<std::string>& words) {
+  const std::vector<std::string> known = declared_words();
+  for (const std::string& word : words) {
+    if (std::ranges::find(known, word) == known.end())
+      throw InputError({}, word, "cannot be declared; the nearest that can is '" + nearest_name(word, known) + "'");
+  }
+  return declared_of(words);
+}
+
 Job to_job(const CalibrationSettings& settings) {
   Job job;
   if (!settings.job_file.empty()) job = load_job(settings.job_file);
   if (job.name.empty()) job.name = "library";
-  if (!settings.declared.empty()) job.declared = declared_of(settings.declared);
+  if (!settings.declared.empty()) job.declared = declared_model(settings.declared);
   if (settings.seed) job.seed = *settings.seed;
   if (settings.max_effects) job.closed_loop.max_effects = *settings.max_effects;
   if (job.method == Method::structural) {

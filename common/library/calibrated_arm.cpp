@@ -13,6 +13,7 @@
 #include "programs/correct_program.hpp"
 #include "programs/mark.hpp"
 #include "programs/read_program.hpp"
+#include "programs/summary.hpp"
 
 namespace demecal {
 namespace {
@@ -113,7 +114,8 @@ std::string CalibratedArm::correction(int joint) const {
   const std::vector<JointCorrection>& corrections = implementation_->model.robot.corrections;
   if (joint < 1 || joint > std::ssize(corrections))
     throw InputError({}, std::to_string(joint), "is no joint of this arm; joints count from 1");
-  return to_text(corrections[static_cast<std::size_t>(joint) - 1].formula());
+  const JointCorrection& correction = corrections[static_cast<std::size_t>(joint) - 1];
+  return correction.is_neutral() ? "0" : to_text(correction.formula());
 }
 
 }  // namespace demecal

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <iterator>
 #include <string>
 #include <utility>
 

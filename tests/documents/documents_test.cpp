@@ -193,6 +193,18 @@ TEST(Documents, LinkOnlyToWhatIsThere) {
   }
 }
 
+TEST(Documents, ArchitectureNamesFilesThatAreThereAndEveryRoom) {
+  const std::string text = text_of_file(kRoot / "docs/ARCHITECTURE.md");
+  const std::regex header("`([a-z_]+/[a-z_]+\\.hpp)`");
+  for (std::sregex_iterator match(text.begin(), text.end(), header), end; match != end; ++match)
+    EXPECT_TRUE(std::filesystem::exists(kRoot / "common" / (*match)[1].str())) << (*match)[1].str();
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot / "common")) {
+    if (!entry.is_directory()) continue;
+    const std::string room = entry.path().filename().string();
+    EXPECT_NE(text.find("\n| `" + room + "` |"), std::string::npos) << "its room map lacks " << room;
+  }
+}
+
 TEST(ShownCommands, AreTheLinesOfShellBlocksWithoutComments) {
   const std::string text = "`demecal report DIR`\n```sh\ndemecal report DIR  # again\n```\n```\nan output\n```\n";
   const std::vector<ShownCommand> shown = shown_commands("a.md", text);
