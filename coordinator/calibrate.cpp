@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "calibration/closed_calibration.hpp"
+#include "calibration/distal_learning.hpp"
 #include "calibration/function_stages.hpp"
 #include "calibration/model_posterior.hpp"
 #include "calibration/prediction_scores.hpp"
-#include "coordinator/distal_learning.hpp"
 #include "coordinator/evolutions.hpp"
 #include "coordinator/loop_display.hpp"
 #include "coordinator/structural_learning.hpp"
@@ -17,10 +17,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string to_string(Sought sought, int luck) {
-  if (sought == Sought::corrections) return "evolving the joint corrections anew beside the effects";
-  if (sought == Sought::formulas) return "evolving formulas over all circumstances on what is left";
-  return "the same search on permuted poses, to know what luck finds: number " + std::to_string(luck);
+/// `search`: of the searches for the null distribution, which this is, from 1.
+std::string to_string(Purpose purpose, int search) {
+  if (purpose == Purpose::corrections) return "evolving the joint corrections anew beside the effects";
+  if (purpose == Purpose::formulas) return "evolving formulas over all circumstances on what is left";
+  return "the same search on permuted poses, to know what chance finds: number " + std::to_string(search);
 }
 
 /// Whether the corrections are evolved by workers, and not in this process.
@@ -35,18 +36,56 @@ std::string to_string(const std::vector<SharedFunction>& functions) {
   return words;
 }
 
+/// The islands' evolutions, with words for people about what each is for.
+class AnnouncedEvolver final : public Evolver {
+ public:
+  AnnouncedEvolver(Evolutions& evolutions, LoopDisplay& display) : evolutions_(evolutions), display_(display) {}
+
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
+    EvolvedJoints evolved = evolutions_.evolve(trainings, terms);
+    if (evolutions_.end() == RunEnd::no_worker) display_.say("no worker is left: the loop's own corrections are kept");
+    return evolved;
+  }
+  void announce(Purpose purpose) override {
+    if (purpose == Purpose::null_distribution) ++null_searches_;
+    display_.say(to_string(purpose, null_searches_));
+  }
+  bool is_interrupted() const override { return evolutions_.is_interrupted(); }
+  void add_effort(std::uint32_t generations, std::uint64_t evaluations) override {
+    evolutions_.add_effort(generations, evaluations);
+  }
+
+ private:
+  Evolutions& evolutions_;
+  LoopDisplay& display_;
+  int null_searches_ = 0;
+};
+
+/// Stages of evolution, each but the first with words for people about the functions it has.
+class StagedEvolver final : public Evolver {
+ public:
+  StagedEvolver(Evolver& evolver, LoopDisplay& display) : evolver_(evolver), display_(display) {}
+
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
+    if (!std::exchange(first_, false)) display_.say(to_string(terms.functions));
+    return evolver_.evolve(trainings, terms);
+  }
+
+ private:
+  Evolver& evolver_;
+  LoopDisplay& display_;
+  bool first_ = true;
+};
+
 /// In stages where joints are to share functions.
 std::vector<JointCandidates> learn_directly(const DataSet& data, const Job& job, Evolutions& evolutions,
                                             const CalibrateOptions& options, CalibrateResult& result) {
   const std::vector<JointTraining>& training = result.preparation.training;
-  if (job.corrections.sharing.functions == 0) return evolutions.run(training);
+  if (job.corrections.sharing.functions == 0)
+    return evolutions.evolve(training, {job.seed, job.gp.number_generations}).joints;
   LoopDisplay display(stderr, data.robot, options.quiet);
-  bool first = true;
-  const auto evolve = [&](const std::vector<JointTraining>& of_stage, const RoundTerms& terms) {
-    if (!std::exchange(first, false)) display.say(to_string(terms.functions));
-    return evolutions.run(of_stage, terms);
-  };
-  StagedOutcome outcome = learn_in_stages(training, job, evolve, [&] { return evolutions.end() == RunEnd::finished; });
+  StagedEvolver evolver(evolutions, display);
+  StagedOutcome outcome = learn_in_stages(training, job, evolver);
   result.functions = std::move(outcome.functions);
   return std::move(outcome.candidates);
 }
@@ -70,25 +109,9 @@ void close_the_loop(const DataSet& data, const Job& job, Evolutions& evolutions,
     if (options.chronicle != nullptr) options.chronicle->round_ends(round, data.robot);
     return !interrupt;
   };
-  int lucky = 0;
-  const Evolve evolve = [&](const std::vector<JointTraining>& training, Sought sought) {
-    display.say(to_string(sought, sought == Sought::luck ? ++lucky : 0));
-    RoundTerms terms{job.seed, job.gp.number_generations};
-    if (sought == Sought::corrections && result.functions) terms.functions = *result.functions;
-    std::optional<std::vector<JointCandidates>> candidates = evolutions.run(training, terms, sought != Sought::luck);
-    if (evolutions.end() == RunEnd::no_worker) display.say("no worker is left: the loop's own corrections are kept");
-    if (evolutions.end() != RunEnd::finished) candidates.reset();
-    return candidates;
-  };
-  LearnCorrections distally = [&](const Preparation& of) -> std::optional<std::vector<JointCandidates>> {
-    display.say(to_string(Sought::corrections, 0));
-    DistalOutcome outcome = learn_distally(data, job, of, evolutions, result.functions);
-    if (evolutions.end() != RunEnd::finished) return std::nullopt;
-    return std::move(outcome.candidates);
-  };
-  if (job.method != Method::distal) distally = nullptr;
+  AnnouncedEvolver evolver(evolutions, display);
   ClosedCalibration closed =
-      close_calibration(data, job, result.preparation, result.calibration, evolve, watch, distally);
+      close_calibration(data, job, result.preparation, result.calibration, evolver, watch, result.functions);
   result.before = std::move(closed.before);
   result.calibration = std::move(closed.calibration);
   result.loop = std::move(closed.loop);

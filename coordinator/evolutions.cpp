@@ -13,8 +13,8 @@ namespace {
 constexpr std::chrono::milliseconds kParting{2000};
 
 /// Without a run's number yet.
-CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings, const RoundTerms& terms,
-                                 bool asynchronous) {
+CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings,
+                                 const EvolutionTerms& terms, bool asynchronous) {
   CalibrationData data;
   data.job = job.name;
   data.seed = terms.seed;
@@ -100,18 +100,14 @@ Control::State state_told(RunEnd end) {
 
 }  // namespace
 
-std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training, bool shown) {
-  return run(training, {job_.seed, job_.gp.number_generations}, shown);
-}
-
-std::vector<JointCandidates> Evolutions::run(const std::vector<JointTraining>& training, const RoundTerms& terms,
-                                             bool shown) {
-  if (training.empty()) return {};
-  RunState state = start_of(believable(calibration_data(job_, training, terms, options_.asynchronous)));
-  RunResult result = state.all_finished() ? state.result(RunEnd::finished) : evolve(std::move(state), shown);
-  std::vector<JointCandidates> candidates = candidates_of(training, result);
+EvolvedJoints Evolutions::evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) {
+  if (trainings.empty()) return {{}, end_ == RunEnd::finished};
+  const bool shown = terms.purpose != Purpose::null_distribution;
+  RunState state = start_of(believable(calibration_data(job_, trainings, terms, options_.asynchronous)));
+  RunResult result = state.all_finished() ? state.result(RunEnd::finished) : run(std::move(state), shown);
+  EvolvedJoints evolved{candidates_of(trainings, result), result.end == RunEnd::finished};
   note(result, terms.generations, shown);
-  return candidates;
+  return evolved;
 }
 
 RunState Evolutions::start_of(const CalibrationData& data) {
@@ -121,7 +117,7 @@ RunState Evolutions::start_of(const CalibrationData& data) {
 }
 
 /// Goes on from the state as a new run: workers may still be at the one that it comes from, which is over.
-RunResult Evolutions::evolve(RunState state, bool shown) {
+RunResult Evolutions::run(RunState state, bool shown) {
   while (true) {
     RunResult result = attempt(state, shown);
     if (result.end != RunEnd::stuck) return result;
@@ -175,7 +171,7 @@ void Evolutions::let_go() {
   if (options_.chronicle != nullptr) options_.chronicle->fleet_ends();
 }
 
-void Evolutions::note_own(std::uint32_t generations, std::uint64_t evaluations) {
+void Evolutions::add_effort(std::uint32_t generations, std::uint64_t evaluations) {
   end_ = interrupt_ ? RunEnd::interrupted : RunEnd::finished;
   facts_.generations += generations;
   facts_.evaluations += evaluations;

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/distal_rounds.hpp"
-#include "calibration/selection.hpp"
+#include "calibration/evolver.hpp"
 #include "coordinator/calibrate.hpp"
 
 namespace demecal {
@@ -18,25 +17,21 @@ namespace demecal {
 /// The evolutions of one calibration, each a run of its own. One fleet serves them all: its workers know each other,
 /// and begin with the next run at once. One that the journal tells the end of is not run again; one that it tells the
 /// beginning of goes on from there. A run that is stuck is begun anew, on another fleet.
-class Evolutions {
+class Evolutions final : public Evolver {
  public:
   Evolutions(const Job& job, const std::function<std::unique_ptr<Fleet>()>& make_fleet,
              const std::atomic<bool>& interrupt, const CalibrateOptions& options)
       : job_(job), make_fleet_(make_fleet), interrupt_(interrupt), options_(options) {}
 
-  /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. `shown`: to
-  /// people, in a display and the history.
-  std::vector<JointCandidates> run(const std::vector<JointTraining>& training, bool shown = true);
-  /// The same with a seed and a number of generations of its own.
-  std::vector<JointCandidates> run(const std::vector<JointTraining>& training, const RoundTerms& terms,
-                                   bool shown = true);
+  /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. All but searches
+  /// for the null distribution are shown to people, in a display and the history.
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override;
+  bool is_interrupted() const override { return interrupt_; }
+  void add_effort(std::uint32_t generations, std::uint64_t evaluations) override;
   /// Has the fleet's workers start before anything is to be evolved: they take their time to come.
   void gather();
   /// Lets the fleet go. It serves no more: another would be made.
   void dismiss();
-  /// Counts what this process evolved itself.
-  void note_own(std::uint32_t generations, std::uint64_t evaluations);
-  bool is_interrupted() const { return interrupt_; }
   RunEnd end() const { return end_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
@@ -46,7 +41,7 @@ class Evolutions {
 
  private:
   RunState start_of(const CalibrationData& data);
-  RunResult evolve(RunState state, bool shown);
+  RunResult run(RunState state, bool shown);
   RunResult attempt(RunState& state, bool shown);
   void note(RunResult& result, int generations, bool shown);
   void let_go();

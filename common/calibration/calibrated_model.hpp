@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibration/calibration.hpp"
-#include "calibration/round_terms.hpp"
+#include "calibration/evolver.hpp"
 #include "fitting/posterior.hpp"
 
 namespace demecal {

@@ -1,6 +1,7 @@
 #include "calibration/closed_calibration.hpp"
 
 #include "calibration/closing.hpp"
+#include "calibration/distal_learning.hpp"
 #include "calibration/formula_choice.hpp"
 #include "calibration/formula_search.hpp"
 #include "calibration/last_fit.hpp"
@@ -16,25 +17,29 @@ constexpr int kSteps = 12;  ///< of Gauss and Newton
 
 class Passes {
  public:
-  Passes(const DataSet& data, const Job& job, const Preparation& preparation, const Calibration& first)
+  Passes(const DataSet& data, const Job& job, const Preparation& preparation, const Calibration& first,
+         Evolver& evolver, const KnownFunctions& known)
       : data_(data),
         job_(job),
+        evolver_(evolver),
+        known_(known),
         preparation_(preparation),
         first_(first),
         deciding_(deciding_poses(data)),
         closed_{first.robot, first, {}} {}
 
-  ClosedCalibration run(const Evolve& evolve, const RoundWatcher& watch, const LearnCorrections& learn);
+  ClosedCalibration run(const RoundWatcher& watch);
 
  private:
   void keep(DiagnosedModel model);
   bool look(const RoundWatcher& watch);
   Fit start_from(const CorrectedRobot& robot) const;
   LoopResult loop_from(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
-  void look_for_formulas(const Evolve& evolve, const RoundWatcher& watch);
+  void look_for_formulas(const RoundWatcher& watch);
   void settle(const DiagnosisData& of, DiagnosedModel& model) const;
   std::vector<Candidate> library() const;
-  bool evolve_anew(const LearnCorrections& learn);
+  EvolvedJoints learn(const Preparation& preparation);
+  bool evolve_anew();
   void fit_at_last();
   bool is_better(const CorrectedRobot& robot) const;
   bool may_look_again() const {
@@ -44,6 +49,8 @@ class Passes {
 
   const DataSet& data_;
   const Job& job_;
+  Evolver& evolver_;
+  const KnownFunctions& known_;
   const Preparation& preparation_;
   const Calibration& first_;
   std::vector<std::size_t> deciding_;
@@ -100,19 +107,31 @@ bool Passes::look(const RoundWatcher& watch) {
   return added && !stopped_;
 }
 
+/// Candidates for the joint corrections, by the job's method.
+EvolvedJoints Passes::learn(const Preparation& preparation) {
+  evolver_.announce(Purpose::corrections);
+  if (job_.method != Method::distal) {
+    return evolver_.evolve(preparation.training, {.seed = job_.seed,
+                                                  .generations = job_.gp.number_generations,
+                                                  .functions = known_.value_or(std::vector<SharedFunction>{})});
+  }
+  DistalOutcome outcome = learn_distally(data_, job_, preparation, evolver_, known_);
+  return {std::move(outcome.candidates), outcome.is_complete};
+}
+
 /// Whether the model with the corrections evolved anew is the better one, and kept.
-bool Passes::evolve_anew(const LearnCorrections& learn) {
+bool Passes::evolve_anew() {
   const CorrectedRobot& present = closed_.calibration.robot;
   const Preparation again = prepare_again(data_, preparation_, present);
   if (again.training.empty()) return false;
-  auto candidates = learn(again);
-  if (!candidates) return false;
-  for (JointCandidates& joint : *candidates) {
+  EvolvedJoints candidates = learn(again);
+  if (!candidates.is_complete) return false;
+  for (JointCandidates& joint : candidates.joints) {
     const std::size_t at = joint.training.joint;
     joint.others.push_back(present.corrections[at]);
     joint.others.push_back(first_.robot.corrections[at]);
   }
-  Calibration evolved = conclude(data_, job_, again, *candidates);
+  Calibration evolved = conclude(data_, job_, again, candidates.joints);
   count_from(first_, evolved);
   if (!is_better(evolved.robot)) return false;
   closed_.calibration = std::move(evolved);
@@ -154,13 +173,14 @@ void Passes::settle(const DiagnosisData& of, DiagnosedModel& model) const {
 
 /// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
 /// begins there. Its model is kept where it is the better description.
-void Passes::look_for_formulas(const Evolve& evolve, const RoundWatcher& watch) {
+void Passes::look_for_formulas(const RoundWatcher& watch) {
   const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration),
                          poses_of(data_, PoseSet::validation)};
   const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
   const DiagnosedModel model = refined(of, diagnosed_model(of, start_from(bare)), kSteps);
-  FormulaSearch search = search_formulas(of, model, evolve, job_.closed_loop.family_error,
-                                         RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
+  FormulaSearch search =
+      search_formulas(of, model, evolver_, {job_.seed, job_.gp.number_generations}, job_.closed_loop.family_error,
+                      RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
   if (search.formulas.empty()) return;
   std::vector<Candidate> candidates = library();
   candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());
@@ -175,10 +195,10 @@ void Passes::look_for_formulas(const Evolve& evolve, const RoundWatcher& watch) 
   keep(std::move(found.model));
 }
 
-ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch, const LearnCorrections& learn) {
-  while (look(watch) && job_.declared.joint_corrections && evolve_anew(learn) && may_look_again()) ++pass_;
+ClosedCalibration Passes::run(const RoundWatcher& watch) {
+  while (look(watch) && job_.declared.joint_corrections && evolve_anew() && may_look_again()) ++pass_;
   const bool asked = asks_for_formulas(closed_.loop, closed_.calibration.robot, job_.closed_loop);
-  if (asked && !stopped_) look_for_formulas(evolve, watch);
+  if (asked && !stopped_) look_for_formulas(watch);
   tell_of(closed_.loop, closed_.calibration.robot, data_.robot);
   if (!added_any(closed_.loop)) closed_.before = closed_.calibration.robot;
   fit_at_last();
@@ -188,10 +208,9 @@ ClosedCalibration Passes::run(const Evolve& evolve, const RoundWatcher& watch, c
 }  // namespace
 
 ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
-                                    const Calibration& first, const Evolve& evolve, const RoundWatcher& watch,
-                                    const LearnCorrections& learn) {
-  const LearnCorrections directly = [&](const Preparation& of) { return evolve(of.training, Sought::corrections); };
-  return Passes(data, job, preparation, first).run(evolve, watch, learn ? learn : directly);
+                                    const Calibration& first, Evolver& evolver, const RoundWatcher& watch,
+                                    const KnownFunctions& known) {
+  return Passes(data, job, preparation, first, evolver, known).run(watch);
 }
 
 }  // namespace demecal

@@ -31,12 +31,12 @@ class Rounds {
     trees_.resize(trainings_.size());
   }
 
-  DistalOutcome run(const EvolveRound& evolve);
+  DistalOutcome run(Evolver& evolver);
 
  private:
   void prepare();
   std::vector<Tree> seeds_of(std::size_t i) const;
-  bool round(const EvolveRound& evolve, RoundTerms terms);
+  bool round(Evolver& evolver, EvolutionTerms terms);
 
   const DistalIndex& index_;
   const Job& job_;
@@ -72,25 +72,26 @@ void Rounds::prepare() {
 }
 
 /// Whether it was evolved to the end. Where no joint gains, one may in the next, whose populations are others.
-bool Rounds::round(const EvolveRound& evolve, RoundTerms terms) {
+bool Rounds::round(Evolver& evolver, EvolutionTerms terms) {
   prepare();
   if (seeks_functions_) outcome_.functions = next_functions_;
   terms.functions = outcome_.functions;
-  const auto candidates = evolve(trainings_, terms);
-  if (!candidates) return false;
+  const EvolvedJoints evolved = evolver.evolve(trainings_, terms);
+  outcome_.is_complete = evolved.is_complete;
+  if (!evolved.is_complete) return false;
   generation_ += static_cast<std::uint32_t>(terms.generations);
-  for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of((*candidates)[i].front);
-  if (seeks_functions_) next_functions_ = shared_functions(*candidates, job_.corrections.sharing);
+  for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of(evolved.joints[i].front);
+  if (seeks_functions_) next_functions_ = shared_functions(evolved.joints, job_.corrections.sharing);
   const Amplitudes amplitudes = job_.distal.amplitudes.value_or(Amplitudes::fitted);
-  take_candidates(index_, *candidates, amplitudes, generation_, outcome_);
+  take_candidates(index_, evolved.joints, amplitudes, generation_, outcome_);
   follow_amplitudes(outcome_.robot, trainings_);
   return true;
 }
 
-DistalOutcome Rounds::run(const EvolveRound& evolve) {
+DistalOutcome Rounds::run(Evolver& evolver) {
   const int rounds = std::min(job_.distal.rounds, job_.gp.number_generations), all = job_.gp.number_generations;
   for (int number = 0; number < rounds && !trainings_.empty(); ++number) {
-    if (!round(evolve, terms_of_round(job_.seed, all, rounds, number))) break;
+    if (!round(evolver, terms_of_round(job_.seed, all, rounds, number))) break;
   }
   offer_for_choice(index_, trainings_, trees_, outcome_);
   return std::move(outcome_);
@@ -99,8 +100,8 @@ DistalOutcome Rounds::run(const EvolveRound& evolve) {
 }  // namespace
 
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
-                              const EvolveRound& evolve, const KnownFunctions& known) {
-  return Rounds(index, preparation, job, known).run(evolve);
+                              Evolver& evolver, const KnownFunctions& known) {
+  return Rounds(index, preparation, job, known).run(evolver);
 }
 
 void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,

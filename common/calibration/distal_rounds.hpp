@@ -2,27 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "calibration/calibration.hpp"
 #include "calibration/distal_steps.hpp"
-#include "calibration/round_terms.hpp"
+#include "calibration/evolver.hpp"
 
 namespace demecal {
-
-/// Evolves candidates for every joint of a training; nothing where that could not be done to the end.
-using EvolveRound =
-    std::function<std::optional<std::vector<JointCandidates>>(const std::vector<JointTraining>&, const RoundTerms&)>;
 
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
 /// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
 /// of the round before; then the model takes candidates (see take_candidates), so that its exact index never rises.
 /// Ends with the rounds, or where evolution is cut off. Where the job has joints share functions, these are the known
-/// ones or, without any such list, found anew after every round. A function of data, job and what `evolve` finds.
+/// ones or, without any such list, found anew after every round. A function of data, job and what `evolver` finds.
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
-                              const EvolveRound& evolve, const KnownFunctions& known = std::nullopt);
+                              Evolver& evolver, const KnownFunctions& known = std::nullopt);
 
 /// The outcome's candidates: of every training's joint what is best of each length among `trees`, by the table against
 /// what the final model leaves, and the model's own correction.

@@ -27,6 +27,7 @@ struct DistalOutcome {
   std::vector<DistalStep> steps{};            ///< of falling index; those taken together have the same
   std::vector<JointCandidates> candidates{};  ///< for conclude(): the last fronts, and the model's own corrections
   std::vector<SharedFunction> functions{};    ///< that joints shared in the last round
+  bool is_complete = true;                    ///< false: learning was cut off
 };
 
 /// The table of `like`'s joint against what all corrections leave: the squared rows of a pose are, as far as they are

@@ -27,42 +27,45 @@ std::vector<JointTraining> training_of(const std::vector<FormulaTable>& tables) 
 
 class Search {
  public:
-  Search(const DiagnosisData& of, const DiagnosedModel& model, const Evolve& evolve)
-      : of_(of), evolve_(evolve), at_(linearise(of, model)) {}
+  Search(const DiagnosisData& of, const DiagnosedModel& model, Evolver& evolver, EvolutionTerms terms)
+      : of_(of), evolver_(evolver), terms_(std::move(terms)), at_(linearise(of, model)) {}
 
-  FormulaSearch run(double family_error, RandomStream random) const;
+  FormulaSearch run(double family_error, RandomStream random);
 
  private:
-  Found found_in(const Eigen::VectorXd& left, Sought sought) const;
+  Found found_in(const Eigen::VectorXd& left, Purpose purpose);
 
   const DiagnosisData& of_;
-  const Evolve& evolve_;
+  Evolver& evolver_;
+  EvolutionTerms terms_;
   Linearised at_;
 };
 
 /// What evolution makes of such a residual, the best description first.
-Found Search::found_in(const Eigen::VectorXd& left, Sought sought) const {
+Found Search::found_in(const Eigen::VectorXd& left, Purpose purpose) {
   const std::vector<FormulaTable> tables = formula_tables(of_, at_, left);
-  const auto fronts = evolve_(training_of(tables), sought);
-  if (!fronts) return std::nullopt;
+  terms_.purpose = purpose;
+  evolver_.announce(purpose);
+  const EvolvedJoints evolved = evolver_.evolve(training_of(tables), terms_);
+  if (!evolved.is_complete) return std::nullopt;
   std::vector<PricedFormula> all;
-  for (std::size_t i = 0; i < fronts->size(); ++i) {
+  for (std::size_t i = 0; i < evolved.joints.size(); ++i) {
     FormulaMisfit misfit(tables[i].table.variables, at_, tables[i].joint, left);
-    std::ranges::move(formula_candidates(tables[i], (*fronts)[i].front, misfit, tables.size(), kMostPerJoint),
+    std::ranges::move(formula_candidates(tables[i], evolved.joints[i].front, misfit, tables.size(), kMostPerJoint),
                       std::back_inserter(all));
   }
   std::ranges::stable_sort(all, std::greater{}, &PricedFormula::fall_nats);
   return all;
 }
 
-FormulaSearch Search::run(double family_error, RandomStream random) const {
-  const Found found = found_in(at_.projection.left(), Sought::formulas);
+FormulaSearch Search::run(double family_error, RandomStream random) {
+  const Found found = found_in(at_.projection.left(), Purpose::formulas);
   if (!found || found->empty() || found->front().fall_nats <= 0.0) return {};
   FormulaSearch result;
   const NullNoise noise(at_.fitted, at_.projection);
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.luck_nats.size() + 1 < searches) {
-    const Found luck = found_in(noise.left(random), Sought::luck);
+    const Found luck = found_in(noise.left(random), Purpose::null_distribution);
     if (!luck) return {};
     const double fall_nats = luck->empty() ? 0.0 : std::max(0.0, luck->front().fall_nats);
     if (fall_nats >= found->front().fall_nats) return {};
@@ -76,9 +79,9 @@ FormulaSearch Search::run(double family_error, RandomStream random) const {
 
 }  // namespace
 
-FormulaSearch search_formulas(const DiagnosisData& of, const DiagnosedModel& model, const Evolve& evolve,
-                              double family_error, RandomStream random) {
-  return Search(of, model, evolve).run(family_error, random);
+FormulaSearch search_formulas(const DiagnosisData& of, const DiagnosedModel& model, Evolver& evolver,
+                              EvolutionTerms terms, double family_error, RandomStream random) {
+  return Search(of, model, evolver, std::move(terms)).run(family_error, random);
 }
 
 }  // namespace demecal

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "calibration/evolve.hpp"
+#include "calibration/evolver.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/diagnosed_model.hpp"
 
@@ -18,8 +18,9 @@ struct FormulaSearch {
 /// residuals dealt out anew among the poses (Freedman and Lane, 1983): as often as a p-value of `family_error` takes,
 /// 19 times for 0.05. Found are formulas whose fall in description length is beyond that of every such search: with its
 /// own counted in, theirs is the only one of so many. Nothing is permuted where no formula shortens the description,
-/// and nothing is found where evolution is cut off. `family_error` is below 0.5.
-FormulaSearch search_formulas(const DiagnosisData& of, const DiagnosedModel& model, const Evolve& evolve,
-                              double family_error, RandomStream random);
+/// and nothing is found where evolution is cut off. `terms` are those of every search but for its purpose.
+/// `family_error` is below 0.5.
+FormulaSearch search_formulas(const DiagnosisData& of, const DiagnosedModel& model, Evolver& evolver,
+                              EvolutionTerms terms, double family_error, RandomStream random);
 
 }  // namespace demecal

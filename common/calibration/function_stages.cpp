@@ -69,8 +69,7 @@ std::vector<SharedFunction> shared_functions(std::span<const JointCandidates> ca
   return find_shared_functions(formulas, static_cast<std::size_t>(options.functions));
 }
 
-StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const Job& job, const EvolveStage& evolve,
-                              const std::function<bool()>& goes_on) {
+StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const Job& job, Evolver& evolver) {
   const int stages = std::min(job.corrections.sharing.stages, job.gp.number_generations);
   StagedOutcome outcome;
   std::vector<JointTraining> present = training;
@@ -80,10 +79,11 @@ StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const 
       for (std::size_t i = 0; i < present.size(); ++i)
         present[i].table.seeds = heirs_of(outcome.candidates[i].front, job);
     }
-    RoundTerms terms = terms_of_round(job.seed, job.gp.number_generations, stages, stage);
+    EvolutionTerms terms = terms_of_round(job.seed, job.gp.number_generations, stages, stage);
     terms.functions = outcome.functions;
-    gather_best(evolve(present, terms), outcome.candidates);
-    if (!goes_on()) break;
+    EvolvedJoints evolved = evolver.evolve(present, terms);
+    gather_best(std::move(evolved.joints), outcome.candidates);
+    if (!evolved.is_complete) break;
   }
   return outcome;
 }

@@ -2,13 +2,11 @@
 // joints' good formulas have in common.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
-#include "calibration/round_terms.hpp"
-#include "calibration/selection.hpp"
 
 namespace demecal {
 
@@ -26,13 +24,10 @@ struct StagedOutcome {
   std::vector<SharedFunction> functions;    ///< that the last stage had
 };
 
-/// Evolves candidates for every joint of a training: those that the islands found, or had reached.
-using EvolveStage = std::function<std::vector<JointCandidates>(const std::vector<JointTraining>&, const RoundTerms&)>;
-
 /// Evolves in as many stages as the job says, of equally many generations. The first is as if there were no others; in
 /// each that follows calls of functions may stand in what is made at random, and first populations hold the fittest of
-/// the joint's front. Ends early where `goes_on` says so. A function of training, job and what `evolve` finds.
-StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const Job& job, const EvolveStage& evolve,
-                              const std::function<bool()>& goes_on);
+/// the joint's front. Ends with what was reached where evolution is cut off. A function of training, job and what
+/// `evolver` finds.
+StagedOutcome learn_in_stages(const std::vector<JointTraining>& training, const Job& job, Evolver& evolver);
 
 }  // namespace demecal

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "calibration/round_terms.hpp"
+#include "calibration/evolver.hpp"
 #include "effects/corrected_robot.hpp"
 #include "expression/folded_formula.hpp"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "calibration/loop_passes.hpp"
+#include "island_evolution.hpp"
 #include "lacking_arm.hpp"
 
 namespace demecal {
@@ -14,16 +15,12 @@ namespace {
 constexpr double kWidth_rad = 6e-4;
 
 /// No evolution: what the islands would find is what the test gives them.
-std::vector<JointCandidates> find_nothing(const std::vector<JointTraining>& training, Sought = {}) {
-  std::vector<JointCandidates> candidates;
-  for (const JointTraining& joint : training) candidates.push_back({joint, {}});
-  return candidates;
-}
-
-ClosedCalibration closed_for(const DataSet& data, const Job& job, const Evolve& evolve = find_nothing) {
+ClosedCalibration closed_for(const DataSet& data, const Job& job,
+                             const EvolverFunction::Function& evolve = nothing_evolved) {
   const Preparation preparation = prepare(data, job);
-  const Calibration first = conclude(data, job, preparation, find_nothing(preparation.training));
-  return close_calibration(data, job, preparation, first, evolve, {});
+  const Calibration first = conclude(data, job, preparation, nothing_evolved(preparation.training).joints);
+  EvolverFunction evolver(evolve);
+  return close_calibration(data, job, preparation, first, evolver, {});
 }
 
 double accept_like_rms(const CorrectedRobot& robot, const DataSet& data) {
@@ -70,16 +67,16 @@ TEST(ClosedCalibration, LeavesAnArmThatLacksNothingAsItIs) {
 TEST(ClosedCalibration, EvolvesAnewBesideTheEffects) {
   const DataSet data = lacking_arm(kWidth_rad, 3);
   int evolutions = 0;
-  const Evolve evolve = [&](const std::vector<JointTraining>& training, Sought) {
+  const auto evolve = [&](const std::vector<JointTraining>& training, const EvolutionTerms&) {
     ++evolutions;
-    std::vector<JointCandidates> candidates = find_nothing(training);
-    for (JointCandidates& joint : candidates) {
+    EvolvedJoints evolved = nothing_evolved(training);
+    for (JointCandidates& joint : evolved.joints) {
       const char* text = joint.training.joint == 0 ? "0.0008*SIN(theta)" : "0.0006*COS(theta)";
       const Tree scale = constant_tree(1.0 / joint.training.scale_rad);
       if (joint.training.joint == 0 || joint.training.joint == 2)
         joint.front.push_back({apply(Primitive::multiply, scale, parse(text)), 0.0});
     }
-    return candidates;
+    return evolved;
   };
   const ClosedCalibration closed = closed_for(data, looping_job(), evolve);
   EXPECT_GE(evolutions, 1);
@@ -90,8 +87,9 @@ TEST(ClosedCalibration, EvolvesAnewBesideTheEffects) {
 
 TEST(ClosedCalibration, KeepsTheLoopsModelWhereEvolutionIsCutOff) {
   const DataSet data = lacking_arm(kWidth_rad, 4);
-  const ClosedCalibration closed = closed_for(
-      data, looping_job(), [](const auto&, Sought) { return std::optional<std::vector<JointCandidates>>{}; });
+  const ClosedCalibration closed = closed_for(data, looping_job(), [](const auto&, const EvolutionTerms&) {
+    return EvolvedJoints{{}, false};
+  });
   EXPECT_NE(found_backlash(closed.calibration.robot), nullptr);
 }
 
@@ -99,15 +97,14 @@ TEST(ClosedCalibration, StopsWhenToldToAndKeepsWhatItHas) {
   const DataSet data = lacking_arm(kWidth_rad, 5);
   const Job job = looping_job();
   const Preparation preparation = prepare(data, job);
-  const Calibration first = conclude(data, job, preparation, find_nothing(preparation.training));
+  const Calibration first = conclude(data, job, preparation, nothing_evolved(preparation.training).joints);
   int told = 0, evolutions = 0;
-  const ClosedCalibration closed = close_calibration(
-      data, job, preparation, first,
-      [&](const auto& training, Sought) {
-        ++evolutions;
-        return find_nothing(training);
-      },
-      [&](const Round&) { return ++told < 1; });
+  EvolverFunction evolver([&](const auto& training, const EvolutionTerms&) {
+    ++evolutions;
+    return nothing_evolved(training);
+  });
+  const ClosedCalibration closed =
+      close_calibration(data, job, preparation, first, evolver, [&](const Round&) { return ++told < 1; });
   EXPECT_EQ(told, 1);
   EXPECT_EQ(evolutions, 0);
   EXPECT_EQ(closed.loop.rounds.size(), 1U);

@@ -10,16 +10,16 @@
 namespace demecal {
 namespace {
 
-EvolveRound in_this_thread(const Job& job) {
-  return [&job](const std::vector<JointTraining>& trainings, const RoundTerms& terms) {
+EvolverFunction in_this_thread(const Job& job) {
+  return EvolverFunction([&job](const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) {
     GpParameters parameters = job.gp;
     parameters.number_generations = terms.generations;
-    std::vector<JointCandidates> candidates;
+    EvolvedJoints evolved;
     for (const JointTraining& training : trainings) {
-      candidates.push_back({training, evolved_front(parameters, training, terms.seed)});
+      evolved.joints.push_back({training, evolved_front(parameters, training, terms.seed)});
     }
-    return std::optional(candidates);
-  };
+    return evolved;
+  });
 }
 
 class DistalLearning : public testing::TestWithParam<Measured> {
@@ -81,7 +81,8 @@ TEST_P(DistalLearning, TableOfAJointIsItsPartOfTheLinearisedIndex) {
 }
 
 TEST_P(DistalLearning, NeverRaisesTheIndexAndLowersIt) {
-  const DistalOutcome outcome = learn_in_rounds(index, preparation, job, in_this_thread(job));
+  EvolverFunction evolver = in_this_thread(job);
+  const DistalOutcome outcome = learn_in_rounds(index, preparation, job, evolver);
   const double before = index(preparation.declared.robot);
   double last = before;
   std::uint32_t generation = 0;
@@ -101,12 +102,9 @@ TEST_P(DistalLearning, NeverRaisesTheIndexAndLowersIt) {
 /// A round that brings nothing does not end the learning: the next may.
 TEST_P(DistalLearning, GoesOnToTheLastRound) {
   int rounds = 0;
-  const EvolveRound often_nothing = [&](const std::vector<JointTraining>& trainings, const RoundTerms& terms) {
-    if (++rounds % 2 == 0) return in_this_thread(job)(trainings, terms);
-    std::vector<JointCandidates> nothing;
-    for (const JointTraining& training : trainings) nothing.push_back({training, {}});
-    return std::optional(nothing);
-  };
+  EvolverFunction often_nothing([&](const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) {
+    return ++rounds % 2 == 0 ? in_this_thread(job).evolve(trainings, terms) : nothing_evolved(trainings);
+  });
   const DistalOutcome outcome = learn_in_rounds(index, preparation, job, often_nothing);
   EXPECT_EQ(rounds, job.distal.rounds);
   EXPECT_LT(outcome.index_mm2, 0.5 * index(preparation.declared.robot));

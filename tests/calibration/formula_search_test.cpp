@@ -40,8 +40,9 @@ struct Beginning {
     model = refined(of, diagnosed_model(of, start), 12);
   }
 
-  FormulaSearch search(const Evolve& evolve) const {
-    return search_formulas(of, model, evolve, job.closed_loop.family_error, RandomStream{job.seed, 9});
+  FormulaSearch search(EvolverFunction evolver) const {
+    return search_formulas(of, model, evolver, {job.seed, job.gp.number_generations}, job.closed_loop.family_error,
+                           RandomStream{job.seed, 9});
   }
 
   Job job = job_with_corrections();
@@ -76,11 +77,11 @@ Eigen::VectorXd formulas_at(const CorrectedRobot& robot, const DataSet& data, co
   return sum;
 }
 
-ClosedCalibration closed_with_search(const DataSet& data, const Job& job, const Evolve& evolve) {
+ClosedCalibration closed_with_search(const DataSet& data, const Job& job, EvolverFunction evolver) {
   const Preparation preparation = prepare(data, job);
   std::vector<JointCandidates> none;
   for (const JointTraining& training : preparation.training) none.push_back({training, {}});
-  return close_calibration(data, job, preparation, conclude(data, job, preparation, none), evolve, {});
+  return close_calibration(data, job, preparation, conclude(data, job, preparation, none), evolver, {});
 }
 
 TEST(EvolvedFormula, ComesBackAsAPersonWritesItInPlaceOfTheSumsThatImitateIt) {
@@ -112,12 +113,13 @@ TEST(EvolvedFormula, ComesBackAsAPersonWritesItInPlaceOfTheSumsThatImitateIt) {
 
 TEST(FormulaSearch, IsRunAgainOnEveryPermutation) {
   const Beginning beginning(formula_arm(kTruth, kPoses, 3));
-  const Evolve islands = island_evolution(beginning.job.gp, 5);
+  EvolverFunction islands = island_evolution(beginning.job.gp, 5);
   std::vector<std::vector<double>> targets;  // of joint 3
-  const FormulaSearch search = beginning.search([&](const std::vector<JointTraining>& trainings, Sought sought) {
-    targets.push_back(trainings[2].table.target);
-    return islands(trainings, sought);
-  });
+  const FormulaSearch search =
+      beginning.search(EvolverFunction([&](const auto& trainings, const EvolutionTerms& terms) {
+        targets.push_back(trainings[2].table.target);
+        return islands.evolve(trainings, terms);
+      }));
   ASSERT_EQ(search.luck_nats.size(), 19U);
   ASSERT_EQ(targets.size(), 20U);
   for (std::size_t i = 1; i < targets.size(); ++i) EXPECT_NE(targets[i], targets[i - 1]);
@@ -128,13 +130,14 @@ TEST(FormulaSearch, IsRunAgainOnEveryPermutation) {
 TEST(FormulaSearch, FindsNothingInWhatACleanArmLeaves) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Beginning beginning(formula_arm("", kPoses, seed));
-    const Evolve islands = island_evolution(beginning.job.gp, seed);
+    EvolverFunction islands = island_evolution(beginning.job.gp, seed);
     std::size_t evolved = 0;
-    const FormulaSearch search = beginning.search([&](const std::vector<JointTraining>& trainings, Sought sought) {
-      auto candidates = islands(trainings, sought);
-      for (const JointCandidates& joint : *candidates) evolved += joint.front.size();
-      return candidates;
-    });
+    const FormulaSearch search =
+        beginning.search(EvolverFunction([&](const auto& trainings, const EvolutionTerms& terms) {
+          EvolvedJoints found = islands.evolve(trainings, terms);
+          for (const JointCandidates& joint : found.joints) evolved += joint.front.size();
+          return found;
+        }));
     EXPECT_GT(evolved, 20U);
     EXPECT_TRUE(search.formulas.empty()) << to_text(search.formulas[0].effect.formula, symbolic_variables(puma()));
   }
@@ -142,12 +145,12 @@ TEST(FormulaSearch, FindsNothingInWhatACleanArmLeaves) {
 
 TEST(FormulaSearch, FindsNothingWhereEvolutionIsCutOff) {
   const Beginning beginning(formula_arm(kTruth, kPoses, 3));
-  const Evolve islands = island_evolution(beginning.job.gp, 5);
+  EvolverFunction islands = island_evolution(beginning.job.gp, 5);
   int evolutions = 0;
-  const FormulaSearch search = beginning.search(
-      [&](const std::vector<JointTraining>& trainings, Sought sought) -> std::optional<std::vector<JointCandidates>> {
-        return ++evolutions < 3 ? islands(trainings, sought) : std::nullopt;
-      });
+  const FormulaSearch search =
+      beginning.search(EvolverFunction([&](const auto& trainings, const EvolutionTerms& terms) {
+        return ++evolutions < 3 ? islands.evolve(trainings, terms) : EvolvedJoints{{}, false};
+      }));
   EXPECT_EQ(evolutions, 3);
   EXPECT_TRUE(search.formulas.empty());
 }

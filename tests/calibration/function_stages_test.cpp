@@ -46,25 +46,24 @@ Job sharing_job(int functions, int stages) {
   return job;
 }
 
-EvolveStage on_islands(const Job& job) {
-  return [job](const std::vector<JointTraining>& training, const RoundTerms& terms) {
+EvolverFunction on_islands(const Job& job) {
+  return EvolverFunction([job](const std::vector<JointTraining>& training, const EvolutionTerms& terms) {
     GpParameters parameters = job.gp;
     parameters.number_generations = terms.generations;
     parameters.shared_functions = terms.functions;
-    std::vector<JointCandidates> candidates;
+    EvolvedJoints evolved;
     for (const JointTraining& joint : training)
-      candidates.push_back({joint, evolved_front(parameters, joint, terms.seed)});
-    return candidates;
-  };
+      evolved.joints.push_back({joint, evolved_front(parameters, joint, terms.seed)});
+    return evolved;
+  });
 }
-
-const auto kGoesOn = [] { return true; };
 
 TEST(FunctionStages, FindTheStructureOfJointsWhoseErrorsShareIt) {
   const std::vector<JointTraining> training{waving_joint(0, 1.5, 2.0, 0.7), waving_joint(1, 0.8, 2.3, -0.4),
                                             waving_joint(3, 2.1, 1.7, 1.1)};
   const Job job = sharing_job(2, 3);
-  const StagedOutcome outcome = learn_in_stages(training, job, on_islands(job), kGoesOn);
+  EvolverFunction evolver = on_islands(job);
+  const StagedOutcome outcome = learn_in_stages(training, job, evolver);
   ASSERT_FALSE(outcome.functions.empty());
   EXPECT_LE(outcome.functions.size(), 2U);
   std::set<Tree, Precedes> bodies;
@@ -80,21 +79,23 @@ TEST(FunctionStages, FindTheStructureOfJointsWhoseErrorsShareIt) {
 
 /// What stages were given, in the place of islands that find the same formulas again and again.
 struct Told {
-  std::vector<RoundTerms> terms;
+  std::vector<EvolutionTerms> terms;
   std::vector<std::vector<Tree>> seeds;  ///< of the first joint
-  EvolveStage evolve = [this](const std::vector<JointTraining>& training, const RoundTerms& given) {
+  std::size_t cut_off_after = 1000;      ///< so many stages
+  EvolverFunction evolver{[this](const std::vector<JointTraining>& training, const EvolutionTerms& given) {
     terms.push_back(given);
     seeds.push_back(training.front().table.seeds);
-    std::vector<JointCandidates> candidates;
+    EvolvedJoints evolved{{}, terms.size() < cut_off_after};
     const double stage = static_cast<double>(terms.size());
     for (const JointTraining& joint : training) {
-      candidates.push_back({joint,
-                            {{parse("theta"), 9.0},
-                             {parse("0.3 * SIN(2 * theta + 0.5)"), 5.0 + stage},
-                             {parse("0.3 * SIN(2 * theta + 0.5) + TANH(0.1 * SIN(3 * theta + 0.2))"), 4.0 - stage}}});
+      evolved.joints.push_back(
+          {joint,
+           {{parse("theta"), 9.0},
+            {parse("0.3 * SIN(2 * theta + 0.5)"), 5.0 + stage},
+            {parse("0.3 * SIN(2 * theta + 0.5) + TANH(0.1 * SIN(3 * theta + 0.2))"), 4.0 - stage}}});
     }
-    return candidates;
-  };
+    return evolved;
+  }};
 };
 
 std::vector<JointTraining> two_joints() {
@@ -105,11 +106,11 @@ TEST(FunctionStages, DivideTheGenerationsAndDifferInTheirRandomNumbers) {
   for (const int stages : {2, 4, 7, 100}) {
     const Job job = sharing_job(2, stages);
     Told told;
-    learn_in_stages(two_joints(), job, told.evolve, kGoesOn);
+    learn_in_stages(two_joints(), job, told.evolver);
     ASSERT_EQ(told.terms.size(), static_cast<std::size_t>(std::min(stages, 45)));
     int generations = 0;
     std::set<std::uint64_t> seeds;
-    for (const RoundTerms& terms : told.terms) {
+    for (const EvolutionTerms& terms : told.terms) {
       generations += terms.generations;
       seeds.insert(terms.seed);
     }
@@ -124,7 +125,7 @@ TEST(FunctionStages, BeginAsTheJobSaysAndGoOnFromTheFrontWithFunctions) {
   std::vector<JointTraining> training = two_joints();
   training[0].table.seeds = {parse("COS(theta)")};
   Told told;
-  const StagedOutcome outcome = learn_in_stages(training, job, told.evolve, kGoesOn);
+  const StagedOutcome outcome = learn_in_stages(training, job, told.evolver);
   ASSERT_EQ(told.terms.size(), 3U);
   EXPECT_THAT(told.terms[0].functions, IsEmpty());
   EXPECT_EQ(told.seeds[0], training[0].table.seeds);
@@ -138,7 +139,7 @@ TEST(FunctionStages, BeginAsTheJobSaysAndGoOnFromTheFrontWithFunctions) {
 TEST(FunctionStages, KeepTheBestOfEachLengthOverAllStages) {
   const Job job = sharing_job(2, 3);
   Told told;
-  const StagedOutcome outcome = learn_in_stages(two_joints(), job, told.evolve, kGoesOn);
+  const StagedOutcome outcome = learn_in_stages(two_joints(), job, told.evolver);
   for (const JointCandidates& joint : outcome.candidates) {
     ASSERT_EQ(joint.front.size(), 3U);
     EXPECT_EQ(joint.front[1].fitness, 6.0);  // of the first stage
@@ -149,8 +150,8 @@ TEST(FunctionStages, KeepTheBestOfEachLengthOverAllStages) {
 TEST(FunctionStages, EndWithWhatWasReachedWhereTheyMayNotGoOn) {
   const Job job = sharing_job(2, 3);
   Told told;
-  const StagedOutcome outcome =
-      learn_in_stages(two_joints(), job, told.evolve, [&told] { return told.terms.size() < 2; });
+  told.cut_off_after = 2;
+  const StagedOutcome outcome = learn_in_stages(two_joints(), job, told.evolver);
   EXPECT_EQ(told.terms.size(), 2U);
   EXPECT_EQ(outcome.candidates.size(), 2U);
   EXPECT_EQ(outcome.functions, told.terms[1].functions);
@@ -159,7 +160,7 @@ TEST(FunctionStages, EndWithWhatWasReachedWhereTheyMayNotGoOn) {
 TEST(FunctionStages, OfOneJointShareNothingAndGoOn) {
   const Job job = sharing_job(2, 3);
   Told told;
-  const StagedOutcome outcome = learn_in_stages({waving_joint(0, 1.0, 2.0, 0.0)}, job, told.evolve, kGoesOn);
+  const StagedOutcome outcome = learn_in_stages({waving_joint(0, 1.0, 2.0, 0.0)}, job, told.evolver);
   EXPECT_EQ(told.terms.size(), 3U);
   EXPECT_THAT(outcome.functions, IsEmpty());
 }

@@ -1,7 +1,8 @@
 // Islands in the test's own thread: an evolution of every table of a training, epoch by epoch.
 #pragma once
 
-#include <optional>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "calibration/closed_calibration.hpp"
@@ -31,16 +32,37 @@ inline Population evolved_front(const GpParameters& parameters, const JointTrain
   return front.members();
 }
 
+/// An evolver that a function is.
+class EvolverFunction final : public Evolver {
+ public:
+  using Function = std::function<EvolvedJoints(const std::vector<JointTraining>&, const EvolutionTerms&)>;
+
+  explicit EvolverFunction(Function function) : function_(std::move(function)) {}
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
+    return function_(trainings, terms);
+  }
+
+ private:
+  Function function_;
+};
+
+/// Finds nothing.
+inline EvolvedJoints nothing_evolved(const std::vector<JointTraining>& trainings, const EvolutionTerms& = {}) {
+  EvolvedJoints nothing;
+  for (const JointTraining& training : trainings) nothing.joints.push_back({training, {}});
+  return nothing;
+}
+
 /// Evolves formulas over all circumstances; of a joint's own corrections it finds none.
-inline Evolve island_evolution(const GpParameters& parameters, std::uint64_t seed) {
-  return [=](const std::vector<JointTraining>& trainings, Sought) -> std::optional<std::vector<JointCandidates>> {
-    std::vector<JointCandidates> candidates;
+inline EvolverFunction island_evolution(const GpParameters& parameters, std::uint64_t seed) {
+  return EvolverFunction([=](const std::vector<JointTraining>& trainings, const EvolutionTerms&) {
+    EvolvedJoints evolved;
     for (const JointTraining& training : trainings) {
       const bool formulas = training.table.variables.size() > 1;
-      candidates.push_back({training, formulas ? evolved_front(parameters, training, seed) : Population{}});
+      evolved.joints.push_back({training, formulas ? evolved_front(parameters, training, seed) : Population{}});
     }
-    return candidates;
-  };
+    return evolved;
+  });
 }
 
 }  // namespace demecal

@@ -47,7 +47,7 @@ std::vector<JointCandidates> evolve(const CalibrateOptions& options,
   const std::atomic<bool> interrupt{false};
   const Job job = small_job();
   Evolutions evolutions(job, make_fleet, interrupt, options);
-  auto candidates = evolutions.run(small_training());
+  auto candidates = evolutions.evolve(small_training(), {job.seed, job.gp.number_generations}).joints;
   EXPECT_EQ(evolutions.end(), RunEnd::finished);
   return candidates;
 }
@@ -173,7 +173,7 @@ TEST(Evolutions, ThatAreResumedEndAllTheRunsThatTheyHadBefore) {
       return std::make_unique<WatchedFleet>(exchange, run == 2);
     };
     Evolutions evolutions(job, make_fleet, interrupt, options);
-    evolutions.run(small_training());
+    evolutions.evolve(small_training(), {job.seed, job.gp.number_generations});
     if (run < 2) before.merge(runs_told(*watcher, Control::State::running));
   }
   EXPECT_EQ(before.size(), 2U);

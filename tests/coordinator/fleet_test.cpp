@@ -99,7 +99,7 @@ std::vector<Population> fronts_of_all(Hosts& hosts, const std::function<void()>&
   std::vector<Population> fronts;
   for (int i = 0; i < kEvolutions; ++i) {
     if (i > 0) between();
-    for (auto& joint : evolutions.run(small_training(), {static_cast<std::uint64_t>(i), 40}))
+    for (auto& joint : evolutions.evolve(small_training(), {static_cast<std::uint64_t>(i), 40}).joints)
       fronts.push_back(std::move(joint.front));
     EXPECT_EQ(evolutions.end(), RunEnd::finished);
   }

@@ -78,18 +78,29 @@ Population front_of(const GpParameters& parameters, const JointTraining& trainin
   return front.members();
 }
 
-StagedOutcome evolved(const Job& job, const std::vector<JointTraining>& trainings) {
-  const EvolveStage evolve = [&job](const std::vector<JointTraining>& stage, const RoundTerms& terms) {
-    GpParameters parameters = job.gp;
+/// Evolves in this thread.
+class EvolverHere final : public Evolver {
+ public:
+  explicit EvolverHere(const Job& job) : job_(job) {}
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
+    GpParameters parameters = job_.gp;
     parameters.number_generations = terms.generations;
     parameters.shared_functions = terms.functions;
-    std::vector<JointCandidates> candidates;
-    for (const JointTraining& training : stage)
-      candidates.push_back({training, front_of(parameters, training, terms.seed)});
-    return candidates;
-  };
-  if (job.corrections.sharing.functions == 0) return {evolve(trainings, {job.seed, job.gp.number_generations}), {}};
-  return learn_in_stages(trainings, job, evolve, [] { return true; });
+    EvolvedJoints evolved;
+    for (const JointTraining& training : trainings)
+      evolved.joints.push_back({training, front_of(parameters, training, terms.seed)});
+    return evolved;
+  }
+
+ private:
+  const Job& job_;
+};
+
+StagedOutcome evolved(const Job& job, const std::vector<JointTraining>& trainings) {
+  EvolverHere evolver(job);
+  if (job.corrections.sharing.functions == 0)
+    return {evolver.evolve(trainings, {job.seed, job.gp.number_generations}).joints, {}};
+  return learn_in_stages(trainings, job, evolver);
 }
 
 /// Of each joint's formula that describes its rows most briefly; what is learnt from decides, other rows judge.
