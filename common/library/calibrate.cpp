@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -65,9 +66,8 @@ Learnt learn(const DataSet& data, const Job& job, const Preparation& preparation
 }
 
 CalibratedModel calibrated_model(const DataSet& data, const Job& job, LocalEvolver& evolver) {
-  evolver.say("fitting what is declared");
+  evolver.say("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
   const Preparation preparation = prepare(data, job);
-  evolver.say("evolving joint corrections");
   Learnt learnt = learn(data, job, preparation, evolver);
   Calibration calibration = conclude(data, job, preparation, learnt.candidates);
   if (!evolver.is_interrupted() && job.closed_loop.max_effects > 0) {

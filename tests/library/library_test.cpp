@@ -141,10 +141,10 @@ TEST(LibraryCalibration, TellsWhatItDoesAndStopsWhenToldTo) {
   settings.max_effects = 5;
   settings.progress = [&told](const std::string& sentence) {
     told.push_back(sentence);
-    return told.size() < 2;
+    return false;
   };
   const CalibratedArm arm = calibrate(Measurements(Arm(short_arm()), measured_short_arm()), settings);
-  EXPECT_THAT(told, ElementsAre(HasSubstr("declared"), HasSubstr("evolving")));
+  EXPECT_THAT(told, ElementsAre("calibrating 40 poses of short"));
   EXPECT_THAT(arm.effects(), IsEmpty());
 }
 
