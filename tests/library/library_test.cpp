@@ -22,7 +22,8 @@ const std::string kDemo = kConfigs + "data/puma761-demo/dataset.yaml";
 
 /// 3 joints that turn, of some 1.2 m.
 ArmDescription short_arm() {
-  ArmDescription description{.name = "short"};
+  ArmDescription description;
+  description.name = "short";
   for (const ArmLink& link : {ArmLink{.alpha_deg = -90, .d_mm = 300}, ArmLink{.a_mm = 500}, ArmLink{.a_mm = 400}})
     description.links.push_back(link);
   description.tool_mm = {20, 0, 30};

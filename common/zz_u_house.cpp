@@ -1,6 +1,0 @@
-#include "../common/library/calibrate.cpp"
-#include "../common/library/calibrated_arm.cpp"
-#include "../common/library/conversion.cpp"
-#include "../common/library/local_evolver.cpp"
-#include "../common/library/measurements.cpp"
-#include "../coordinator/apply_command.cpp"

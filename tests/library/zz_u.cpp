@@ -1,3 +1,0 @@
-#include "../../tests/library/library_test.cpp"
-#include "../../tests/manual/manual_test.cpp"
-#include "../../tests/processes/install_test.cpp"
