@@ -3,14 +3,13 @@
 #include <thread>
 #include <utility>
 
-#include "calibration/closed_calibration.hpp"
-#include "calibration/distal_learning.hpp"
-#include "calibration/function_stages.hpp"
-#include "calibration/model_posterior.hpp"
-#include "calibration/prediction_scores.hpp"
+#include "calibration/shared_functions.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "closed_calibration/closed_calibration.hpp"
 #include "config/load_job.hpp"
 #include "config/read_declared.hpp"
 #include "data/nearest_name.hpp"
+#include "distal/learning.hpp"
 #include "errors/input_error.hpp"
 #include "library/conversion.hpp"
 #include "library/local_evolver.hpp"

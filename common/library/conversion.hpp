@@ -1,7 +1,7 @@
 // What stands behind the public types, and the way from their units to those inside.
 #pragma once
 
-#include "calibration/calibrated_model.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "effects/stop.hpp"

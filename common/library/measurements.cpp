@@ -11,7 +11,7 @@
 #include "data/pose_rules.hpp"
 #include "data/split.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/coverage.hpp"
+#include "data_check/searches.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
