@@ -6,7 +6,7 @@
 #include "calibration/formula_search.hpp"
 #include "calibration/last_fit.hpp"
 #include "calibration/loop_passes.hpp"
-#include "diagnosis/evidence.hpp"
+#include "diagnosis/candidates.hpp"
 #include "random/random_purpose.hpp"
 
 namespace demecal {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibration/shortened.hpp"
-#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
 #include "fitting/scatter.hpp"
 
 namespace demecal {

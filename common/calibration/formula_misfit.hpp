@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/diagnosed_model.hpp"
 #include "evolution/fitness.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibration/formula_candidates.hpp"
-#include "diagnosis/null_noise.hpp"
+#include "residuals/null_noise.hpp"
 
 namespace demecal {
 namespace {

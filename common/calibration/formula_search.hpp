@@ -5,7 +5,7 @@
 
 #include "calibration/evolver.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/evidence.hpp"
+#include "diagnosis/candidates.hpp"
 #include "fitting/median.hpp"
 
 namespace demecal {

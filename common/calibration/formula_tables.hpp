@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/diagnosed_model.hpp"
 #include "evolution/fitness.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/closing.hpp"
-#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
 
 namespace demecal {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
 #include "fitting/scatter.hpp"
 
 namespace demecal {

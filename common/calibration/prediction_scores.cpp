@@ -5,9 +5,9 @@
 #include <map>
 #include <numeric>
 
-#include "diagnosis/structure.hpp"
 #include "effects/measurement.hpp"
 #include "fitting/median.hpp"
+#include "residuals/structure.hpp"
 
 namespace demecal {
 namespace {

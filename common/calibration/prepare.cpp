@@ -1,8 +1,8 @@
 #include "calibration/calibration.hpp"
 #include "calibration/closing.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/scatter.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 namespace {

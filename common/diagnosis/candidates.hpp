@@ -1,14 +1,23 @@
-// The effects that are tried in every round, and those among them that cannot be true.
+// The effects that are tried in every round: what the data can show, and decoys that cannot be true.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "diagnosis/outcome.hpp"
 #include "effects/effect.hpp"
 #include "fitting/declared_model.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
+
+/// The evidence of `poses`. A circumstance counts where every pose has it and not all poses have the same; a joint's
+/// approach where it came from both sides.
+Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses);
+
+/// The kinds of `kinds` (empty: all) that such data cannot show, each with the reason.
+std::vector<Unseen> unseen_kinds(const Evidence& evidence, const std::vector<std::string>& kinds);
 
 /// From what a decoy's columns are made.
 enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
@@ -49,5 +58,11 @@ std::string decoy_name(const Candidate& candidate);
 
 /// What it costs to name each of them.
 std::vector<double> prices_nats(const std::vector<Candidate>& candidates);
+
+/// Symbolic effects of every revolute joint: sines and cosines of m q_a + n q_b and of q_a +- q_b +- q_c, the same
+/// waves with a phase that is to be found, products of joint values with each other and with sines and cosines, and
+/// what the approach sign, the warming and gravity's torque multiply. Only circumstances that the evidence holds and
+/// joints that move take part. What evolution finds most often where it is let loose, tried without evolving.
+std::vector<Effect> formula_library(const Robot& robot, const Evidence& evidence);
 
 }  // namespace demecal

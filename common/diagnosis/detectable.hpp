@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
-#include "diagnosis/effect_columns.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "residuals/effect_columns.hpp"
 
 namespace demecal {
 

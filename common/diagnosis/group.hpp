@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
 #include "random/random_purpose.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosed_model.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "diagnosis/projection.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/projection.hpp"
 
 namespace demecal {
 

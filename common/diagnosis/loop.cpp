@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/backward.hpp"
+#include "diagnosis/candidates.hpp"
 #include "diagnosis/detectable.hpp"
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/further.hpp"
 #include "diagnosis/group.hpp"
-#include "diagnosis/noise_estimation.hpp"
-#include "diagnosis/structure.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "residuals/noise_estimation.hpp"
+#include "residuals/structure.hpp"
 
 namespace demecal {
 namespace {
@@ -247,14 +246,13 @@ void ClosedLoop::describe_added() {
 
 /// What to measure next, for the first few effects that have rivals.
 void ClosedLoop::look_further() {
-  constexpr int kMost = 3;
-  int said = 0;
+  constexpr std::size_t kMost = 3;
+  std::size_t asked = 0;
   for (Round& round : outcome_.rounds) {
-    const bool named_last = round.verdict == Verdict::added || &round == &outcome_.rounds.back();
-    if (!named_last || round.rivals.empty() || said >= kMost) continue;
+    if (!is_ambiguous(round, outcome_.rounds) || asked == kMost) continue;
     round.further =
         further_measurement(of_, model_, round.effect, round.rivals, random(RandomPurpose::further_measurement));
-    ++said;
+    ++asked;
   }
 }
 

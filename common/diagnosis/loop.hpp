@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "diagnosis/outcome.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 
@@ -46,5 +46,19 @@ struct LoopResult {
 /// arguments.
 LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
                       const RoundWatcher& watch = {});
+
+/// Drops effects one after another, the least needed first, as long as the description length falls by it, and refines
+/// the model after each. Dropped effects are noted in the outcome. Returns the surroundings of the model that is left.
+Linearised take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
+                              LoopOutcome& outcome);
+
+/// The poses of the last fit: calibration and validation poses where there are accept poses to tell the error by,
+/// calibration poses alone where there are none.
+std::vector<std::size_t> poses_of_last_fit(const DataSet& data);
+
+/// The same model, its effects as they were chosen, with its numbers at their least-squares values over
+/// poses_of_last_fit(data), and its effects and smooth terms known over these poses' range. What the poses then say of
+/// it is no longer unseen, but for the accept poses.
+DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, DiagnosedModel model);
 
 }  // namespace demecal

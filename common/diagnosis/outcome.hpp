@@ -6,26 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/residual_field.hpp"
 #include "effects/corrected_robot.hpp"
 #include "effects/effect.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 
 enum class Verdict { added, rejected, none };
-
-/// An effect that these poses cannot tell from the named one, or hardly.
-struct Rival {
-  Effect effect;
-  double cosine = 0.0;       ///< between what either would explain, beyond the model
-  double nats_behind = 0.0;  ///< description length that it leaves above the named one's
-};
-
-/// The measurement that would split an effect from its rivals.
-struct FurtherMeasurement {
-  std::string sentence;  ///< what to measure, for a person
-  int poses = 0;         ///< how many give power 0.9
-};
 
 /// One step of the loop: the best candidate, and what became of it.
 struct Round {
@@ -94,12 +82,58 @@ struct LoopOutcome {
   int permutations = 0;
 };
 
-/// The 95 % interval of every coefficient by its standard error (normal); nothing where standard errors are unknown.
-std::vector<std::array<double, 2>> intervals_of(const Effect& effect);
+/// Whether the effect of this one of `rounds` was added, or considered last, and has rivals.
+inline bool is_ambiguous(const Round& round, const std::vector<Round>& rounds) {
+  return (round.verdict == Verdict::added || &round == &rounds.back()) && !round.rivals.empty();
+}
 
-/// "no_structure", "no_gain", "max_effects", "decoy", "not_run".
-std::string word_of(StopReason reason);
-/// "added", "rejected", "none".
-std::string word_of(Verdict verdict);
+/// The effects of such rounds, as propose_poses() asks for them.
+inline std::vector<AmbiguousEffect> ambiguous_effects(const std::vector<Round>& rounds) {
+  std::vector<AmbiguousEffect> effects;
+  for (const Round& round : rounds)
+    if (is_ambiguous(round, rounds)) effects.push_back({round.effect, round.rivals});
+  return effects;
+}
+
+/// The 95 % interval of every coefficient by its standard error (normal); nothing where standard errors are unknown.
+inline std::vector<std::array<double, 2>> intervals_of(const Effect& effect) {
+  constexpr double kNormal95 = 1.96;
+  std::vector<std::array<double, 2>> intervals;
+  for (std::size_t i = 0; i < effect.standard_errors.size(); ++i) {
+    const double half = kNormal95 * effect.standard_errors[i];
+    intervals.push_back({effect.value(i) - half, effect.value(i) + half});
+  }
+  return intervals;
+}
+
+/// The word for a reason in files.
+inline std::string to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::no_structure:
+      return "no_structure";
+    case StopReason::no_gain:
+      return "no_gain";
+    case StopReason::max_effects:
+      return "max_effects";
+    case StopReason::decoy:
+      return "decoy";
+    case StopReason::not_run:
+      break;
+  }
+  return "not_run";
+}
+
+/// The word for a verdict in files.
+inline std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::added:
+      return "added";
+    case Verdict::rejected:
+      return "rejected";
+    case Verdict::none:
+      break;
+  }
+  return "none";
+}
 
 }  // namespace demecal

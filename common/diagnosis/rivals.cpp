@@ -6,9 +6,9 @@
 namespace demecal {
 namespace {
 
-constexpr double kAlike = 0.9;
+constexpr double kRivalCosine = 0.9;
 constexpr double kRelated = 0.5;
-constexpr double kNatsToTell = 5.0;
+constexpr double kRivalNats = 5.0;
 constexpr std::size_t kMost = 8;
 
 /// Whether `other` is the wave `named` with a phase that is not given: the same formula, no rival.
@@ -33,7 +33,7 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
     const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
     if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
     if (is_its_wave(all[named].effect, all[i].effect)) continue;
-    if (cosines[i] > kAlike || (cosines[i] > kRelated && std::abs(behind) < kNatsToTell)) {
+    if (cosines[i] > kRivalCosine || (cosines[i] > kRelated && std::abs(behind) < kRivalNats)) {
       rivals.push_back({all[i].effect, cosines[i], behind});
     }
   }

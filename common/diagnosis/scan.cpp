@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/null_noise.hpp"
+#include "residuals/null_noise.hpp"
 
 namespace demecal {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "diagnosis/effect_columns.hpp"
-#include "diagnosis/projection.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/effect_columns.hpp"
+#include "residuals/projection.hpp"
 
 namespace demecal {
 

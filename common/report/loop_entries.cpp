@@ -48,7 +48,7 @@ std::vector<NamedInterval> intervals(const Round& round, const Robot& robot) {
 RoundEntry round_entry(const Round& round, const Robot& robot) {
   RoundEntry entry{.round = count_of(round.number),
                    .group = count_of(round.group),
-                   .verdict = word_of(round.verdict),
+                   .verdict = to_string(round.verdict),
                    .effect = effect_entry(round.effect, robot),
                    .diagnosis = round.diagnosis,
                    .formula = round.formula,
@@ -145,7 +145,7 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   for (const Unseen& unseen : loop.unseen) report.unseen.push_back({unseen.kind, unseen.reason});
   for (const Decoy& decoy : loop.decoys)
     report.decoys.push_back({decoy.name, if_finite(decoy.best_fall_nats), if_finite(decoy.p_left), decoy.won});
-  report.stopped = word_of(loop.stopped);
+  report.stopped = to_string(loop.stopped);
   report.lack_of_fit_p = if_any(loop.lack_of_fit_p);
   report.explained_share = if_any(loop.explained_share);
   report.candidates = count_of(loop.candidates);

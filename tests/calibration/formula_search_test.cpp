@@ -11,9 +11,9 @@
 #include "calibration/closing.hpp"
 #include "calibration/formula_misfit.hpp"
 #include "calibration/formula_tables.hpp"
-#include "diagnosis/effect_columns.hpp"
 #include "formula_arm.hpp"
 #include "island_evolution.hpp"
+#include "residuals/effect_columns.hpp"
 
 namespace demecal {
 namespace {

@@ -1,5 +1,5 @@
 // The model refined about an effect, and the backward step that takes needless effects out of it.
-#include "diagnosis/backward.hpp"
+#include "diagnosis/loop.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/formula_library.hpp"
 #include "diagnosis/rivals.hpp"
 #include "measured_arm.hpp"
 

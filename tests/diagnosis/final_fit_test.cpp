@@ -1,5 +1,5 @@
 // The last fit: validation poses count too where accept poses are left to tell the error, and accept poses never do.
-#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
 
 #include <gtest/gtest.h>
 

@@ -27,7 +27,7 @@ TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
     const Round& round = loop.rounds[i];
     EXPECT_EQ(rounds[i].at("round"), round.number);
     EXPECT_EQ(rounds[i].at("group"), round.group);
-    EXPECT_EQ(rounds[i].at("verdict"), word_of(round.verdict));
+    EXPECT_EQ(rounds[i].at("verdict"), to_string(round.verdict));
     EXPECT_EQ(rounds[i].at("effect").at("kind"), round.effect.kind);
     EXPECT_EQ(rounds[i].at("effect").at("joint"), round.effect.joint + 1);
     EXPECT_EQ(rounds[i].at("diagnosis"), round.diagnosis);

@@ -40,7 +40,7 @@ Json round_json(const Round& round, const Robot& robot) {
     rivals.push_back(
         {{"effect", words(rival.effect, robot)}, {"cosine", rival.cosine}, {"nats_behind", rival.nats_behind}});
   }
-  return {{"verdict", word_of(round.verdict)},
+  return {{"verdict", to_string(round.verdict)},
           {"effect", words(round.effect, robot)},
           {"fall_nats", round.fall_nats},
           {"p_family", round.p_family},

@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "calibration/prediction_scores.hpp"
-#include "diagnosis/final_fit.hpp"
 #include "diagnosis/loop.hpp"
 #include "draw_truth.hpp"
 #include "fitting/fit.hpp"

@@ -2,8 +2,8 @@
 // direction.
 #pragma once
 
-#include "diagnosis/diagnosed_model.hpp"
 #include "diagnosis/outcome.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal::bench {
 

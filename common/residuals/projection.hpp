@@ -1,0 +1,80 @@
+// The residual with everything already in the model projected off, on the poses that fit and on those that judge.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "residuals/residual_field.hpp"
+
+namespace demecal {
+
+/// Of a column's square that must remain for it to count as new: less is rounding and the errors of derivatives.
+inline constexpr double kNewShare = 1e-5;
+
+/// Columns of the model over the fitted poses and over the judging ones, and what is believed of their coefficients
+/// beforehand: `precision` (one over the standard deviation; 0: nothing) and `offset` (present value minus the believed
+/// one).
+struct ModelColumns {
+  RowMatrix fitted;
+  RowMatrix judging;
+  Eigen::VectorXd precision;
+  Eigen::VectorXd offset;
+  Eigen::Index shared = 0;  ///< how many of them, the last, are errors that poses share: noise, not the model's numbers
+};
+
+/// The norm below which a column is taken to be nothing: a whole radian, metre or unit share that moves all that was
+/// measured by less than its scatter.
+inline constexpr double kNoColumn = 1.0;
+
+/// An orthonormal basis of the model's columns (believed values taken as further measurements), and the least-squares
+/// residuals. Adding columns keeps both up to date.
+class Projection {
+ public:
+  Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& judging);
+
+  /// Rank of the model's columns so far.
+  Eigen::Index rank() const { return basis_.cols(); }
+  /// Over the fitted rows: rows x rank(), orthonormal together with the rows of beliefs.
+  const RowMatrix& basis() const { return basis_; }
+  /// Residual of the fitted rows and of the judging rows.
+  const Eigen::VectorXd& left() const { return left_; }
+  const Eigen::VectorXd& judging_left() const { return judging_left_; }
+  /// Least-squares changes of the coefficients of the columns it was made from.
+  const Eigen::VectorXd& changes() const { return changes_; }
+  /// Of the same, in rows of unit variance.
+  Eigen::MatrixXd covariance() const { return to_basis_ * to_basis_.transpose(); }
+  /// Sum of squares left, beliefs included, and degrees of freedom of the fitted rows.
+  double squares() const { return left_.squaredNorm() + beliefs_left_.squaredNorm(); }
+  double freedom() const;
+  /// Over the rows of beliefs: one a column of the model it was made from, zero where nothing is believed.
+  const RowMatrix& beliefs_basis() const { return beliefs_basis_; }
+  const Eigen::VectorXd& beliefs_left() const { return beliefs_left_; }
+  /// How many of these rows, the last, are of errors that poses share.
+  Eigen::Index shared() const { return shared_; }
+  /// Of the same rows: whether anything is believed.
+  const std::vector<bool>& believed() const { return believed_; }
+
+  /// What of new columns the model does not explain: their coefficients' least-squares values and what adding them
+  /// leaves of either residual.
+  struct Trial {
+    RowMatrix fitted;              ///< new columns less the model's share, rows x m
+    RowMatrix judging;             ///< the same over the judging rows
+    RowMatrix beliefs;             ///< the same over the rows of beliefs
+    Eigen::MatrixXd to_basis;      ///< m x rank: makes the new columns orthonormal
+    Eigen::VectorXd coefficients;  ///< m; 0 in directions that the model explains already
+    double drop = 0.0;             ///< fall of the sum of squares
+    Eigen::Index rank = 0;         ///< directions that the model does not explain
+    Eigen::VectorXd judging_left;
+  };
+  Trial trial(const RowMatrix& fitted, const RowMatrix& judging) const;
+  /// Takes a trial's columns into the model.
+  void add(const Trial& trial);
+
+ private:
+  RowMatrix basis_, judging_basis_, beliefs_basis_;
+  Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
+  Eigen::VectorXd left_, judging_left_, beliefs_left_, changes_;
+  std::vector<bool> believed_;
+  Eigen::Index shared_;
+};
+
+}  // namespace demecal

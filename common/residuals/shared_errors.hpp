@@ -1,0 +1,24 @@
+// Errors that several poses share, as columns beside a model's own: with them in it the other rows are independent.
+#pragma once
+
+#include <span>
+
+#include "residuals/residual_field.hpp"
+
+namespace demecal {
+
+/// Columns of unit variance each: random effects, marginalised where they are believed to be zero within one.
+struct SharedErrors {
+  RowMatrix fitted, judging;
+};
+
+/// The part of noise.order^2 that the functions of shared_errors() for poses at `places` in the order of measuring do
+/// not follow, as NoiseModel::fast has it.
+double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t> places);
+
+/// What repeats of one pose have in common, and what drifts in the order of measuring, of the components that `noise`
+/// has; `judging` poses share it with `fitted` ones. The order of measuring is that of the data set. Drift is followed
+/// through at most 120 of the fitted poses; of more than 200 repeated poses the error is not modelled.
+SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& judging);
+
+}  // namespace demecal
