@@ -14,7 +14,7 @@
 namespace demecal {
 namespace {
 
-constexpr int kSteps = 12;      ///< of Gauss and Newton, from the declared fit
+constexpr int kFirstSteps = 12;      ///< of Gauss and Newton, from the declared fit
 constexpr int kStepsAgain = 3;  ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
 /// Of more poses the many small errors that no model has are larger than what noise has in common, and taken for it.
@@ -196,7 +196,7 @@ bool ClosedLoop::run_group(const Linearised& at) {
 
 LoopResult ClosedLoop::run(DiagnosedModel start) {
   LoopResult result;
-  model_ = refined(of_, std::move(start), kSteps);
+  model_ = refined(of_, std::move(start), kFirstSteps);
   estimate_noise();
   result.before = model_;
   Linearised at = linearise(of_, model_);

@@ -9,7 +9,7 @@ namespace {
 constexpr double kRivalCosine = 0.9;
 constexpr double kRelated = 0.5;
 constexpr double kRivalNats = 5.0;
-constexpr std::size_t kMost = 8;
+constexpr std::size_t kMostRivals = 8;
 
 /// Whether `other` is the wave `named` with a phase that is not given: the same formula, no rival.
 bool is_its_wave(const Effect& named, const Effect& other) {
@@ -38,7 +38,7 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
     }
   }
   std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cosine > b.cosine; });
-  if (rivals.size() > kMost) rivals.resize(kMost);
+  if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
   return rivals;
 }
 
