@@ -75,8 +75,8 @@ Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
 
 /// The poses that would tell most, in a file beside the results.
 void write_proposed(const DiagnoseRequest& request, const DataSet& data, const Diagnosis& diagnosis) {
-  const DiagnosisData of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
-                         poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
+                            poses_of(data, PoseSet::validation)};
   const std::vector<Stop> stops =
       propose_poses(of, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
                     RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});

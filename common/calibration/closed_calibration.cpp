@@ -36,7 +36,7 @@ class Passes {
   Fit start_from(const CorrectedRobot& robot) const;
   LoopResult loop_from(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
   void look_for_formulas(const RoundWatcher& watch);
-  void settle(const DiagnosisData& of, DiagnosedModel& model) const;
+  void settle(const DiagnosisProblem& of, DiagnosedModel& model) const;
   std::vector<Candidate> library() const;
   EvolvedJoints learn(const Preparation& preparation);
   bool evolve_anew();
@@ -87,7 +87,7 @@ LoopResult Passes::loop_from(const CorrectedRobot& robot, FormulaSearch evolved,
   };
   LoopOptions options = loop_options(job_);
   options.evolved = std::move(evolved.formulas);
-  options.evolved_luck = std::move(evolved.luck_nats);
+  options.evolved_null_gains = std::move(evolved.luck_nats);
   LoopResult found = close_loop(data_, job_.declared, start_from(robot), options, watched);
   tidy(found.before);
   tidy(found.model);
@@ -164,7 +164,7 @@ std::vector<Candidate> Passes::library() const {
 }
 
 /// Corrections that were fitted around a residual which a formula explains since may do better begun anew.
-void Passes::settle(const DiagnosisData& of, DiagnosedModel& model) const {
+void Passes::settle(const DiagnosisProblem& of, DiagnosedModel& model) const {
   DiagnosedModel again = refined(of, diagnosed_model(of, start_from(model.robot)), kSteps);
   tidy(again);
   const double present_mm2 = performance_index_mm2(model.robot, data_, deciding_);
@@ -174,7 +174,7 @@ void Passes::settle(const DiagnosisData& of, DiagnosedModel& model) const {
 /// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
 /// begins there. Its model is kept where it is the better description.
 void Passes::look_for_formulas(const RoundWatcher& watch) {
-  const DiagnosisData of{data_, job_.declared, poses_of(data_, PoseSet::calibration),
+  const DiagnosisProblem of{data_, job_.declared, poses_of(data_, PoseSet::calibration),
                          poses_of(data_, PoseSet::validation)};
   const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
   const DiagnosedModel model = refined(of, diagnosed_model(of, start_from(bare)), kSteps);

@@ -16,7 +16,7 @@ constexpr double kSmallestCoefficient = 1e-8;  ///< rad
 /// The declared numbers of the model with their standard errors; effects bring their own.
 std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
                                             const DiagnosedModel& model) {
-  const Linearised at = linearise({data, declared, poses_of_last_fit(data), {}}, model);
+  const Linearization at = linearize({data, declared, poses_of_last_fit(data), {}}, model);
   const ParameterSpace space(model.robot, at.ids);
   const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
   const Eigen::MatrixXd covariance =
@@ -68,7 +68,7 @@ CorrectedRobot best_started(const DataSet& data, const DeclaredModel& declared, 
                             const CorrectedRobot& robot) {
   constexpr int kSteps = 12;
   if (!declared.joint_corrections || !has_corrections(robot)) return robot;
-  const DiagnosisData of{data, declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem of{data, declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
   const std::vector<std::size_t> deciding = deciding_poses(data);
   const auto index_mm2 = [&](const CorrectedRobot& start) {
     const DiagnosedModel model = diagnosed_model(of, loop_start(data, fit, start));

@@ -36,7 +36,7 @@ FormulaMisfit::FormulaMisfit(const TrainingTable& table)
   sum_up_poses();
 }
 
-FormulaMisfit::FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearised& at, int joint,
+FormulaMisfit::FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearization& at, int joint,
                              Eigen::VectorXd left)
     : evaluate_(variables),
       variables_(static_cast<int>(variables.size())),

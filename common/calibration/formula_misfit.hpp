@@ -16,7 +16,7 @@ class FormulaMisfit {
   /// Against what a model leaves at the fitted poses: `variables` has one column each, one row a pose; a formula turns
   /// joint `joint` (from 0), and the model's own numbers give way to it. `left` (rows of the field): the residual with
   /// the model's share taken off.
-  FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearised& at, int joint,
+  FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearization& at, int joint,
                 Eigen::VectorXd left);
 
   /// The residual with the formula at its least-squares amplitude; empty where a value is not finite. What is believed

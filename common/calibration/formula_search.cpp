@@ -27,18 +27,18 @@ std::vector<JointTraining> training_of(const std::vector<FormulaTable>& tables) 
 
 class Search {
  public:
-  Search(const DiagnosisData& of, const DiagnosedModel& model, Evolver& evolver, EvolutionTerms terms)
-      : of_(of), evolver_(evolver), terms_(std::move(terms)), at_(linearise(of, model)) {}
+  Search(const DiagnosisProblem& of, const DiagnosedModel& model, Evolver& evolver, EvolutionTerms terms)
+      : of_(of), evolver_(evolver), terms_(std::move(terms)), at_(linearize(of, model)) {}
 
   FormulaSearch run(double family_error, RandomStream random);
 
  private:
   Found found_in(const Eigen::VectorXd& left, Purpose purpose);
 
-  const DiagnosisData& of_;
+  const DiagnosisProblem& of_;
   Evolver& evolver_;
   EvolutionTerms terms_;
-  Linearised at_;
+  Linearization at_;
 };
 
 /// What evolution makes of such a residual, the best description first.
@@ -79,7 +79,7 @@ FormulaSearch Search::run(double family_error, RandomStream random) {
 
 }  // namespace
 
-FormulaSearch search_formulas(const DiagnosisData& of, const DiagnosedModel& model, Evolver& evolver,
+FormulaSearch search_formulas(const DiagnosisProblem& of, const DiagnosedModel& model, Evolver& evolver,
                               EvolutionTerms terms, double family_error, RandomStream random) {
   return Search(of, model, evolver, std::move(terms)).run(family_error, random);
 }

@@ -20,7 +20,7 @@ struct FormulaSearch {
 /// own counted in, theirs is the only one of so many. Nothing is permuted where no formula shortens the description,
 /// and nothing is found where evolution is cut off. `terms` are those of every search but for its purpose.
 /// `family_error` is below 0.5.
-FormulaSearch search_formulas(const DiagnosisData& of, const DiagnosedModel& model, Evolver& evolver,
+FormulaSearch search_formulas(const DiagnosisProblem& of, const DiagnosedModel& model, Evolver& evolver,
                               EvolutionTerms terms, double family_error, RandomStream random);
 
 }  // namespace demecal

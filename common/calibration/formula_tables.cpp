@@ -42,7 +42,7 @@ std::vector<double> weights_of(const std::vector<double>& squared_levers) {
   return weights;
 }
 
-FormulaTable table_of(const Linearised& at, const Eigen::VectorXd& left, const Chain& chain, int joint,
+FormulaTable table_of(const Linearization& at, const Eigen::VectorXd& left, const Chain& chain, int joint,
                       const Evidence& evidence) {
   FormulaTable result{joint, variables_of(evidence, chain.size()), {}, 1.0, std::nullopt};
   if (evidence.temperature) result.reference_celsius = evidence.mean_temperature_celsius;
@@ -72,7 +72,8 @@ FormulaTable table_of(const Linearised& at, const Eigen::VectorXd& left, const C
 
 }  // namespace
 
-std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const Linearised& at, const Eigen::VectorXd& left) {
+std::vector<FormulaTable> formula_tables(const DiagnosisProblem& of, const Linearization& at,
+                                         const Eigen::VectorXd& left) {
   const Chain& chain = of.data.robot.chain;
   const Evidence evidence = evidence_of(of.data, of.fitted);
   std::vector<FormulaTable> tables;

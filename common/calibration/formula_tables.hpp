@@ -23,7 +23,8 @@ struct FormulaTable {
 
 /// `left`, what a model leaves at its fitted poses (rows of the field), laid at one revolute joint after another: the
 /// angle that explains most of it. Poses at which the joint hardly moves what is measured count less.
-std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const Linearised& at, const Eigen::VectorXd& left);
+std::vector<FormulaTable> formula_tables(const DiagnosisProblem& of, const Linearization& at,
+                                         const Eigen::VectorXd& left);
 
 /// A formula of the table's variables in those of symbolic_variables.
 Tree in_symbolic_variables(Tree formula, const FormulaTable& table);

@@ -9,7 +9,7 @@ DiagnosedModel with_corrections_kept(const DataSet& data, const DeclaredModel& d
                                      const CorrectedRobot& robot) {
   DeclaredModel without_terms = declared;
   without_terms.joint_corrections = false;
-  const DiagnosisData of{data, without_terms, poses_of(data, PoseSet::calibration), {}};
+  const DiagnosisProblem of{data, without_terms, poses_of(data, PoseSet::calibration), {}};
   return diagnosed_model(of, loop_start(data, fit, robot));
 }
 

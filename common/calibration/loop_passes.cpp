@@ -12,7 +12,7 @@ std::vector<Decoy> joined(std::vector<Decoy> earlier, const std::vector<Decoy>& 
       earlier.push_back(decoy);
       continue;
     }
-    same->best_fall_nats = std::max(same->best_fall_nats, decoy.best_fall_nats);
+    same->best_gain_nats = std::max(same->best_gain_nats, decoy.best_gain_nats);
     same->won = same->won || decoy.won;
   }
   return earlier;

@@ -45,7 +45,7 @@ double row_variance(const Projection& projection) {
 
 /// Adds what base and tool could share out between them unseen: nothing is believed of either, so that least squares
 /// holds one of them fast.
-void widen(const Linearised& at, Eigen::MatrixXd& covariance) {
+void widen(const Linearization& at, Eigen::MatrixXd& covariance) {
   constexpr double kUnseen = 1e-9, kTool_m = 1e-2, kTool_rad = 0.1, kBase = 10.0;
   std::vector<Eigen::Index> places;
   std::vector<double> usual;
@@ -93,7 +93,7 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
   model.robot = robot;
   model.smooth = smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset);
   model.scales = scatter_of(data, robot, observe(data, poses, robot));
-  const Linearised at = linearise({data, declared, poses, {}}, model);
+  const Linearization at = linearize({data, declared, poses, {}}, model);
   const double variance = row_variance(at.projection);
   Eigen::MatrixXd covariance = variance * at.covariance;
   widen(at, covariance);

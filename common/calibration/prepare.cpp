@@ -46,7 +46,8 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
 JointTargets first_targets(const DataSet& data, const Job& job, const Preparation& preparation) {
   const CorrectedRobot& declared = preparation.declared.robot;
   if (job.targets.kind == TargetKind::exact) return targets_about(data, preparation, declared);
-  const DiagnosisData of{data, job.declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem of{data, job.declared, poses_of(data, PoseSet::calibration),
+                            poses_of(data, PoseSet::validation)};
   const DiagnosedModel smooth =
       refined(of, diagnosed_model(of, loop_start(data, preparation.declared, declared)), kSteps);
   CorrectedRobot about = declared;

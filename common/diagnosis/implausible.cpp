@@ -28,17 +28,17 @@ double rms_m(const DataSet& data, const std::vector<std::size_t>& poses, const C
 
 /// The whole share, nearly, that explains most of the error where the joint turns with the other; 0 where none does.
 /// Motions of radians are beyond what one linear step can tell: the arm is fitted anew to joints that are sums.
-double whole_share(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model) {
+double whole_share(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model) {
   constexpr int kSteps = 12;
   constexpr double kLeft = 0.2;  ///< of the error, at most
   const auto from = static_cast<Eigen::Index>(std::lround(effect.setting("from"))) - 1;
   for (const double whole : {1.0, -1.0}) {
-    DataSet summed = of.data;
+    DataSet summed = problem.data;
     for (MeasuredPose& pose : summed.poses) pose.joints[effect.joint] += whole * pose.joints[from];
-    const DiagnosisData with{summed, of.declared, of.fitted, of.judging};
-    const Fit fit = fit_declared(summed, of.fitted, of.declared, nominal_robot(summed));
+    const DiagnosisProblem with{summed, problem.declared, problem.fitted, problem.validation};
+    const Fit fit = fit_declared(summed, problem.fitted, problem.declared, nominal_robot(summed));
     if (fit.status != FitStatus::converged ||
-        rms_m(summed, of.fitted, fit.robot) > kLeft * rms_m(of.data, of.fitted, model.robot))
+        rms_m(summed, problem.fitted, fit.robot) > kLeft * rms_m(problem.data, problem.fitted, model.robot))
       continue;
     DiagnosedModel rest = diagnosed_model(with, fit);
     rest.robot.effects.push_back(effect);
@@ -66,13 +66,13 @@ bool leans_too_far(const Effect& effect) {
   return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
 }
 
-std::string implausibility(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model,
+std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
                            const std::vector<ArmState>& states) {
-  const LargestMotion largest = largest_motion(effect, of.data.robot, states);
+  const LargestMotion largest = largest_motion(effect, problem.data.robot, states);
   if (largest.turn_rad <= kLargestTurn_rad && largest.shift_m <= kLargestShift_m)
     return leans_too_far(effect) ? "mounting tilt implausible (> 20 deg)" : "";
   if (effect.kind == "coupling" && effect.form == "linear") {
-    if (const double share = whole_share(effect, of, model); share != 0.0) return unit_coupling(effect, share);
+    if (const double share = whole_share(effect, problem, model); share != 0.0) return unit_coupling(effect, share);
   }
   return "implausibly large for a real arm (> " +
          std::string(largest.turn_rad > kLargestTurn_rad ? "20 mrad" : "20 mm") + "): check signs, units and row order";

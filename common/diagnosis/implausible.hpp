@@ -11,10 +11,10 @@ namespace demecal {
 /// Why no real arm has this effect, and what to look at; empty where one may. `states` are those of the fitted poses. A
 /// joint that moves by a whole share of another's motion, which `model` with it bears out, is how the controller
 /// reports its joints: the sentence says so.
-std::string implausibility(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model,
+std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
                            const std::vector<ArmState>& states);
 
-/// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in disguise.
+/// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in decoy_kind.
 bool leans_too_far(const Effect& effect);
 
 }  // namespace demecal

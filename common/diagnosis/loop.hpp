@@ -18,14 +18,15 @@ struct LoopOptions {
   double family_error = 0.05;  ///< chance of adding anything to a model that lacks nothing
   int permutations = 999;
   int resamples = 400;
-  int group_size = 24;                 ///< effects that may be added between two joint refits
-  double least_gain = 0.005;           ///< share of the validation error that a group must win for another to follow
-  int highest_ratio = 200;             ///< of the scan over gear harmonics
-  std::vector<double> stated_ratios;   ///< beyond the scan
-  bool formulas = true;                ///< formulas outside the catalogue compete, where there are at most 5000 poses
-  std::vector<Candidate> evolved{};    ///< formulas that evolution found on the residual: they compete too
-  std::vector<double> evolved_luck{};  ///< best falls (nats, ascending) of the same evolution on permuted residuals:
-                                       ///< what `evolved` candidates are held against; empty: as all others are
+  int group_size = 24;                ///< effects that may be added between two joint refits
+  double least_gain = 0.005;          ///< share of the validation error that a group must win for another to follow
+  int highest_ratio = 200;            ///< of the scan over gear harmonics
+  std::vector<double> stated_ratios;  ///< beyond the scan
+  bool formulas = true;               ///< formulas outside the catalogue compete, where there are at most 5000 poses
+  std::vector<Candidate> evolved{};   ///< formulas that evolution found on the residual: they compete too
+  std::vector<double>
+      evolved_null_gains{};  ///< best gains (nats, ascending) of the same evolution on permuted residuals:
+                             ///< what `evolved` candidates are held against; empty: as all others are
   bool decoys = true;
   bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
   std::uint64_t seed = 1;
@@ -49,8 +50,8 @@ LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const 
 
 /// Drops effects one after another, the least needed first, as long as the description length falls by it, and refines
 /// the model after each. Dropped effects are noted in the outcome. Returns the surroundings of the model that is left.
-Linearised take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
-                              LoopOutcome& outcome);
+Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
+                                 const std::vector<Candidate>& candidates, LoopOutcome& outcome);
 
 /// The poses of the last fit: calibration and validation poses where there are accept poses to tell the error by,
 /// calibration poses alone where there are none.

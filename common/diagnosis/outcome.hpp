@@ -29,14 +29,14 @@ struct Round {
   double p_structure = 1.0;   ///< of the omnibus test for dependence before this group
   double p_family = 1.0;      ///< family-wise, over all candidates or, of an evolved formula, over whole searches
   int permutations = 0;       ///< behind p_family; of an evolved formula: evolutions on permuted residuals
-  double fall_nats = 0.0;     ///< of the description length
+  double gain_nats = 0.0;     ///< of the description length
   double confirmed = 0.0;     ///< share of it that the validation poses bear out; above 0.5 they gain by it
   double confirmed_lower = 0.0;                 ///< one-sided 95 % bound of that share
   double sign_stability = 0.0;                  ///< share of resamples in which the leading coefficient keeps its sign
   std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient; SI. Of added effects: beside all others
   double validation_before_mm = 0.0;            ///< mean tool error on the validation poses
   double validation_after_mm = 0.0;
-  std::optional<FurtherMeasurement> further;  ///< where there are rivals
+  std::optional<NextMeasurement> next_measurement;  ///< where there are rivals
 };
 
 /// An effect that was looked for and not found.
@@ -48,7 +48,7 @@ struct NotFound {
 };
 
 /// A kind of effect that these data cannot show at all.
-struct Unseen {
+struct UntestableKind {
   std::string kind;
   std::string reason;  ///< "no approach columns: ..."
 };
@@ -56,7 +56,7 @@ struct Unseen {
 /// A candidate that cannot be true, and how it fared.
 struct Decoy {
   std::string name;             ///< "backlash of joint 2 by shuffled approach signs"
-  double best_fall_nats = 0.0;  ///< over all groups
+  double best_gain_nats = 0.0;  ///< over all groups
   bool won = false;
   double p_left = 1.0;  ///< how often noise alone explains as much as it does once nothing real is added any more
 };
@@ -68,7 +68,7 @@ struct LoopOutcome {
   std::vector<Round> rounds;
   std::vector<Effect> dropped;  ///< added and taken back by the backward step
   std::vector<NotFound> not_found;
-  std::vector<Unseen> unseen;
+  std::vector<UntestableKind> untestable;
   std::vector<Decoy> decoys;
   std::vector<std::size_t> outliers;       ///< poses (in the data set) that were down-weighted as far out
   std::optional<double> repeat_scatter_m;  ///< per axis, of repeated calibration poses

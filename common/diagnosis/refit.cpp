@@ -15,44 +15,46 @@ namespace {
 constexpr int kRefitSteps = 3;
 
 /// The columns of each effect among the free parameters.
-std::vector<std::vector<Eigen::Index>> columns_of_effects(const Linearised& at, std::size_t effects) {
+std::vector<std::vector<Eigen::Index>> effect_column_indices(const Linearization& linearization, std::size_t effects) {
   std::vector<std::vector<Eigen::Index>> columns(effects);
-  for (std::size_t i = 0; i < at.ids.size(); ++i) {
-    if (at.ids[i].kind == ParameterId::Kind::effect) {
-      columns[static_cast<std::size_t>(at.ids[i].index)].push_back(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
+    if (linearization.ids[i].kind == ParameterId::Kind::effect) {
+      columns[static_cast<std::size_t>(linearization.ids[i].index)].push_back(static_cast<Eigen::Index>(i));
     }
   }
   return columns;
 }
 
 /// Rise of the sum of squares if these coefficients were zero (Wald).
-double rise_without(const Linearised& at, const Effect& effect, const std::vector<Eigen::Index>& columns) {
+double rise_without(const Linearization& linearization, const Effect& effect,
+                    const std::vector<Eigen::Index>& columns) {
   const auto m = static_cast<Eigen::Index>(columns.size());
   Eigen::VectorXd values(m);
   Eigen::MatrixXd covariance(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    values[i] = effect.value(static_cast<std::size_t>(i)) + at.changes[columns[static_cast<std::size_t>(i)]];
+    values[i] = effect.value(static_cast<std::size_t>(i)) + linearization.changes[columns[static_cast<std::size_t>(i)]];
     for (Eigen::Index k = 0; k < m; ++k) {
-      covariance(i, k) = at.covariance(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]);
+      covariance(i, k) =
+          linearization.covariance(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]);
     }
   }
   return values.dot(covariance.completeOrthogonalDecomposition().solve(values));
 }
 
 /// The effect whose loss would shorten the description most, if any would.
-std::optional<std::size_t> needless(const Linearised& at, const CorrectedRobot& robot,
-                                    const std::vector<Candidate>& candidates) {
-  const auto columns = columns_of_effects(at, robot.effects.size());
-  const double variance = at.projection.squares() / at.projection.freedom();
-  const double price_of_one = 0.5 * std::log(static_cast<double>(at.fitted.poses.size()));
+std::optional<std::size_t> least_needed(const Linearization& linearization, const CorrectedRobot& robot,
+                                        const std::vector<Candidate>& candidates) {
+  const auto columns = effect_column_indices(linearization, robot.effects.size());
+  const double variance = linearization.projection.squares() / linearization.projection.freedom();
+  const double price_of_one = 0.5 * std::log(static_cast<double>(linearization.fitted.poses.size()));
   std::optional<std::size_t> worst;
   double least = 0.0;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
-    const double rise = rise_without(at, robot.effects[i], columns[i]) / variance;
-    const double fall =
-        0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) - price_nats(robot.effects[i], candidates);
-    if (fall < least) {
-      least = fall;
+    const double rise = rise_without(linearization, robot.effects[i], columns[i]) / variance;
+    const double gain = 0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) -
+                        naming_cost_nats(robot.effects[i], candidates);
+    if (gain < least) {
+      least = gain;
       worst = i;
     }
   }
@@ -62,10 +64,11 @@ std::optional<std::size_t> needless(const Linearised& at, const CorrectedRobot& 
 constexpr double kWorse = 1.05;  ///< a last fit that leaves this much more of its own poses' errors is not taken
 
 /// Mean squared tool error over the poses, errors beyond ten times the median counted as these.
-double capped_index_m2(const DiagnosisData& of, const CorrectedRobot& robot) {
+double capped_index_m2(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
   constexpr double kFarOut = 10.0;
   std::vector<double> errors_m;
-  for (const std::size_t pose : of.fitted) errors_m.push_back(tool_error_m(robot, of.data, of.data.poses[pose]));
+  for (const std::size_t pose : problem.fitted)
+    errors_m.push_back(tool_error_m(robot, problem.data, problem.data.poses[pose]));
   const double most_m = kFarOut * median(errors_m);
   double squares = 0.0;
   for (const double error_m : errors_m) squares += std::pow(std::min(error_m, most_m), 2);
@@ -74,12 +77,12 @@ double capped_index_m2(const DiagnosisData& of, const CorrectedRobot& robot) {
 
 }  // namespace
 
-Linearised take_back_needless(const DiagnosisData& of, DiagnosedModel& model, const std::vector<Candidate>& candidates,
-                              LoopOutcome& outcome) {
+Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
+                                 const std::vector<Candidate>& candidates, LoopOutcome& outcome) {
   for (;;) {
-    Linearised at = linearise(of, model);
-    const auto index = needless(at, model.robot, candidates);
-    if (!index) return at;
+    Linearization linearization = linearize(problem, model);
+    const auto index = least_needed(linearization, model.robot, candidates);
+    if (!index) return linearization;
     const auto dropped = model.robot.effects.begin() + static_cast<std::ptrdiff_t>(*index);
     for (Round& round : outcome.rounds) {
       if (round.verdict != Verdict::added || !round.effect.same_law_as(*dropped)) continue;
@@ -88,7 +91,7 @@ Linearised take_back_needless(const DiagnosisData& of, DiagnosedModel& model, co
     }
     outcome.dropped.push_back(*dropped);
     model.robot.effects.erase(dropped);
-    model = refined(of, std::move(model), kRefitSteps);
+    model = refined(problem, std::move(model), kRefitSteps);
   }
 }
 
@@ -106,9 +109,10 @@ DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, Dia
   if (poses == poses_of(data, PoseSet::calibration)) return model;
   const Evidence evidence = evidence_of(data, poses);
   for (Effect& effect : model.robot.effects) set_measured_ranges(effect, data.robot, evidence);
-  const DiagnosisData chosen{data, declared, poses_of(data, PoseSet::calibration), {}}, all{data, declared, poses, {}};
+  const DiagnosisProblem chosen{data, declared, poses_of(data, PoseSet::calibration), {}},
+      all{data, declared, poses, {}};
   DiagnosedModel last = model;
-  last.precision = linearise(chosen, model).precision.tail(model.smooth.coefficients.size());
+  last.precision = linearize(chosen, model).precision.tail(model.smooth.coefficients.size());
   last = refined(all, std::move(last), kSteps);
   return capped_index_m2(all, last.robot) <= std::pow(kWorse, 2) * capped_index_m2(all, model.robot) ? last : model;
 }

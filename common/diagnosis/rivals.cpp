@@ -28,8 +28,8 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
   const std::vector<double> cosines = scan.cosines(columns.transposed_times(field, share), share.squaredNorm());
   std::vector<Rival> rivals;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i == named || all[i].disguise != Disguise::none) continue;
-    const double behind = scores[named].fall_nats - scores[i].fall_nats;
+    if (i == named || all[i].decoy_kind != DecoyKind::none) continue;
+    const double behind = scores[named].gain_nats - scores[i].gain_nats;
     const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
     if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
     if (is_its_wave(all[named].effect, all[i].effect)) continue;

@@ -14,10 +14,10 @@ constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
 
 }  // namespace
 
-Scan::Scan(const EffectColumns& columns, const std::vector<double>& name_nats, const ResidualField& field,
+Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_cost_nats, const ResidualField& field,
            const Projection& model)
     : spans_(columns.spans()),
-      name_nats_(name_nats),
+      name_nats_(naming_cost_nats),
       rows_(static_cast<double>(field.rows())),
       poses_(static_cast<double>(distinct_poses(field))) {
   whole_.reserve(spans_.size());
@@ -62,7 +62,7 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
   }
 }
 
-double Scan::fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
+double Scan::gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
   if (rank == 0) return 0.0;
   const double share = std::min(drop / squares, 1.0 - 1e-12);
   return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) - name_nats_[candidate];
@@ -75,7 +75,7 @@ std::vector<Score> Scan::scores() const {
     scores[i].drop = moment.dot(grams_[i].inverse * moment);
     scores[i].rank = grams_[i].rank;
     scores[i].visible = grams_[i].visible;
-    scores[i].fall_nats = fall_nats(scores[i].drop, squares_, scores[i].rank, i);
+    scores[i].gain_nats = gain_nats(scores[i].drop, squares_, scores[i].rank, i);
   }
   return scores;
 }
@@ -121,7 +121,7 @@ double Scan::best_fall(const Eigen::VectorXd& moments, double squares) const {
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const auto moment = moments.segment(spans_[k].first, spans_[k].count);
     if (grams_[k].rank == 0) continue;
-    best = std::max(best, fall_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
+    best = std::max(best, gain_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
   }
   return best;
 }

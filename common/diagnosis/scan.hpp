@@ -14,15 +14,15 @@ namespace demecal {
 struct Score {
   double drop = 0.0;        ///< fall of the sum of squares
   Eigen::Index rank = 0;    ///< directions that the model does not have
-  double fall_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
+  double gain_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
   Eigen::VectorXd visible;  ///< per coefficient: the squared length of its column beyond the model
 };
 
 /// All candidates' projections off one model. Building it costs one pass over the candidates' columns.
 class Scan {
  public:
-  /// `name_nats`: per candidate, the price of naming it (log of the number of its like).
-  Scan(const EffectColumns& columns, const std::vector<double>& name_nats, const ResidualField& field,
+  /// `naming_cost_nats`: per candidate, the price of naming it (log of the number of its like).
+  Scan(const EffectColumns& columns, const std::vector<double>& naming_cost_nats, const ResidualField& field,
        const Projection& model);
 
   /// Brings the scan up to date with a model to which columns were added (as `added` says, from column `from` on).
@@ -35,7 +35,7 @@ class Scan {
   /// beyond the model too; `products`: columns^T direction; `square`: its squared length.
   std::vector<double> cosines(const Eigen::MatrixXd& products, double square) const;
 
-  /// The largest fall_nats of any candidate, ascending, over `count` draws of independent noise in place of the
+  /// The largest gain_nats of any candidate, ascending, over `count` draws of independent noise in place of the
   /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005).
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                   int count, RandomStream random) const;
@@ -46,7 +46,7 @@ class Scan {
     Eigen::Index rank = 0;
     Eigen::VectorXd visible;
   };
-  double fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
+  double gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
   double best_fall(const Eigen::VectorXd& moments, double squares) const;
   void invert(const std::vector<ColumnSpan>& spans);
 

@@ -37,21 +37,21 @@ constexpr double kOwnPayload_kg = 2.0;  ///< where none was recorded
 constexpr double kStep_kelvin = 10.0;
 constexpr double kWorthwhile = 1.1;  ///< range within the limits over the measured one
 
-class Drafting {
+class ExperimentDesign {
  public:
-  Drafting(const DiagnosisData& of, RandomStream random)
-      : of_(of), feasible_(of.data, of.fitted), random_(std::move(random)) {}
+  ExperimentDesign(const DiagnosisProblem& problem, RandomStream random)
+      : problem_(problem), feasible_(problem.data, problem.fitted), random_(std::move(random)) {}
 
   /// A pose at hand sent elsewhere.
-  MeasuredPose somewhere(const std::vector<Interval>& ranges) {
-    MeasuredPose pose = of_.data.poses[of_.fitted[random_.index(of_.fitted.size())]];
+  MeasuredPose random_stop(const std::vector<Interval>& ranges) {
+    MeasuredPose pose = problem_.data.poses[problem_.fitted[random_.index(problem_.fitted.size())]];
     pose.joints = feasible_.draw(ranges, random_);
     return pose;
   }
 
-  Experiment more() {
+  Experiment more_poses() {
     Experiment experiment{"more ", " at joints drawn at random from their measured ranges", 1, -1, {}};
-    for (int i = 0; i < kPoses; ++i) experiment.stops.push_back(somewhere(feasible_.measured()));
+    for (int i = 0; i < kPoses; ++i) experiment.stops.push_back(random_stop(feasible_.measured()));
     return experiment;
   }
 
@@ -60,29 +60,30 @@ class Drafting {
   Experiment pairs(std::string after, const Change& change) {
     Experiment experiment{"", std::move(after), 2, -1, {}};
     for (int i = 0; i < kPoses; ++i) {
-      const MeasuredPose pose = somewhere(feasible_.measured());
+      const MeasuredPose pose = random_stop(feasible_.measured());
       for (const bool second : {false, true}) change(experiment.stops.emplace_back(pose), second);
     }
     return experiment;
   }
 
-  Experiment both_sides(int joint) {
-    const Eigen::Index n = of_.data.robot.chain.size();
+  Experiment from_both_sides(int joint) {
+    const Eigen::Index n = problem_.data.robot.chain.size();
     return pairs(" approached from both sides of joint " + std::to_string(joint + 1), [&](MeasuredPose& pose, bool up) {
       if (!pose.approach) pose.approach = ApproachSigns::Zero(n);
       (*pose.approach)[joint] = up ? 1.0 : -1.0;
     });
   }
 
-  Experiment payload() {
+  Experiment with_payload() {
     double most_kg = 0.0;
-    for (const std::size_t i : of_.fitted) most_kg = std::max(most_kg, of_.data.poses[i].payload_kg.value_or(0.0));
+    for (const std::size_t i : problem_.fitted)
+      most_kg = std::max(most_kg, problem_.data.poses[i].payload_kg.value_or(0.0));
     const double mass_kg = most_kg > 0 ? most_kg : kOwnPayload_kg;
     return pairs(" measured both without and with a payload of " + number_words(mass_kg) + " kg",
                  [&](MeasuredPose& pose, bool laden) { pose.payload_kg = laden ? mass_kg : 0.0; });
   }
 
-  Experiment heat() {
+  Experiment temperature_step() {
     return pairs(" measured both as warm as the present ones and " + number_words(kStep_kelvin) + " K warmer",
                  [&](MeasuredPose& pose, bool warmer) {
                    if (warmer && pose.temperature_celsius) *pose.temperature_celsius += kStep_kelvin;
@@ -91,36 +92,38 @@ class Drafting {
 
   bool can_widen(int joint) const {
     const auto at = static_cast<std::size_t>(joint);
-    const Interval &may = feasible_.allowed()[at], &did = feasible_.measured()[at];
-    const double both = std::max(may.upper, did.upper) - std::min(may.lower, did.lower);
-    return both > kWorthwhile * (did.upper - did.lower);
+    const Interval &allowed_range = feasible_.allowed()[at], &measured_range = feasible_.measured()[at];
+    const double both =
+        std::max(allowed_range.upper, measured_range.upper) - std::min(allowed_range.lower, measured_range.lower);
+    return both > kWorthwhile * (measured_range.upper - measured_range.lower);
   }
 
-  Experiment wider(int joint) {
+  Experiment with_wider_range(int joint) {
     const auto at = static_cast<std::size_t>(joint);
     std::vector<Interval> ranges = feasible_.measured();
-    const Interval did = ranges[at], may = feasible_.allowed()[at];
-    ranges[at] = {std::min(may.lower, did.lower), std::max(may.upper, did.upper)};
+    const Interval measured_range = ranges[at], allowed_range = feasible_.allowed()[at];
+    ranges[at] = {std::min(allowed_range.lower, measured_range.lower),
+                  std::max(allowed_range.upper, measured_range.upper)};
     Experiment experiment{"",
                           " with joint " + std::to_string(joint + 1) + " anywhere from " + words(joint, ranges[at]) +
-                              ", not only from " + words(joint, did),
+                              ", not only from " + words(joint, measured_range),
                           1,
                           joint,
                           {}};
-    for (int i = 0; i < kPoses; ++i) experiment.stops.push_back(somewhere(ranges));
+    for (int i = 0; i < kPoses; ++i) experiment.stops.push_back(random_stop(ranges));
     return experiment;
   }
 
  private:
   std::string words(int joint, const Interval& range) const {
-    const bool turns = is_revolute(of_.data.robot, joint);
+    const bool turns = is_revolute(problem_.data.robot, joint);
     const auto number = [&](double value) {
       return number_words(std::round(turns ? degrees(value) : millimetres(value)));
     };
     return number(range.lower) + " to " + number(range.upper) + (turns ? " deg" : " mm");
   }
 
-  const DiagnosisData& of_;
+  const DiagnosisProblem& problem_;
   FeasiblePoses feasible_;
   RandomStream random_;
 };
@@ -185,20 +188,22 @@ JointVector FeasiblePoses::draw(const std::vector<Interval>& ranges, RandomStrea
   return joints_[random.index(joints_.size())];
 }
 
-std::vector<Experiment> experiments(const DiagnosisData& of, const std::vector<Effect>& asked, RandomStream random) {
+std::vector<Experiment> experiments(const DiagnosisProblem& problem, const std::vector<Effect>& asked,
+                                    RandomStream random) {
   const auto any = [&](const auto& has) {
-    return std::ranges::any_of(of.fitted, [&](std::size_t i) { return has(of.data.poses[i]); });
+    return std::ranges::any_of(problem.fitted, [&](std::size_t i) { return has(problem.data.poses[i]); });
   };
-  Drafting draft(of, std::move(random));
-  std::vector<Experiment> all{draft.more()};
+  ExperimentDesign design(problem, std::move(random));
+  std::vector<Experiment> all{design.more_poses()};
   if (any([](const MeasuredPose& pose) { return pose.approach.has_value(); })) {
-    for (const int joint : joints_of(asked)) all.push_back(draft.both_sides(joint));
+    for (const int joint : joints_of(asked)) all.push_back(design.from_both_sides(joint));
   }
-  all.push_back(draft.payload());
-  for (int joint = 0; joint < of.data.robot.chain.size(); ++joint) {
-    if (draft.can_widen(joint)) all.push_back(draft.wider(joint));
+  all.push_back(design.with_payload());
+  for (int joint = 0; joint < problem.data.robot.chain.size(); ++joint) {
+    if (design.can_widen(joint)) all.push_back(design.with_wider_range(joint));
   }
-  if (any([](const MeasuredPose& pose) { return pose.temperature_celsius.has_value(); })) all.push_back(draft.heat());
+  if (any([](const MeasuredPose& pose) { return pose.temperature_celsius.has_value(); }))
+    all.push_back(design.temperature_step());
   return all;
 }
 

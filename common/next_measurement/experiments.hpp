@@ -49,6 +49,7 @@ struct Experiment {
 /// What can be done about effects such as `asked`, the simplest first: more poses; the same from both sides of a joint;
 /// with and without a payload; a joint out to its limits; a step of temperature. Joints are drawn independently of each
 /// other within their measured ranges, circumstances are together those of a pose at hand.
-std::vector<Experiment> experiments(const DiagnosisData& of, const std::vector<Effect>& asked, RandomStream random);
+std::vector<Experiment> experiments(const DiagnosisProblem& problem, const std::vector<Effect>& asked,
+                                    RandomStream random);
 
 }  // namespace demecal

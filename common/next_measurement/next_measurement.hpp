@@ -19,7 +19,7 @@ struct Rival {
 };
 
 /// The measurement that would split an effect from its rivals.
-struct FurtherMeasurement {
+struct NextMeasurement {
   std::string sentence;  ///< what to measure, for a person
   int poses = 0;         ///< how many give power 0.9
 };
@@ -31,9 +31,9 @@ struct FurtherMeasurement {
 /// %, with power 0.9. A rival that contains the named effect is held against it by the rest of its coefficients. Rivals
 /// that 10000 poses of no kind would split off are said to be such; where there are no others, the number of poses is
 /// 0. Nothing where there are no rivals, or where `named` does nothing.
-std::optional<FurtherMeasurement> further_measurement(const DiagnosisData& of, const DiagnosedModel& model,
-                                                      const Effect& named, const std::vector<Rival>& rivals,
-                                                      RandomStream random);
+std::optional<NextMeasurement> find_next_measurement(const DiagnosisProblem& problem, const DiagnosedModel& model,
+                                                     const Effect& named, const std::vector<Rival>& rivals,
+                                                     RandomStream random);
 
 /// "coupling of joint 3 (from joint 2)": an effect as a sentence speaks of it.
 std::string to_string(const Effect& effect);
@@ -49,7 +49,7 @@ struct AmbiguousEffect {
 /// (D-optimality), given what the poses at hand know; where there are none, of all numbers of the model. Payloads are
 /// those recorded, approaches from both sides where they were recorded; temperature and time are left open. Joints keep
 /// 2 % off their limits.
-std::vector<Stop> propose_poses(const DiagnosisData& of, const DiagnosedModel& model,
+std::vector<Stop> propose_poses(const DiagnosisProblem& problem, const DiagnosedModel& model,
                                 const std::vector<AmbiguousEffect>& ambiguous, int count, RandomStream random);
 
 }  // namespace demecal

@@ -20,8 +20,8 @@ constexpr std::size_t kMostPosesKnown = 2000;  ///< more tell the same, weighed
 constexpr double kNothing = 1e-12;             ///< of a correlation matrix's eigenvalues: rounding
 
 /// At most kMostPosesKnown of the fitted poses, in their order, and no judging ones.
-DiagnosisData sample(const DiagnosisData& of, RandomStream random) {
-  DiagnosisData some{of.data, of.declared, of.fitted, {}};
+DiagnosisProblem sample(const DiagnosisProblem& problem, RandomStream random) {
+  DiagnosisProblem some{problem.data, problem.declared, problem.fitted, {}};
   for (std::size_t i = 0; i < kMostPosesKnown && some.fitted.size() > kMostPosesKnown; ++i) {
     std::swap(some.fitted[i], some.fitted[i + random.index(some.fitted.size() - i)]);
   }
@@ -54,11 +54,12 @@ Spectrum spectrum(const Eigen::MatrixXd& covariance) {
 }
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& covariance) {
-  const Spectrum of = spectrum(covariance);
-  Eigen::VectorXd inverse = of.values, scale = of.scale;
+  const Spectrum decomposed = spectrum(covariance);
+  Eigen::VectorXd inverse = decomposed.values, scale = decomposed.scale;
   for (double& value : inverse) value = value > 0 ? 1 / value : 0.0;
   for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
-  return scale.asDiagonal() * of.vectors * inverse.asDiagonal() * of.vectors.transpose() * scale.asDiagonal();
+  return scale.asDiagonal() * decomposed.vectors * inverse.asDiagonal() * decomposed.vectors.transpose() *
+         scale.asDiagonal();
 }
 
 /// The covariance of `kept` when the numbers `out` are held.
@@ -72,9 +73,10 @@ Eigen::MatrixXd held(const Eigen::MatrixXd& covariance, const std::vector<Eigen:
 
 /// F (n x r) with F F^T the covariance.
 Eigen::MatrixXd root(const Eigen::MatrixXd& covariance) {
-  const Spectrum of = spectrum(covariance);
-  const Eigen::Index n = of.values.size(), rank = (of.values.array() > 0).count();
-  const Eigen::MatrixXd whole = of.scale.asDiagonal() * of.vectors * of.values.cwiseSqrt().asDiagonal();
+  const Spectrum decomposed = spectrum(covariance);
+  const Eigen::Index n = decomposed.values.size(), rank = (decomposed.values.array() > 0).count();
+  const Eigen::MatrixXd whole =
+      decomposed.scale.asDiagonal() * decomposed.vectors * decomposed.values.cwiseSqrt().asDiagonal();
   return whole.rightCols(std::min(n, rank));  // eigenvalues ascend
 }
 
@@ -137,31 +139,32 @@ std::optional<int> Separation::poses_needed(const std::vector<Eigen::Index>& oth
   return many;
 }
 
-Knowledge::Knowledge(const DiagnosisData& of, DiagnosedModel model, const std::vector<Effect>& asked,
-                     RandomStream random)
-    : of_(of),
+PosteriorModel::PosteriorModel(const DiagnosisProblem& problem, DiagnosedModel model, const std::vector<Effect>& asked,
+                               RandomStream random)
+    : problem_(problem),
       model_(everywhere(std::move(model))),
-      at_(linearise(sample(of, std::move(random)), model_)),
-      weight_(static_cast<double>(of.fitted.size()) /
-              static_cast<double>(std::min(of.fitted.size(), kMostPosesKnown))) {
+      linearization_(linearize(sample(problem, std::move(random)), model_)),
+      weight_(static_cast<double>(problem.fitted.size()) /
+              static_cast<double>(std::min(problem.fitted.size(), kMostPosesKnown))) {
   std::vector<Eigen::Index> out;
-  for (Eigen::Index i = 0; i < at_.covariance.rows(); ++i) {
+  for (Eigen::Index i = 0; i < linearization_.covariance.rows(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const bool coefficient = at < at_.ids.size() && at_.ids[at].kind == ParameterId::Kind::effect;
-    const bool apart = coefficient && std::ranges::any_of(asked, [&](const Effect& effect) {
-                         return effect.same_law_as(model_.robot.effects[static_cast<std::size_t>(at_.ids[at].index)]);
-                       });
+    const bool coefficient = at < linearization_.ids.size() && linearization_.ids[at].kind == ParameterId::Kind::effect;
+    const bool apart =
+        coefficient && std::ranges::any_of(asked, [&](const Effect& effect) {
+          return effect.same_law_as(model_.robot.effects[static_cast<std::size_t>(linearization_.ids[at].index)]);
+        });
     (apart ? out : kept_).push_back(i);
   }
-  to_units_ = root(held(at_.covariance, kept_, out)) / std::sqrt(weight_);
+  to_units_ = root(held(linearization_.covariance, kept_, out)) / std::sqrt(weight_);
 }
 
-DataSet Knowledge::predicted(std::vector<MeasuredPose> stops) const {
+DataSet PosteriorModel::predicted(std::vector<MeasuredPose> stops) const {
   DataSet data;
-  data.robot = of_.data.robot;
-  data.frame = of_.data.frame;
-  data.tools_m = of_.data.tools_m;
-  data.anchors_m = of_.data.anchors_m;
+  data.robot = problem_.data.robot;
+  data.frame = problem_.data.frame;
+  data.tools_m = problem_.data.tools_m;
+  data.anchors_m = problem_.data.anchors_m;
   data.poses = std::move(stops);
   for (MeasuredPose& pose : data.poses) {
     const Eigen::Isometry3d tool = model_.robot.predict(Stop(pose), pose.target);
@@ -174,24 +177,25 @@ DataSet Knowledge::predicted(std::vector<MeasuredPose> stops) const {
   return data;
 }
 
-ResidualField Knowledge::field(const DataSet& predicted) const {
+ResidualField PosteriorModel::field(const DataSet& predicted) const {
   std::vector<std::size_t> poses(predicted.poses.size());
   std::iota(poses.begin(), poses.end(), 0);
-  return residual_field(predicted, poses, ParameterSpace(model_.robot, at_.ids), model_.scales, false, model_.noise);
+  return residual_field(predicted, poses, ParameterSpace(model_.robot, linearization_.ids), model_.scales, false,
+                        model_.noise);
 }
 
-RowMatrix Knowledge::model_columns(const ResidualField& field) const {
+RowMatrix PosteriorModel::model_columns(const ResidualField& field) const {
   RowMatrix all(field.rows(), field.declared.cols() + model_.smooth.coefficients.size());
   all << field.declared, model_.smooth.columns(field);
   const RowMatrix kept = all(Eigen::all, kept_);
   return kept * to_units_;
 }
 
-RowMatrix Knowledge::effect_columns(const std::vector<Effect>& effects, const ResidualField& field) const {
+RowMatrix PosteriorModel::effect_columns(const std::vector<Effect>& effects, const ResidualField& field) const {
   EffectColumns columns;
   for (Effect effect : effects) {
     effect.ranges.clear();
-    columns.append(effect, of_.data.robot, field.states);
+    columns.append(effect, problem_.data.robot, field.states);
   }
   columns.pack();
   RowMatrix all(field.rows(), columns.size());

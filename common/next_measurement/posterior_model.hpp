@@ -45,13 +45,15 @@ class Separation {
 
 /// The model about its present values, less the effects that are asked about: those stand apart, as columns. Laws hold
 /// everywhere, also beyond the ranges they were identified in.
-class Knowledge {
+class PosteriorModel {
  public:
-  /// `asked`: effects that are not to count as part of the model, whether it holds them or not. `of` must outlive this.
-  Knowledge(const DiagnosisData& of, DiagnosedModel model, const std::vector<Effect>& asked, RandomStream random);
+  /// `asked`: effects that are not to count as part of the model, whether it holds them or not. `problem` must outlive
+  /// this.
+  PosteriorModel(const DiagnosisProblem& problem, DiagnosedModel model, const std::vector<Effect>& asked,
+                 RandomStream random);
 
   /// The poses at hand, or a sample of them, and how many poses each of the sample stands for.
-  const ResidualField& present() const { return at_.fitted; }
+  const ResidualField& present() const { return linearization_.fitted; }
   double weight() const { return weight_; }
 
   /// A data set of `stops` alone, measured where the model predicts them; what each measures is what it measured.
@@ -68,9 +70,9 @@ class Knowledge {
   const DiagnosedModel& model() const { return model_; }
 
  private:
-  const DiagnosisData& of_;
+  const DiagnosisProblem& problem_;
   DiagnosedModel model_;
-  Linearised at_;
+  Linearization linearization_;
   double weight_;
   std::vector<Eigen::Index> kept_;  ///< columns of the linearised model that are not asked about
   Eigen::MatrixXd to_units_;        ///< kept x r

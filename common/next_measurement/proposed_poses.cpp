@@ -45,18 +45,18 @@ std::vector<Effect> effects_asked(const std::vector<AmbiguousEffect>& ambiguous,
 }
 
 /// Stops at feasible joints, in recorded circumstances; what they measure is what the poses at hand measured.
-std::vector<MeasuredPose> random_stops(const DiagnosisData& of, int count, RandomStream random) {
-  const FeasiblePoses feasible(of.data, of.fitted);
+std::vector<MeasuredPose> random_stops(const DiagnosisProblem& problem, int count, RandomStream random) {
+  const FeasiblePoses feasible(problem.data, problem.fitted);
   std::set<double> payloads;
   bool sides = false;
-  for (const std::size_t i : of.fitted) {
-    if (of.data.poses[i].payload_kg) payloads.insert(*of.data.poses[i].payload_kg);
-    sides = sides || of.data.poses[i].approach;
+  for (const std::size_t i : problem.fitted) {
+    if (problem.data.poses[i].payload_kg) payloads.insert(*problem.data.poses[i].payload_kg);
+    sides = sides || problem.data.poses[i].approach;
   }
   const std::vector<double> levels(payloads.begin(), payloads.end());
   std::vector<MeasuredPose> stops;
   for (int i = 0; i < count; ++i) {
-    MeasuredPose& pose = stops.emplace_back(of.data.poses[of.fitted[random.index(of.fitted.size())]]);
+    MeasuredPose& pose = stops.emplace_back(problem.data.poses[problem.fitted[random.index(problem.fitted.size())]]);
     pose.joints = feasible.draw(feasible.allowed(), random);
     pose.payload_kg = std::nullopt;
     if (!levels.empty()) pose.payload_kg = levels[random.index(levels.size())];
@@ -72,9 +72,9 @@ std::vector<MeasuredPose> random_stops(const DiagnosisData& of, int count, Rando
 }
 
 /// The determinant of what is known, as rows are added, in coordinates that start out known to one unit each.
-class Known {
+class InformationMatrix {
  public:
-  explicit Known(RowMatrix rows) : rows_(std::move(rows)), carried_(rows_) {}
+  explicit InformationMatrix(RowMatrix rows) : rows_(std::move(rows)), carried_(rows_) {}
 
   /// By how much its logarithm grows with rows first .. first + count - 1.
   double gain(Eigen::Index first, Eigen::Index count) const {
@@ -99,11 +99,11 @@ class Known {
 };
 
 /// The columns asked about, less what of them the poses at hand lay to the model's, in coordinates known to one unit.
-RowMatrix asked_rows(const Knowledge& knowledge, const std::vector<Effect>& asked, const ResidualField& field,
+RowMatrix asked_rows(const PosteriorModel& posterior, const std::vector<Effect>& asked, const ResidualField& field,
                      const RowMatrix& model_rows) {
-  const Products at_hand = products(knowledge.model_columns(knowledge.present()),
-                                    knowledge.effect_columns(asked, knowledge.present()), knowledge.weight());
-  RowMatrix rows = knowledge.effect_columns(asked, field);
+  const Products at_hand = products(posterior.model_columns(posterior.present()),
+                                    posterior.effect_columns(asked, posterior.present()), posterior.weight());
+  RowMatrix rows = posterior.effect_columns(asked, field);
   Eigen::MatrixXd known = at_hand.asked - at_hand.cross.transpose() * at_hand.cross;
   for (Eigen::Index i = 0; i < known.cols(); ++i) {
     const double square = rows.col(i).squaredNorm() / static_cast<double>(rows.rows());
@@ -116,17 +116,18 @@ RowMatrix asked_rows(const Knowledge& knowledge, const std::vector<Effect>& aske
 
 }  // namespace
 
-std::vector<Stop> propose_poses(const DiagnosisData& of, const DiagnosedModel& model,
+std::vector<Stop> propose_poses(const DiagnosisProblem& problem, const DiagnosedModel& model,
                                 const std::vector<AmbiguousEffect>& ambiguous, int count, RandomStream random) {
   std::vector<Stop> picked;
-  if (of.fitted.empty() || count <= 0) return picked;
-  const std::vector<Effect> asked = effects_asked(ambiguous, of.data.robot);
-  const Knowledge knowledge(of, model, asked, random);
-  const DataSet pool = knowledge.predicted(random_stops(of, std::max(kPool, 4 * count), random));
-  const ResidualField field = knowledge.field(pool);
-  const RowMatrix model_rows = knowledge.model_columns(field);
-  Known whole(asked.empty() ? model_rows : beside(model_rows, asked_rows(knowledge, asked, field, model_rows)));
-  Known nuisance(asked.empty() ? RowMatrix(field.rows(), 0) : model_rows);
+  if (problem.fitted.empty() || count <= 0) return picked;
+  const std::vector<Effect> asked = effects_asked(ambiguous, problem.data.robot);
+  const PosteriorModel posterior(problem, model, asked, random);
+  const DataSet pool = posterior.predicted(random_stops(problem, std::max(kPool, 4 * count), random));
+  const ResidualField field = posterior.field(pool);
+  const RowMatrix model_rows = posterior.model_columns(field);
+  InformationMatrix whole(asked.empty() ? model_rows
+                                        : beside(model_rows, asked_rows(posterior, asked, field, model_rows)));
+  InformationMatrix nuisance(asked.empty() ? RowMatrix(field.rows(), 0) : model_rows);
   std::vector<bool> taken(field.poses.size(), false);
   while (std::ssize(picked) < count && picked.size() < taken.size()) {
     std::size_t best = taken.size();

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
 
-std::vector<ParameterId> free_ids(const DiagnosisData& of, const CorrectedRobot& robot, const FitOptions& options) {
-  std::vector<ParameterId> ids = free_parameters(of.data, of.declared, options);
+std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const CorrectedRobot& robot,
+                                  const FitOptions& options) {
+  std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared, options);
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
   return ids;
 }
@@ -68,9 +69,9 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& s
 
 ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
                            const Eigen::VectorXd& kept_precision, const ResidualField& fitted,
-                           const ResidualField& judging, const RowMatrix& shared) {
+                           const ResidualField& validation, const RowMatrix& shared) {
   ModelColumns columns{
-      beside(fitted.declared, smooth.columns(fitted)), beside(judging.declared, smooth.columns(judging)), {}, {}};
+      beside(fitted.declared, smooth.columns(fitted)), beside(validation.declared, smooth.columns(validation)), {}, {}};
   const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
   columns.precision.setZero(n + terms);
   columns.precision.head(n) = prior.precision;
@@ -85,7 +86,7 @@ ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, cons
 void append(ModelColumns& columns, const SharedErrors& shared) {
   const Eigen::Index known = columns.precision.size(), more = shared.fitted.cols();
   columns.fitted = beside(columns.fitted, shared.fitted);
-  columns.judging = beside(columns.judging, shared.judging);
+  columns.validation = beside(columns.validation, shared.validation);
   columns.precision.conservativeResize(known + more);
   columns.precision.tail(more).setOnes();
   columns.offset.conservativeResize(known + more);
@@ -94,16 +95,17 @@ void append(ModelColumns& columns, const SharedErrors& shared) {
 }
 
 /// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
-RowScales scales_of(const DiagnosisData& of, const Linearised& at, const RowScales& present) {
+RowScales scales_of(const DiagnosisProblem& problem, const Linearization& linearization, const RowScales& present) {
   RowScales squares{}, freedom{};
-  for (std::size_t i = 0; i < at.fitted.poses.size(); ++i) {
-    const RowCounts count = count_rows(of.data.poses[at.fitted.poses[i]]);
-    Eigen::Index row = at.fitted.first_row[i];
+  for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
+    const RowCounts count = count_rows(problem.data.poses[linearization.fitted.poses[i]]);
+    Eigen::Index row = linearization.fitted.first_row[i];
     for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
       if (present[kind] <= 0) continue;
       for (int k = 0; k < count[kind]; ++k, ++row) {
-        squares[kind] += std::pow(at.projection.left()[row], 2);
-        freedom[kind] += std::pow(at.fitted.root_weight[i], 2) - at.projection.basis().row(row).squaredNorm();
+        squares[kind] += std::pow(linearization.projection.left()[row], 2);
+        freedom[kind] +=
+            std::pow(linearization.fitted.root_weight[i], 2) - linearization.projection.basis().row(row).squaredNorm();
       }
     }
   }
@@ -124,20 +126,21 @@ bool settled(const RowScales& before, const RowScales& after) {
   return true;
 }
 
-void set_standard_errors(CorrectedRobot& robot, const Linearised& at) {
-  for (std::size_t i = 0; i < at.ids.size(); ++i) {
-    const ParameterId& id = at.ids[i];
+void set_standard_errors(CorrectedRobot& robot, const Linearization& linearization) {
+  for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
+    const ParameterId& id = linearization.ids[i];
     if (id.kind != ParameterId::Kind::effect) continue;
     Effect& effect = robot.effects[static_cast<std::size_t>(id.index)];
     effect.standard_errors.resize(effect.values.size());
     const auto row = static_cast<Eigen::Index>(i);
-    effect.standard_errors[static_cast<std::size_t>(id.coefficient)] = std::sqrt(at.covariance(row, row));
+    effect.standard_errors[static_cast<std::size_t>(id.coefficient)] = std::sqrt(linearization.covariance(row, row));
   }
 }
 
 /// A start's scales, which its few gross errors cannot have driven up.
-RowScales first_scales(const DiagnosisData& of, const Fit& start) {
-  const RowScales median = median_deviations(of.data, start.robot, observe(of.data, of.fitted, start.robot));
+RowScales first_scales(const DiagnosisProblem& problem, const Fit& start) {
+  const RowScales median =
+      median_deviations(problem.data, start.robot, observe(problem.data, problem.fitted, start.robot));
   RowScales scales{start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
   for (std::size_t kind = 0; kind < kRowKinds; ++kind)
     if (scales[kind] > 0.0) scales[kind] = std::max(kSmallestScale, std::min(scales[kind], median[kind]));
@@ -155,47 +158,47 @@ RowMatrix unwhitened(const ResidualField& field, RowMatrix rows) {
   return rows;
 }
 
-DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start) {
+DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start) {
   DiagnosedModel model;
   model.robot = start.robot;
-  model.smooth =
-      smooth_corrections(of.data, of.fitted, start.robot, of.declared.joint_corrections, of.declared.joint_offset);
-  model.scales = first_scales(of, start);
+  model.smooth = smooth_corrections(problem.data, problem.fitted, start.robot, problem.declared.joint_corrections,
+                                    problem.declared.joint_offset);
+  model.scales = first_scales(problem, start);
   return model;
 }
 
-Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model) {
+Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model) {
   const FitOptions options;
-  std::vector<ParameterId> ids = free_ids(of, model.robot, options);
+  std::vector<ParameterId> ids = free_ids(problem, model.robot, options);
   const ParameterSpace space(model.robot, ids);
-  Prior prior = link_prior(space, nominal_robot(of.data), options);
-  ResidualField fitted = residual_field(of.data, of.fitted, space, model.scales, true, model.noise);
-  ResidualField judging = residual_field(of.data, of.judging, space, model.scales, false, model.noise);
-  believe_effects_small(ids, model.robot, of.data.robot, fitted.states, prior);
-  const SharedErrors shared = shared_errors(model.noise, fitted, judging);
-  ModelColumns columns = model_columns(space, prior, model.smooth, model.precision, fitted, judging, shared.fitted);
+  Prior prior = link_prior(space, nominal_robot(problem.data), options);
+  ResidualField fitted = residual_field(problem.data, problem.fitted, space, model.scales, true, model.noise);
+  ResidualField validation = residual_field(problem.data, problem.validation, space, model.scales, false, model.noise);
+  believe_effects_small(ids, model.robot, problem.data.robot, fitted.states, prior);
+  const SharedErrors shared = shared_errors(model.noise, fitted, validation);
+  ModelColumns columns = model_columns(space, prior, model.smooth, model.precision, fitted, validation, shared.fitted);
   const Eigen::Index own = columns.precision.size();
   append(columns, shared);
-  Projection projection(columns, fitted.residual, judging.residual);
+  Projection projection(columns, fitted.residual, validation.residual);
   Eigen::VectorXd changes = projection.changes().head(own);
   Eigen::MatrixXd covariance = projection.covariance().topLeftCorner(own, own);
   Eigen::VectorXd errors = fitted.residual - columns.fitted.leftCols(own) * changes;
-  return {std::move(ids),     std::move(fitted),     std::move(judging),          std::move(projection),
+  return {std::move(ids),     std::move(fitted),     std::move(validation),       std::move(projection),
           std::move(changes), std::move(covariance), columns.precision.head(own), std::move(errors)};
 }
 
-DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps) {
+DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps) {
   for (int step = 0; step < steps; ++step) {
-    const Linearised at = linearise(of, model);
-    const ParameterSpace space(model.robot, at.ids);
-    model.robot = space.at(at.changes.head(space.size())).robot;
-    model.smooth.coefficients += at.changes.tail(model.smooth.coefficients.size());
+    const Linearization linearization = linearize(problem, model);
+    const ParameterSpace space(model.robot, linearization.ids);
+    model.robot = space.at(linearization.changes.head(space.size())).robot;
+    model.smooth.coefficients += linearization.changes.tail(model.smooth.coefficients.size());
     model.robot.corrections = model.smooth.corrections();
-    set_standard_errors(model.robot, at);
+    set_standard_errors(model.robot, linearization);
     const RowScales before = model.scales;
-    if (!model.noise_estimated) model.scales = scales_of(of, at, model.scales);
-    const double gained = (at.fitted.residual - at.errors).squaredNorm();
-    if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(at.fitted.rows())) break;
+    if (!model.noise_estimated) model.scales = scales_of(problem, linearization, model.scales);
+    const double gained = (linearization.fitted.residual - linearization.errors).squaredNorm();
+    if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(linearization.fitted.rows())) break;
   }
   return model;
 }

@@ -24,9 +24,9 @@ struct DiagnosedModel {
 
 /// The model's surroundings to first order: fields over the fitted and the judging poses, and the residual with all of
 /// the model's numbers at their least-squares values.
-struct Linearised {
+struct Linearization {
   std::vector<ParameterId> ids;
-  ResidualField fitted, judging;
+  ResidualField fitted, validation;
   Projection projection;
   Eigen::VectorXd changes;     ///< least-squares steps of `ids`, then of the smooth terms
   Eigen::MatrixXd covariance;  ///< of the same numbers, in rows of unit variance
@@ -35,14 +35,14 @@ struct Linearised {
 };
 
 /// What stays the same from step to step.
-struct DiagnosisData {
+struct DiagnosisProblem {
   const DataSet& data;
   DeclaredModel declared;
-  std::vector<std::size_t> fitted, judging;  ///< poses
+  std::vector<std::size_t> fitted, validation;  ///< poses
 };
 
 /// What a diagnosis begins with: the fitted model, its corrections the base of smooth terms where they are declared.
-DiagnosedModel diagnosed_model(const DiagnosisData& of, const Fit& start);
+DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start);
 
 /// Rows of a field as they were before those of one pose were made independent.
 RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
@@ -50,10 +50,10 @@ RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
 /// Linearises at `model`. What poses share by its noise is fitted beside it and then forgotten: with that the rows left
 /// are independent. Smooth terms are believed to be near zero by automatic relevance determination, links to be
 /// near their maker's figures.
-Linearised linearise(const DiagnosisData& of, const DiagnosedModel& model);
+Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model);
 
 /// The model at its least-squares values: Gauss and Newton's steps, far poses down-weighted and the scales of the kinds
 /// of rows taken from what is left, until neither changes; at most `steps`. Effects get standard errors.
-DiagnosedModel refined(const DiagnosisData& of, DiagnosedModel model, int steps);
+DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps);
 
 }  // namespace demecal

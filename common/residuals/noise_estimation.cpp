@@ -24,7 +24,7 @@ class RowsTaken {
     }
   }
   Eigen::Index size() const { return std::ssize(rows_); }
-  RowMatrix of(const RowMatrix& whitened) const {
+  RowMatrix select(const RowMatrix& whitened) const {
     RowMatrix taken = unwhitened(field_, whitened)(rows_, Eigen::all);
     for (Eigen::Index i = 0; i < taken.rows(); ++i) taken.row(i) *= over_weight_[static_cast<std::size_t>(i)];
     return taken;
@@ -51,13 +51,14 @@ std::vector<Eigen::Index> slow_first(const SmoothCorrections& smooth) {
 }
 
 /// The columns that the model may move in, among the declared ones and the smooth terms behind them.
-std::vector<Eigen::Index> columns_of(const Linearised& at, const SmoothCorrections& smooth) {
+std::vector<Eigen::Index> columns_of(const Linearization& linearization, const SmoothCorrections& smooth) {
   constexpr double kMostOfRows = 0.6;  ///< of the rows of distinct poses
-  const auto declared = static_cast<Eigen::Index>(at.ids.size());
-  std::vector<Eigen::Index> columns(at.ids.size());
+  const auto declared = static_cast<Eigen::Index>(linearization.ids.size());
+  std::vector<Eigen::Index> columns(linearization.ids.size());
   std::iota(columns.begin(), columns.end(), Eigen::Index{0});
-  const double share = static_cast<double>(distinct_poses(at.fitted)) / static_cast<double>(at.fitted.poses.size());
-  const double most = kMostOfRows * share * static_cast<double>(at.fitted.rows());
+  const double share = static_cast<double>(distinct_poses(linearization.fitted)) /
+                       static_cast<double>(linearization.fitted.poses.size());
+  const double most = kMostOfRows * share * static_cast<double>(linearization.fitted.rows());
   for (const Eigen::Index term : slow_first(smooth))
     if (static_cast<double>(columns.size()) < most) columns.push_back(declared + term);
   return columns;
@@ -82,27 +83,28 @@ bool is_noise(const NoiseEstimate& noise, const RowScales& scales) {
 
 }  // namespace
 
-DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model) {
-  const Linearised at = linearise(of, model);
-  const RowsTaken taken(at.fitted);
+DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model) {
+  const Linearization linearization = linearize(problem, model);
+  const RowsTaken taken(linearization.fitted);
   if (taken.size() == 0) return model;
-  const RowMatrix columns = beside(at.fitted.declared, model.smooth.columns(at.fitted));
-  const std::vector<Eigen::Index> moving = columns_of(at, model.smooth);
-  NoiseRows rows{.columns = taken.of(columns(Eigen::all, moving)),
-                 .residual = taken.of(at.fitted.residual + at_rest(columns, moving, model.smooth)),
-                 .joint_motions = taken.of(at.fitted.motions(Eigen::all, at.fitted.scattering)),
-                 .first_row = {0},
-                 .group = {},
-                 .order = {}};
+  const RowMatrix columns = beside(linearization.fitted.declared, model.smooth.columns(linearization.fitted));
+  const std::vector<Eigen::Index> moving = columns_of(linearization, model.smooth);
+  NoiseRows rows{
+      .columns = taken.select(columns(Eigen::all, moving)),
+      .residual = taken.select(linearization.fitted.residual + at_rest(columns, moving, model.smooth)),
+      .joint_motions = taken.select(linearization.fitted.motions(Eigen::all, linearization.fitted.scattering)),
+      .first_row = {0},
+      .group = {},
+      .order = {}};
   for (const std::size_t pose : taken.poses) {
-    rows.first_row.push_back(rows.first_row.back() + at.fitted.rows_of_pose(pose));
-    rows.group.push_back(at.fitted.group[pose]);
-    rows.order.push_back(static_cast<double>(at.fitted.poses[pose]));
+    rows.first_row.push_back(rows.first_row.back() + linearization.fitted.rows_of_pose(pose));
+    rows.group.push_back(linearization.fitted.group[pose]);
+    rows.order.push_back(static_cast<double>(linearization.fitted.poses[pose]));
   }
   const NoiseEstimate noise = estimate_noise(rows);
   if (!is_noise(noise, model.scales)) return model;
   model.noise = noise.model;
-  model.noise.fast = unfollowed_variance(model.noise, at.fitted.poses);
+  model.noise.fast = unfollowed_variance(model.noise, linearization.fitted.poses);
   model.noise_estimated = true;
   for (double& scale : model.scales) scale *= noise.scale;
   return model;

@@ -9,6 +9,6 @@ namespace demecal {
 /// far out have no part in it. Smooth terms count whether they were chosen or not, slow ones first, as many as leave
 /// enough distinct poses: what a choice among them explains by chance is not taken for less noise. The model as it is
 /// where its residuals scatter by more than noise may: 1 mrad of a joint, 5 mm that poses share.
-DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel model);
+DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model);
 
 }  // namespace demecal

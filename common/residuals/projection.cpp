@@ -35,9 +35,9 @@ void append(RowMatrix& to, const RowMatrix& columns) {
 
 }  // namespace
 
-Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& judging)
+Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation)
     : left_(fitted),
-      judging_left_(judging),
+      validation_left_(validation),
       beliefs_left_(-model.precision.cwiseProduct(model.offset)),
       shared_(model.shared) {
   TriangularFactor factor(static_cast<int>(model.fitted.cols()));
@@ -47,12 +47,12 @@ Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted,
   to_basis_ = orthonormaliser(factor.factor());
   for (const double precision : model.precision) believed_.push_back(precision != 0.0);
   basis_ = model.fitted * to_basis_;
-  judging_basis_ = model.judging * to_basis_;
+  validation_basis_ = model.validation * to_basis_;
   beliefs_basis_ = beliefs * to_basis_;
   const Eigen::VectorXd along = basis_.transpose() * left_ + beliefs_basis_.transpose() * beliefs_left_;
   changes_ = to_basis_ * along;
   left_ -= basis_ * along;
-  judging_left_ -= judging_basis_ * along;
+  validation_left_ -= validation_basis_ * along;
   beliefs_left_ -= beliefs_basis_ * along;
 }
 
@@ -60,11 +60,11 @@ double Projection::freedom() const {
   return static_cast<double>(left_.size()) - basis_.squaredNorm();
 }
 
-Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& judging) const {
+Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& validation) const {
   Trial result;
   const Eigen::MatrixXd along = basis_.transpose() * fitted;
   result.fitted = fitted - basis_ * along;
-  result.judging = judging - judging_basis_ * along;
+  result.validation = validation - validation_basis_ * along;
   result.beliefs = -beliefs_basis_ * along;
   Eigen::VectorXd scale = fitted.colwise().norm().transpose();
   for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
@@ -84,19 +84,19 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& ju
   }
   result.to_basis.conservativeResize(Eigen::NoChange, result.rank);
   result.coefficients = scale.cwiseProduct(eigen.eigenvectors() * solution);
-  result.judging_left = judging_left_ - result.judging * result.coefficients;
+  result.validation_left = validation_left_ - result.validation * result.coefficients;
   return result;
 }
 
 void Projection::add(const Trial& trial) {
-  const RowMatrix fitted = trial.fitted * trial.to_basis, judging = trial.judging * trial.to_basis;
+  const RowMatrix fitted = trial.fitted * trial.to_basis, validation = trial.validation * trial.to_basis;
   const RowMatrix beliefs = trial.beliefs * trial.to_basis;
   const Eigen::VectorXd share = fitted.transpose() * left_ + beliefs.transpose() * beliefs_left_;
   left_ -= fitted * share;
-  judging_left_ -= judging * share;
+  validation_left_ -= validation * share;
   beliefs_left_ -= beliefs * share;
   append(basis_, fitted);
-  append(judging_basis_, judging);
+  append(validation_basis_, validation);
   append(beliefs_basis_, beliefs);
 }
 

@@ -15,7 +15,7 @@ inline constexpr double kNewShare = 1e-5;
 /// one).
 struct ModelColumns {
   RowMatrix fitted;
-  RowMatrix judging;
+  RowMatrix validation;
   Eigen::VectorXd precision;
   Eigen::VectorXd offset;
   Eigen::Index shared = 0;  ///< how many of them, the last, are errors that poses share: noise, not the model's numbers
@@ -29,7 +29,7 @@ inline constexpr double kNoColumn = 1.0;
 /// residuals. Adding columns keeps both up to date.
 class Projection {
  public:
-  Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& judging);
+  Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation);
 
   /// Rank of the model's columns so far.
   Eigen::Index rank() const { return basis_.cols(); }
@@ -37,7 +37,7 @@ class Projection {
   const RowMatrix& basis() const { return basis_; }
   /// Residual of the fitted rows and of the judging rows.
   const Eigen::VectorXd& left() const { return left_; }
-  const Eigen::VectorXd& judging_left() const { return judging_left_; }
+  const Eigen::VectorXd& validation_left() const { return validation_left_; }
   /// Least-squares changes of the coefficients of the columns it was made from.
   const Eigen::VectorXd& changes() const { return changes_; }
   /// Of the same, in rows of unit variance.
@@ -57,22 +57,22 @@ class Projection {
   /// leaves of either residual.
   struct Trial {
     RowMatrix fitted;              ///< new columns less the model's share, rows x m
-    RowMatrix judging;             ///< the same over the judging rows
+    RowMatrix validation;          ///< the same over the judging rows
     RowMatrix beliefs;             ///< the same over the rows of beliefs
     Eigen::MatrixXd to_basis;      ///< m x rank: makes the new columns orthonormal
     Eigen::VectorXd coefficients;  ///< m; 0 in directions that the model explains already
     double drop = 0.0;             ///< fall of the sum of squares
     Eigen::Index rank = 0;         ///< directions that the model does not explain
-    Eigen::VectorXd judging_left;
+    Eigen::VectorXd validation_left;
   };
-  Trial trial(const RowMatrix& fitted, const RowMatrix& judging) const;
+  Trial trial(const RowMatrix& fitted, const RowMatrix& validation) const;
   /// Takes a trial's columns into the model.
   void add(const Trial& trial);
 
  private:
-  RowMatrix basis_, judging_basis_, beliefs_basis_;
+  RowMatrix basis_, validation_basis_, beliefs_basis_;
   Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
-  Eigen::VectorXd left_, judging_left_, beliefs_left_, changes_;
+  Eigen::VectorXd left_, validation_left_, beliefs_left_, changes_;
   std::vector<bool> believed_;
   Eigen::Index shared_;
 };

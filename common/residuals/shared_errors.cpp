@@ -108,16 +108,16 @@ double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t>
   return std::max(0.0, noise.order * noise.order - followed / static_cast<double>(places.size()));
 }
 
-SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& judging) {
-  SharedErrors shared{RowMatrix(fitted.rows(), 0), RowMatrix(judging.rows(), 0)};
+SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& validation) {
+  SharedErrors shared{RowMatrix(fitted.rows(), 0), RowMatrix(validation.rows(), 0)};
   if (noise.repeats > 0.0) {
     shared.fitted = columns_of_repeats(noise.repeats, fitted);
-    shared.judging = RowMatrix::Zero(judging.rows(), shared.fitted.cols());
+    shared.validation = RowMatrix::Zero(validation.rows(), shared.fitted.cols());
   }
   if (noise.order > 0.0 && !fitted.poses.empty()) {
     const Drift drift(noise, fitted.poses);
     shared.fitted = beside(shared.fitted, columns_of_drift(drift, fitted));
-    shared.judging = beside(shared.judging, columns_of_drift(drift, judging));
+    shared.validation = beside(shared.validation, columns_of_drift(drift, validation));
   }
   return shared;
 }

@@ -47,7 +47,7 @@ struct Beginning {
 
   Job job = job_with_corrections();
   DataSet data;
-  DiagnosisData of;
+  DiagnosisProblem of;
   DiagnosedModel model;
 };
 
@@ -157,7 +157,7 @@ TEST(FormulaSearch, FindsNothingWhereEvolutionIsCutOff) {
 
 TEST(FormulaMisfit, AgreesWithTheProjectionOffTheModel) {
   const Beginning beginning(formula_arm(kTruth, kPoses, 3));
-  const Linearised at = linearise(beginning.of, beginning.model);
+  const Linearization at = linearize(beginning.of, beginning.model);
   const FormulaTable table = formula_tables(beginning.of, at, at.projection.left())[2];
   FormulaMisfit misfit(table.table.variables, at, table.joint, at.projection.left());
   for (const char* text : {"q1 * SIN(q4)", "COS(q3)", "q1 * SIN(q4) * COS(q2)", "SIN(q5 + q6) - 0.2"}) {
@@ -167,7 +167,7 @@ TEST(FormulaMisfit, AgreesWithTheProjectionOffTheModel) {
     columns.append(effect, beginning.data.robot, at.fitted.states);
     columns.pack();
     const Projection::Trial trial =
-        at.projection.trial(columns.dense(at.fitted, 0), RowMatrix::Zero(at.judging.rows(), 1));
+        at.projection.trial(columns.dense(at.fitted, 0), RowMatrix::Zero(at.validation.rows(), 1));
     const double share = (at.projection.left().squaredNorm() - trial.drop) / at.projection.left().squaredNorm();
     EXPECT_NEAR(misfit.gain_nats(effect.formula), -0.5 * static_cast<double>(at.fitted.rows()) * std::log(share), 1e-6)
         << text;
@@ -178,7 +178,7 @@ TEST(FormulaMisfit, AgreesWithTheProjectionOffTheModel) {
 
 TEST(FormulaTables, HoldOnlyWhatThePosesKnow) {
   const Beginning beginning(formula_arm("", kPoses, 1));
-  const Linearised at = linearise(beginning.of, beginning.model);
+  const Linearization at = linearize(beginning.of, beginning.model);
   const std::vector<FormulaTable> tables = formula_tables(beginning.of, at, at.projection.left());
   ASSERT_EQ(tables.size(), 6U);
   for (const FormulaTable& table : tables) {  // no masses, no approaches, no temperature

@@ -23,15 +23,15 @@ KnownArm loose_arm(RandomStream& stream) {
 }
 
 /// The true arm with these effects instead of its own, at the least-squares values.
-DiagnosedModel model_with(const DiagnosisData& of, const KnownArm& arm, std::vector<Effect> effects) {
-  DiagnosedModel model{arm.truth, smooth_corrections(arm.data, of.fitted, arm.truth, false), kScales};
+DiagnosedModel model_with(const DiagnosisProblem& problem, const KnownArm& arm, std::vector<Effect> effects) {
+  DiagnosedModel model{arm.truth, smooth_corrections(arm.data, problem.fitted, arm.truth, false), kScales};
   model.robot.effects = std::move(effects);
-  return refined(of, std::move(model), 4);
+  return refined(problem, std::move(model), 4);
 }
 
 std::vector<Candidate> as_candidates(const std::vector<Effect>& effects) {
   std::vector<Candidate> candidates;
-  for (const Effect& effect : effects) candidates.push_back({.effect = effect, .name_nats = 2.0});
+  for (const Effect& effect : effects) candidates.push_back({.effect = effect, .naming_cost_nats = 2.0});
   return candidates;
 }
 
@@ -41,10 +41,10 @@ TEST(Refined, FindsCoefficientsWithHonestStandardErrors) {
   constexpr int kArms = 12;
   for (int i = 0; i < kArms; ++i) {
     const KnownArm arm = loose_arm(stream);
-    const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+    const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
     Effect unknown = kBacklash;
     unknown.values.clear();
-    const DiagnosedModel model = model_with(of, arm, {unknown});
+    const DiagnosedModel model = model_with(problem, arm, {unknown});
     const Effect& found = model.robot.effects[0];
     ASSERT_EQ(found.standard_errors.size(), 1u);
     squares += std::pow((found.values[0] - 4e-4) / found.standard_errors[0], 2) / kArms;
@@ -57,25 +57,26 @@ TEST(Refined, FindsCoefficientsWithHonestStandardErrors) {
 TEST(Refined, IsNotMovedByAPoseFarOut) {
   RandomStream stream{90, 2};
   KnownArm arm = loose_arm(stream);
-  const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
-  const double before = model_with(of, arm, {kBacklash}).robot.effects[0].values[0];
+  const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  const double before = model_with(problem, arm, {kBacklash}).robot.effects[0].values[0];
   *arm.data.poses[5].position_m += Eigen::Vector3d(0.05, 0.0, 0.02);
-  const DiagnosedModel model = model_with(of, arm, {kBacklash});
+  const DiagnosedModel model = model_with(problem, arm, {kBacklash});
   EXPECT_NEAR(model.robot.effects[0].values[0], before, 2 * model.robot.effects[0].standard_errors[0]);
-  EXPECT_LT(linearise(of, model).fitted.root_weight[5], 0.2);
+  EXPECT_LT(linearize(problem, model).fitted.root_weight[5], 0.2);
 }
 
 TEST(BackwardStep, TakesBackWhatIsNeedlessAndKeepsWhatIsNot) {
   RandomStream stream{90, 3};
   const KnownArm arm = loose_arm(stream);
-  const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
-  DiagnosedModel model = model_with(of, arm, {kHeat, kBacklash, kGear});
+  const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  DiagnosedModel model = model_with(problem, arm, {kHeat, kBacklash, kGear});
   LoopOutcome outcome;
   for (const Effect& effect : {kHeat, kBacklash, kGear}) {
     outcome.rounds.emplace_back().verdict = Verdict::added;
     outcome.rounds.back().effect = effect;
   }
-  const Linearised at = take_back_needless(of, model, as_candidates({kHeat, kBacklash, kGear}), outcome);
+  const Linearization linearization =
+      eliminate_backward(problem, model, as_candidates({kHeat, kBacklash, kGear}), outcome);
   ASSERT_EQ(model.robot.effects.size(), 1u);
   EXPECT_TRUE(model.robot.effects[0].same_law_as(kBacklash));
   EXPECT_NEAR(model.robot.effects[0].values[0], 4e-4, 4 * model.robot.effects[0].standard_errors[0]);
@@ -84,18 +85,18 @@ TEST(BackwardStep, TakesBackWhatIsNeedlessAndKeepsWhatIsNot) {
   EXPECT_EQ(outcome.rounds[1].verdict, Verdict::added);
   EXPECT_EQ(outcome.rounds[2].verdict, Verdict::rejected);
   EXPECT_FALSE(outcome.rounds[0].reason.empty());
-  EXPECT_EQ(at.ids.back().kind, ParameterId::Kind::effect);
-  EXPECT_EQ(at.changes.size(), static_cast<Eigen::Index>(at.ids.size()));
+  EXPECT_EQ(linearization.ids.back().kind, ParameterId::Kind::effect);
+  EXPECT_EQ(linearization.changes.size(), static_cast<Eigen::Index>(linearization.ids.size()));
 }
 
 TEST(BackwardStep, LeavesAModelOfNeededEffectsAsItIs) {
   RandomStream stream{90, 4};
   const KnownArm arm = loose_arm(stream);
-  const DiagnosisData of{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
-  DiagnosedModel model = model_with(of, arm, {kBacklash});
+  const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  DiagnosedModel model = model_with(problem, arm, {kBacklash});
   const std::vector<double> before = model.robot.effects[0].values;
   LoopOutcome outcome;
-  take_back_needless(of, model, as_candidates({kBacklash}), outcome);
+  eliminate_backward(problem, model, as_candidates({kBacklash}), outcome);
   EXPECT_EQ(model.robot.effects[0].values, before);
   EXPECT_TRUE(outcome.dropped.empty());
 }

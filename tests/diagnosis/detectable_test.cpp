@@ -15,7 +15,7 @@ struct DetectingArm {
   ResidualField field;
   std::vector<Candidate> candidates;
   EffectColumns columns;
-  std::vector<double> name_nats, null_maxima;
+  std::vector<double> naming_cost_nats, null_maxima;
 };
 
 DetectingArm detecting_arm(RandomStream& stream) {
@@ -29,20 +29,27 @@ DetectingArm detecting_arm(RandomStream& stream) {
   std::vector<Effect> effects;
   for (const Candidate& candidate : at.candidates) {
     effects.push_back(candidate.effect);
-    at.name_nats.push_back(candidate.name_nats);
+    at.naming_cost_nats.push_back(candidate.naming_cost_nats);
   }
   at.columns = columns_of(effects, at.arm.data.robot, at.field);
   renew_noise(at.field, stream);
   const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
+  const Scan scan(at.columns, at.naming_cost_nats, at.field, model);
   at.null_maxima = scan.null_maxima(at.columns, at.field, model, 199, RandomStream{89});
   return at;
 }
 
+std::vector<DetectableCandidate> detectable(const std::vector<Candidate>& candidates,
+                                            const std::vector<Score>& scores) {
+  std::vector<DetectableCandidate> all;
+  for (std::size_t i = 0; i < scores.size(); ++i) all.push_back({candidates[i], scores[i]});
+  return all;
+}
+
 std::vector<NotFound> not_found(const DetectingArm& at) {
   const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
-  return smallest_detectable(at.candidates, scan.scores(), at.arm.truth, at.arm.data.robot,
+  const Scan scan(at.columns, at.naming_cost_nats, at.field, model);
+  return smallest_detectable(detectable(at.candidates, scan.scores()), at.arm.truth, at.arm.data.robot,
                              {.null_maxima = at.null_maxima, .family_error = 0.05, .variance = 1.0, .poses = 60});
 }
 
@@ -56,8 +63,8 @@ double power(DetectingArm& at, std::size_t candidate, double size, RandomStream&
     renew_noise(at.field, stream);
     at.field.residual += signal;
     const Projection model = projection_of(at.field);
-    const Scan scan(at.columns, at.name_nats, at.field, model);
-    found += scan.scores()[candidate].fall_nats > threshold;
+    const Scan scan(at.columns, at.naming_cost_nats, at.field, model);
+    found += scan.scores()[candidate].gain_nats > threshold;
   }
   return static_cast<double>(found) / kTrials;
 }
@@ -83,7 +90,7 @@ TEST(SmallestDetectable, LiesBetweenThoseOfTheSettingsOfItsKindAndJoint) {
   RandomStream stream{89, 2};
   const DetectingArm at = detecting_arm(stream);
   const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  const std::vector<Score> scores = Scan(at.columns, at.naming_cost_nats, at.field, model).scores();
   for (const NotFound& each : not_found(at)) {
     if (each.effect.kind != "gear_harmonic") continue;
     EXPECT_EQ(each.unit, "rad");
@@ -93,7 +100,7 @@ TEST(SmallestDetectable, LiesBetweenThoseOfTheSettingsOfItsKindAndJoint) {
       if (effect.kind != "gear_harmonic" || effect.joint != each.effect.joint) continue;
       std::vector<Score> alone(scores.size());
       alone[i] = scores[i];
-      const auto only = smallest_detectable(at.candidates, alone, at.arm.truth, at.arm.data.robot,
+      const auto only = smallest_detectable(detectable(at.candidates, alone), at.arm.truth, at.arm.data.robot,
                                             {.null_maxima = at.null_maxima, .poses = 60});
       ASSERT_EQ(only.size(), 1U);
       least = std::min(least, only.front().smallest_detectable);
@@ -104,29 +111,26 @@ TEST(SmallestDetectable, LiesBetweenThoseOfTheSettingsOfItsKindAndJoint) {
   }
 }
 
-TEST(SmallestDetectable, GrowsWithWhatIsTakenAndWithFewerPosesThatJudge) {
+TEST(SmallestDetectable, GrowsWithWhatIsAbsorbedAndWithFewerValidationPoses) {
   RandomStream stream{89, 4};
   const DetectingArm at = detecting_arm(stream);
   const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
-  Detection detection{.null_maxima = at.null_maxima, .poses = 60};
-  const auto sizes = [&] {
-    return smallest_detectable(at.candidates, scores, at.arm.truth, at.arm.data.robot, detection);
-  };
+  std::vector<DetectableCandidate> candidates =
+      detectable(at.candidates, Scan(at.columns, at.naming_cost_nats, at.field, model).scores());
+  const Detection detection{.null_maxima = at.null_maxima, .poses = 60};
+  const auto sizes = [&] { return smallest_detectable(candidates, at.arm.truth, at.arm.data.robot, detection); };
   const std::vector<NotFound> plain = sizes();
-  detection.judged.assign(scores.size(), 0.2);
-  const std::vector<NotFound> judged = sizes();
-  for (const Score& score : scores) {
-    detection.taken.emplace_back();
-    for (const double square : score.visible) detection.taken.back().push_back({0.7 * square});
-  }
-  const std::vector<NotFound> taken = sizes();
-  ASSERT_EQ(plain.size(), judged.size());
-  ASSERT_EQ(plain.size(), taken.size());
+  for (DetectableCandidate& one : candidates) one.validation_ratio = 0.2;
+  const std::vector<NotFound> validated = sizes();
+  for (DetectableCandidate& one : candidates)
+    for (const double square : one.score.visible) one.absorbed.push_back({0.7 * square});
+  const std::vector<NotFound> absorbed = sizes();
+  ASSERT_EQ(plain.size(), validated.size());
+  ASSERT_EQ(plain.size(), absorbed.size());
   for (std::size_t i = 0; i < plain.size(); ++i) {
-    EXPECT_GT(judged[i].smallest_detectable, 1.05 * plain[i].smallest_detectable);
-    EXPECT_NEAR(taken[i].smallest_detectable, judged[i].smallest_detectable / std::sqrt(0.3),
-                0.03 * taken[i].smallest_detectable);
+    EXPECT_GT(validated[i].smallest_detectable, 1.05 * plain[i].smallest_detectable);
+    EXPECT_NEAR(absorbed[i].smallest_detectable, validated[i].smallest_detectable / std::sqrt(0.3),
+                0.03 * absorbed[i].smallest_detectable);
   }
 }
 

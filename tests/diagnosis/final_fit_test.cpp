@@ -20,8 +20,9 @@ DataSet waving_arm(std::uint64_t seed) {
 }
 
 DiagnosedModel fitted(const DataSet& data) {
-  const DiagnosisData of{data, kDeclared, poses_of(data, PoseSet::calibration), {}};
-  return refined(of, diagnosed_model(of, fit_declared(data, of.fitted, kDeclared, nominal_robot(data))), 12);
+  const DiagnosisProblem problem{data, kDeclared, poses_of(data, PoseSet::calibration), {}};
+  return refined(problem, diagnosed_model(problem, fit_declared(data, problem.fitted, kDeclared, nominal_robot(data))),
+                 12);
 }
 
 Eigen::Vector3d reached(const DiagnosedModel& model, const MeasuredPose& pose) {

@@ -35,7 +35,7 @@ TEST(ClosedLoop, NamesBacklash) {
   const Round& round = result.outcome.rounds.front();
   EXPECT_LE(round.p_family, 0.05);
   EXPECT_LE(round.p_structure, 0.05);
-  EXPECT_GT(round.fall_nats, 5.0);
+  EXPECT_GT(round.gain_nats, 5.0);
   EXPECT_GT(round.confirmed, 0.5);
   EXPECT_GT(round.confirmed_lower, 0.0);
   EXPECT_GE(round.sign_stability, 0.95);
@@ -136,7 +136,7 @@ TEST(ClosedLoop, StatesWhatItCouldHaveFound) {
     EXPECT_EQ(each.unit, "rad");
   }
   EXPECT_EQ(backlash, 6u);
-  EXPECT_THAT(outcome.unseen, IsEmpty());
+  EXPECT_THAT(outcome.untestable, IsEmpty());
   EXPECT_EQ(outcome.decoys.size(), 18u);
   for (const Decoy& decoy : outcome.decoys) EXPECT_FALSE(decoy.won);
   EXPECT_EQ(outcome.permutations, 99);

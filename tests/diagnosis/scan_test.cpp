@@ -20,7 +20,7 @@ struct ScannedArm {
   KnownArm arm;
   ResidualField field;
   EffectColumns columns;
-  std::vector<double> name_nats;
+  std::vector<double> naming_cost_nats;
 };
 
 ScannedArm scanned_arm(RandomStream& stream, int poses) {
@@ -35,13 +35,13 @@ ScannedArm scanned_arm(RandomStream& stream, int poses) {
       effects.push_back(std::move(effect));
   }
   made.columns = columns_of(effects, made.arm.data.robot, made.field);
-  for (std::size_t i = 0; i < effects.size(); ++i) made.name_nats.push_back(stream.real(0.0, 5.0));
+  for (std::size_t i = 0; i < effects.size(); ++i) made.naming_cost_nats.push_back(stream.real(0.0, 5.0));
   return made;
 }
 
 double best_fall(const Scan& scan) {
   double best = 0.0;
-  for (const Score& score : scan.scores()) best = std::max(best, score.fall_nats);
+  for (const Score& score : scan.scores()) best = std::max(best, score.gain_nats);
   return best;
 }
 
@@ -54,8 +54,8 @@ TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
   RandomStream stream{84, 1};
   const ScannedArm at = scanned_arm(stream, 40);
   const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
-  ASSERT_EQ(scores.size(), at.name_nats.size());
+  const std::vector<Score> scores = Scan(at.columns, at.naming_cost_nats, at.field, model).scores();
+  ASSERT_EQ(scores.size(), at.naming_cost_nats.size());
   int new_ones = 0;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const RowMatrix dense = at.columns.dense(at.field, i);
@@ -63,10 +63,11 @@ TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
     EXPECT_EQ(scores[i].rank, trial.rank);
     EXPECT_NEAR(scores[i].drop, trial.drop, 1e-6 * (1 + trial.drop));
     const double left = model.left().squaredNorm();
-    const double nats = trial.rank == 0 ? 0.0
-                                        : 0.5 * 120 * std::log(left / (left - trial.drop)) -
-                                              0.5 * static_cast<double>(trial.rank) * std::log(40.0) - at.name_nats[i];
-    EXPECT_NEAR(scores[i].fall_nats, nats, 1e-6 * (1 + std::abs(nats)));
+    const double nats = trial.rank == 0
+                            ? 0.0
+                            : 0.5 * 120 * std::log(left / (left - trial.drop)) -
+                                  0.5 * static_cast<double>(trial.rank) * std::log(40.0) - at.naming_cost_nats[i];
+    EXPECT_NEAR(scores[i].gain_nats, nats, 1e-6 * (1 + std::abs(nats)));
     new_ones += trial.rank > 0;
   }
   EXPECT_GT(new_ones, 30);
@@ -77,7 +78,7 @@ TEST(Scan, VisibleIsTheSquaredLengthOfEachColumnBeyondTheModel) {
   RandomStream stream{84, 2};
   const ScannedArm at = scanned_arm(stream, 40);
   const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  const std::vector<Score> scores = Scan(at.columns, at.naming_cost_nats, at.field, model).scores();
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const RowMatrix dense = at.columns.dense(at.field, i);
     if (scores[i].rank == 0) continue;
@@ -90,17 +91,17 @@ TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
   RandomStream stream{84, 3};
   const ScannedArm at = scanned_arm(stream, 40);
   Projection model = projection_of(at.field);
-  Scan scan(at.columns, at.name_nats, at.field, model);
+  Scan scan(at.columns, at.naming_cost_nats, at.field, model);
   for (const std::size_t added : {8, 20, 31}) {
     const RowMatrix dense = at.columns.dense(at.field, added);
     model.add(model.trial(dense, dense));
     scan.follow(at.columns, at.field, model);
     const std::vector<Score> followed = scan.scores();
-    const std::vector<Score> anew = Scan(at.columns, at.name_nats, at.field, model).scores();
+    const std::vector<Score> anew = Scan(at.columns, at.naming_cost_nats, at.field, model).scores();
     for (std::size_t i = 0; i < anew.size(); ++i) {
       EXPECT_EQ(followed[i].rank, anew[i].rank);
       EXPECT_NEAR(followed[i].drop, anew[i].drop, 1e-8 * (1 + anew[i].drop));
-      EXPECT_NEAR(followed[i].fall_nats, anew[i].fall_nats, 1e-8 * (1 + std::abs(anew[i].fall_nats)));
+      EXPECT_NEAR(followed[i].gain_nats, anew[i].gain_nats, 1e-8 * (1 + std::abs(anew[i].gain_nats)));
     }
     EXPECT_EQ(followed[added].rank, 0);
   }
@@ -110,7 +111,7 @@ TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
   RandomStream stream{84, 4};
   const ScannedArm at = scanned_arm(stream, 40);
   const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
+  const Scan scan(at.columns, at.naming_cost_nats, at.field, model);
   const RowMatrix named = at.columns.dense(at.field, 12);
   const RowMatrix direction = model.trial(named, named).fitted.leftCols(1);
   const std::vector<double> cosines =
@@ -138,7 +139,7 @@ PValues p_values_of_noise(ScannedArm& at, RandomStream& stream, const std::funct
   for (int draw = 0; draw < kDraws; ++draw) {
     renew_noise(at.field, stream);
     const Projection model = fitted();
-    const Scan scan(at.columns, at.name_nats, at.field, model);
+    const Scan scan(at.columns, at.naming_cost_nats, at.field, model);
     const std::vector<double> maxima =
         scan.null_maxima(at.columns, at.field, model, 99, RandomStream{84, purpose, static_cast<std::uint64_t>(draw)});
     const double p = p_value(maxima, best_fall(scan));
@@ -165,7 +166,7 @@ TEST(Scan, NumbersBelievedToBeLargerThanTheyAreMakeNothingRare) {
   RowMatrix random_columns(rows, more);
   for (double& value : random_columns.reshaped()) value = stream.normal() / std::sqrt(static_cast<double>(rows));
   ModelColumns columns{beside(at.field.declared, random_columns), {}, {}, {}};
-  columns.judging = columns.fitted;
+  columns.validation = columns.fitted;
   columns.offset = Eigen::VectorXd::Zero(declared + more);
   columns.precision = Eigen::VectorXd::Zero(declared + more);
   columns.precision.tail(more).setConstant(0.7);  // the rows tell about as much
@@ -179,7 +180,7 @@ TEST(Scan, NullIsAFunctionOfItsSeedAndAscends) {
   RandomStream stream{84, 7};
   const ScannedArm at = scanned_arm(stream, 20);
   const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
+  const Scan scan(at.columns, at.naming_cost_nats, at.field, model);
   const std::vector<double> maxima = scan.null_maxima(at.columns, at.field, model, 70, RandomStream{1});
   EXPECT_EQ(maxima.size(), 70u);
   EXPECT_TRUE(std::ranges::is_sorted(maxima));

@@ -70,35 +70,35 @@ class Laboratory {
   }
 
   /// All poses fit.
-  DiagnosisData diagnosed(const DataSet& data) const {
+  DiagnosisProblem diagnosed(const DataSet& data) const {
     std::vector<std::size_t> all(data.poses.size());
     std::iota(all.begin(), all.end(), 0);
     return {data, declared, all, {}};
   }
 
   /// What is declared and `effect`, at their least-squares values.
-  DiagnosedModel model_with(const DiagnosisData& of, Effect effect) const {
-    const Fit fit = fit_declared(of.data, of.fitted, declared, nominal_robot(of.data), {.starts = 0});
+  DiagnosedModel model_with(const DiagnosisProblem& problem, Effect effect) const {
+    const Fit fit = fit_declared(problem.data, problem.fitted, declared, nominal_robot(problem.data), {.starts = 0});
     DiagnosedModel model;
     model.robot = fit.robot;
-    model.smooth = smooth_corrections(of.data, of.fitted, fit.robot, declared.joint_corrections);
+    model.smooth = smooth_corrections(problem.data, problem.fitted, fit.robot, declared.joint_corrections);
     model.scales = {fit.sigma_position_m, fit.sigma_orientation_rad, fit.sigma_distance_m};
-    effect.values.assign(law_of(effect).coefficients(effect, of.data.robot).size(), 0.0);
+    effect.values.assign(law_of(effect).coefficients(effect, problem.data.robot).size(), 0.0);
     model.robot.effects.push_back(std::move(effect));
-    return refined(of, std::move(model), 4);
+    return refined(problem, std::move(model), 4);
   }
 
   /// How many standard deviations of `named` (with its values) the data show beyond all that `instead` explains.
   double shown_beyond(const DataSet& data, const Effect& named, const Effect& instead) const {
-    const DiagnosisData of = diagnosed(data);
-    const Linearised at = linearise(of, model_with(of, instead));
+    const DiagnosisProblem problem = diagnosed(data);
+    const Linearization linearization = linearize(problem, model_with(problem, instead));
     EffectColumns columns;
-    columns.append(named, data.robot, at.fitted.states);
+    columns.append(named, data.robot, linearization.fitted.states);
     columns.pack();
     const Eigen::VectorXd values =
         Eigen::VectorXd::Map(named.values.data(), static_cast<Eigen::Index>(named.values.size()));
-    const RowMatrix signal = columns.dense(at.fitted, 0) * values;
-    const Projection::Trial trial = at.projection.trial(signal, RowMatrix(0, 1));
+    const RowMatrix signal = columns.dense(linearization.fitted, 0) * values;
+    const Projection::Trial trial = linearization.projection.trial(signal, RowMatrix(0, 1));
     return std::copysign(std::sqrt(trial.drop), trial.coefficients[0]);
   }
 

@@ -35,14 +35,14 @@ std::vector<Visit> visits_at_hand(Confusion& confusion) {
   return visits;
 }
 
-FurtherMeasurement advice(Confusion& confusion, const std::vector<Visit>& visits) {
+NextMeasurement advice(Confusion& confusion, const std::vector<Visit>& visits) {
   Laboratory& laboratory = confusion.laboratory;
   DataSet data = laboratory.data_set();
   laboratory.measure(data, visits);
-  const DiagnosisData of = laboratory.diagnosed(data);
-  const DiagnosedModel model = laboratory.model_with(of, confusion.named);
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
+  const DiagnosedModel model = laboratory.model_with(problem, confusion.named);
   const auto further =
-      further_measurement(of, model, confusion.named, {{confusion.rival, 1.0, 0.0}}, RandomStream{5, 1});
+      find_next_measurement(problem, model, confusion.named, {{confusion.rival, 1.0, 0.0}}, RandomStream{5, 1});
   return further.value();
 }
 
@@ -61,7 +61,7 @@ double power(Confusion& confusion, const std::vector<Visit>& visits, int poses) 
 
 void expect_told_by_advice(Confusion confusion, const std::string& words) {
   const std::vector<Visit> visits = visits_at_hand(confusion);
-  const FurtherMeasurement further = advice(confusion, visits);
+  const NextMeasurement further = advice(confusion, visits);
   EXPECT_THAT(further.sentence, HasSubstr(words));
   EXPECT_THAT(further.sentence, HasSubstr("would tell " + to_string(confusion.named) + " from " +
                                           to_string(confusion.rival) + " (power 0.9)"));
@@ -107,7 +107,7 @@ auto paired_poses(std::function<void(Visit&)> first, std::function<void(Visit&)>
   };
 }
 
-TEST(FurtherMeasurement, DrawsJointsAtRandomThatMovedTogether) {
+TEST(NextMeasurement, DrawsJointsAtRandomThatMovedTogether) {
   Confusion confusion{Laboratory(laden_puma({-120, -30, 45, 135}), 31),
                       effect("coupling", 2, {{"from", 2}}, {8e-5}, "linear"),
                       effect("gain", 2, {}, {}),
@@ -119,7 +119,7 @@ TEST(FurtherMeasurement, DrawsJointsAtRandomThatMovedTogether) {
   expect_told_by_advice(std::move(confusion), "more poses at joints drawn at random");
 }
 
-TEST(FurtherMeasurement, ComesFromBothSidesOfAJointWhoseNeighbourAlwaysCameAlong) {
+TEST(NextMeasurement, ComesFromBothSidesOfAJointWhoseNeighbourAlwaysCameAlong) {
   Confusion confusion{Laboratory(laden_puma({-120, -30, 45, 135}), 32),
                       effect("backlash", 1, {}, {6e-5}, "approach"),
                       effect("backlash", 1, {{"from", 3}}, {}, "coupled"),
@@ -131,7 +131,7 @@ TEST(FurtherMeasurement, ComesFromBothSidesOfAJointWhoseNeighbourAlwaysCameAlong
   expect_told_by_advice(std::move(confusion), "poses approached from both sides of joint 2");
 }
 
-TEST(FurtherMeasurement, LoadsAnArmWhoseTorqueNeverChanged) {
+TEST(NextMeasurement, LoadsAnArmWhoseTorqueNeverChanged) {
   Confusion confusion{Laboratory(laden_puma({-70, -66, 86, 90}, 0.05), 33),
                       effect("hysteresis", 1, {}, {0.0, 1.2e-6}),
                       effect("backlash", 1, {}, {}, "approach"),
@@ -143,19 +143,19 @@ TEST(FurtherMeasurement, LoadsAnArmWhoseTorqueNeverChanged) {
   expect_told_by_advice(std::move(confusion), "poses measured both without and with a payload of 2 kg");
 }
 
-TEST(FurtherMeasurement, HoldsAnEffectAgainstTheRestOfARivalThatContainsIt) {
+TEST(NextMeasurement, HoldsAnEffectAgainstTheRestOfARivalThatContainsIt) {
   Confusion confusion{Laboratory(laden_puma({-70, -66, 86, 90}, 0.05), 38),
                       effect("backlash", 1, {}, {5e-5}, "approach"),
                       effect("hysteresis", 1, {}, {}),
                       [](Visit&) {},
                       {}};
   confusion.laboratory.scenario.backlash = {{1, 5e-5}};
-  const FurtherMeasurement further = advice(confusion, visits_at_hand(confusion));
+  const NextMeasurement further = advice(confusion, visits_at_hand(confusion));
   EXPECT_THAT(further.sentence, HasSubstr("payload of 2 kg would tell backlash of joint 2 from hysteresis of joint 2"));
   EXPECT_GT(further.poses, 0);
 }
 
-TEST(FurtherMeasurement, LoadsAnArmToTellWeightFromTheAngleItHangsOn) {
+TEST(NextMeasurement, LoadsAnArmToTellWeightFromTheAngleItHangsOn) {
   Confusion confusion{Laboratory(laden_puma({-150, -20, 88, 91}), 34),
                       effect("compliance", 1, {}, {1.2e-6}, "masses"),
                       effect("eccentricity", 1, {{"order", 1}}, {}),
@@ -167,7 +167,7 @@ TEST(FurtherMeasurement, LoadsAnArmToTellWeightFromTheAngleItHangsOn) {
   expect_told_by_advice(std::move(confusion), "poses measured both without and with a payload of 2 kg");
 }
 
-TEST(FurtherMeasurement, WidensTheRangeOfAJointThatHardlyMoved) {
+TEST(NextMeasurement, WidensTheRangeOfAJointThatHardlyMoved) {
   Confusion confusion{Laboratory(laden_puma({-150, -20, 45, 200}), 35),
                       effect("gain", 3, {}, {1e-4}),
                       effect("eccentricity", 3, {{"order", 1}}, {}),
@@ -179,7 +179,7 @@ TEST(FurtherMeasurement, WidensTheRangeOfAJointThatHardlyMoved) {
   expect_told_by_advice(std::move(confusion), "poses with joint 4 anywhere from ");
 }
 
-TEST(FurtherMeasurement, StepsTheTemperatureThatRoseWithTime) {
+TEST(NextMeasurement, StepsTheTemperatureThatRoseWithTime) {
   Confusion confusion{Laboratory(laden_puma({-120, -30, 45, 135}), 36),
                       effect("thermal_offset", 0, {{"reference_celsius", 25.0}}, {5e-6}),
                       effect("drift", -1, {{"reference_time_s", 1800.0}}, {}),
@@ -202,33 +202,33 @@ TEST(FurtherMeasurement, StepsTheTemperatureThatRoseWithTime) {
   expect_told_by_advice(std::move(confusion), "poses measured both as warm as the present ones and 10 K warmer");
 }
 
-TEST(FurtherMeasurement, SaysThatWhatIsTheSameCannotBeTold) {
+TEST(NextMeasurement, SaysThatWhatIsTheSameCannotBeTold) {
   Confusion confusion{Laboratory(laden_puma({-150, -20, 45, 200}), 37),
                       effect("eccentricity", 1, {{"order", 1}}, {1e-4, 2e-4}),
                       effect("gear_harmonic", 1, {{"ratio", 1}}, {}),
                       [](Visit&) {},
                       {}};
-  const FurtherMeasurement further = advice(confusion, visits_at_hand(confusion));
+  const NextMeasurement further = advice(confusion, visits_at_hand(confusion));
   EXPECT_EQ(further.sentence,
             "eccentricity of joint 2 (order 1) and gear harmonic of joint 2 (ratio 1) are the same thing for any "
             "measurement of this kind");
   EXPECT_EQ(further.poses, 0);
 }
 
-TEST(FurtherMeasurement, SaysThatWhatIsTooSmallCannotBeTold) {
+TEST(NextMeasurement, SaysThatWhatIsTooSmallCannotBeTold) {
   Confusion confusion{Laboratory(laden_puma({-120, -30, 45, 135}), 39),
                       effect("coupling", 2, {{"from", 2}}, {1e-8}, "linear"),
                       effect("gain", 2, {}, {}),
                       {},
                       {}};
   confusion.at_hand = [](Visit& visit) { visit.commanded[2] = visit.commanded[1] + radians(165.0); };
-  const FurtherMeasurement further = advice(confusion, visits_at_hand(confusion));
+  const NextMeasurement further = advice(confusion, visits_at_hand(confusion));
   EXPECT_EQ(further.sentence,
             "no practical measurement separates coupling of joint 3 (from joint 2) of this size from gain of joint 3");
   EXPECT_EQ(further.poses, 0);
 }
 
-TEST(FurtherMeasurement, IsForTheHardestOfManyRivals) {
+TEST(NextMeasurement, IsForTheHardestOfManyRivals) {
   Laboratory laboratory(laden_puma({-120, -30, 45, 135}), 40);
   laboratory.scenario.couplings = {{2, 1, 8e-5, 0.0, 0.0}};
   DataSet data = laboratory.data_set();
@@ -238,33 +238,33 @@ TEST(FurtherMeasurement, IsForTheHardestOfManyRivals) {
     visits.back().commanded[2] = visits.back().commanded[1] + radians(165.0);
   }
   laboratory.measure(data, visits);
-  const DiagnosisData of = laboratory.diagnosed(data);
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
   const Effect named = effect("coupling", 2, {{"from", 2}}, {8e-5}, "linear");
-  const DiagnosedModel model = laboratory.model_with(of, named);
+  const DiagnosedModel model = laboratory.model_with(problem, named);
   const std::vector<Rival> rivals{{effect("gain", 2, {}, {}), 1.0, 0.0},
                                   {effect("compliance", 1, {}, {}, "masses"), 0.95, 1.0},
                                   {effect("eccentricity", 2, {{"order", 1}}, {}), 0.97, 3.0}};
   int hardest = 0;
   for (const Rival& rival : rivals) {
-    hardest = std::max(hardest, further_measurement(of, model, named, {rival}, RandomStream{5, 1})->poses);
+    hardest = std::max(hardest, find_next_measurement(problem, model, named, {rival}, RandomStream{5, 1})->poses);
   }
-  const auto all = further_measurement(of, model, named, rivals, RandomStream{5, 1});
+  const auto all = find_next_measurement(problem, model, named, rivals, RandomStream{5, 1});
   ASSERT_TRUE(all);
   EXPECT_NEAR(all->poses, hardest, 0.25 * hardest);
 }
 
-TEST(FurtherMeasurement, IsNothingWithoutRivalsOrForAnEffectThatDoesNothing) {
+TEST(NextMeasurement, IsNothingWithoutRivalsOrForAnEffectThatDoesNothing) {
   Laboratory laboratory(laden_puma({-120, -30, 45, 135}), 41);
   DataSet data = laboratory.data_set();
   std::vector<Visit> visits;
   for (int i = 0; i < 20; ++i) visits.push_back(laboratory.visit());
   laboratory.measure(data, visits);
-  const DiagnosisData of = laboratory.diagnosed(data);
-  const DiagnosedModel model = laboratory.model_with(of, effect("gain", 2, {}, {}));
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
+  const DiagnosedModel model = laboratory.model_with(problem, effect("gain", 2, {}, {}));
   const Rival rival{effect("eccentricity", 2, {{"order", 1}}, {}), 1.0, 0.0};
-  EXPECT_FALSE(further_measurement(of, model, effect("gain", 2, {}, {1e-4}), {}, RandomStream{1}));
-  EXPECT_FALSE(further_measurement(of, model, effect("gain", 2, {}, {0.0}), {rival}, RandomStream{1}));
-  EXPECT_TRUE(further_measurement(of, model, effect("gain", 2, {}, {1e-4}), {rival}, RandomStream{1}));
+  EXPECT_FALSE(find_next_measurement(problem, model, effect("gain", 2, {}, {1e-4}), {}, RandomStream{1}));
+  EXPECT_FALSE(find_next_measurement(problem, model, effect("gain", 2, {}, {0.0}), {rival}, RandomStream{1}));
+  EXPECT_TRUE(find_next_measurement(problem, model, effect("gain", 2, {}, {1e-4}), {rival}, RandomStream{1}));
 }
 
 }  // namespace

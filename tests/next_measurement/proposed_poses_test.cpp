@@ -34,11 +34,11 @@ Eigen::MatrixXd covariance_with(Laboratory& laboratory, DataSet data, const Diag
   laboratory.measure(data, visits);
   // What stops tell does not depend on how well the model fits them: none is far out.
   for (MeasuredPose& pose : data.poses) pose.position_m = model.robot.predict(Stop(pose), pose.target).translation();
-  return linearise(laboratory.diagnosed(data), model).covariance;
+  return linearize(laboratory.diagnosed(data), model).covariance;
 }
 
-std::vector<Stop> random_stops(const DiagnosisData& of, RandomStream& random) {
-  const FeasiblePoses feasible(of.data, of.fitted);
+std::vector<Stop> random_stops(const DiagnosisProblem& problem, RandomStream& random) {
+  const FeasiblePoses feasible(problem.data, problem.fitted);
   std::vector<Stop> stops;
   for (int i = 0; i < kProposed; ++i) {
     Stop& stop = stops.emplace_back(feasible.draw(feasible.allowed(), random));
@@ -61,13 +61,13 @@ TEST(Proposal, TellsMoreOfTheWholeModelThanRandomPoses) {
   Laboratory laboratory(laden_puma({-150, -20, 45, 200}), 51);
   laboratory.declared.geometry = laboratory.declared.tool = true;
   const DataSet data = measured(laboratory, 25);
-  const DiagnosisData of = laboratory.diagnosed(data);
-  const DiagnosedModel model = laboratory.model_with(of, {.kind = "gain", .joint = 3});
-  const auto proposed = propose_poses(of, model, {}, kProposed, RandomStream{1});
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
+  const DiagnosedModel model = laboratory.model_with(problem, {.kind = "gain", .joint = 3});
+  const auto proposed = propose_poses(problem, model, {}, kProposed, RandomStream{1});
   const double best = log_determinant(covariance_with(laboratory, data, model, proposed));
   RandomStream random{2};
   for (int i = 0; i < 20; ++i) {
-    EXPECT_LT(best, log_determinant(covariance_with(laboratory, data, model, random_stops(of, random)))) << i;
+    EXPECT_LT(best, log_determinant(covariance_with(laboratory, data, model, random_stops(problem, random)))) << i;
   }
 }
 
@@ -75,12 +75,12 @@ TEST(Proposal, TellsMoreOfRivalsThanRandomPoses) {
   Laboratory laboratory(laden_puma({-150, -20, 45, 200}), 52);
   const DataSet data =
       measured(laboratory, 25, [](Visit& visit) { visit.commanded[2] = visit.commanded[1] + radians(200.0); });
-  const DiagnosisData of = laboratory.diagnosed(data);
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
   const Effect coupling{.kind = "coupling", .joint = 2, .settings = {{"from", 2}}, .form = "linear", .values = {1e-4}};
   const Effect gain{.kind = "gain", .joint = 2};
-  DiagnosedModel model = laboratory.model_with(of, coupling);
+  DiagnosedModel model = laboratory.model_with(problem, coupling);
   const AmbiguousEffect ambiguous{coupling, {{gain, 1.0, 0.0}}};
-  const auto proposed = propose_poses(of, model, {ambiguous}, kProposed, RandomStream{1});
+  const auto proposed = propose_poses(problem, model, {ambiguous}, kProposed, RandomStream{1});
   model.robot.effects.push_back(gain);
   model.robot.effects.back().values = {0.0};
   const auto unsure = [&](const std::vector<Stop>& stops) {
@@ -88,17 +88,17 @@ TEST(Proposal, TellsMoreOfRivalsThanRandomPoses) {
   };
   const double best = unsure(proposed);
   RandomStream random{2};
-  for (int i = 0; i < 20; ++i) EXPECT_LT(best, unsure(random_stops(of, random))) << i;
+  for (int i = 0; i < 20; ++i) EXPECT_LT(best, unsure(random_stops(problem, random))) << i;
 }
 
 TEST(Proposal, KeepsToLimitsFloorAndRecordedPayloads) {
   Laboratory laboratory(laden_puma({-150, -20, 45, 200}), 53);
   const DataSet data = measured(laboratory, 40, [i = 0](Visit& visit) mutable { visit.payload_kg = 1.0 + i++ % 2; });
-  const DiagnosisData of = laboratory.diagnosed(data);
-  const DiagnosedModel model = laboratory.model_with(of, {.kind = "gain", .joint = 3});
-  const auto stops = propose_poses(of, model, {}, 30, RandomStream{1});
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
+  const DiagnosedModel model = laboratory.model_with(problem, {.kind = "gain", .joint = 3});
+  const auto stops = propose_poses(problem, model, {}, 30, RandomStream{1});
   ASSERT_EQ(stops.size(), 30u);
-  const FeasiblePoses feasible(data, of.fitted);
+  const FeasiblePoses feasible(data, problem.fitted);
   double lowest_m = 1e9, lowest_measured_m = 1e9;
   for (const MeasuredPose& pose : data.poses) {
     lowest_measured_m = std::min(lowest_measured_m, tool_position(data.robot.chain, pose.joints).z());
@@ -121,16 +121,16 @@ TEST(Proposal, KeepsToLimitsFloorAndRecordedPayloads) {
 TEST(Proposal, IsAFunctionOfItsArguments) {
   Laboratory laboratory(laden_puma({-150, -20, 45, 200}), 54);
   const DataSet data = measured(laboratory, 20);
-  const DiagnosisData of = laboratory.diagnosed(data);
-  const DiagnosedModel model = laboratory.model_with(of, {.kind = "gain", .joint = 3});
-  const auto once = propose_poses(of, model, {}, 5, RandomStream{1});
-  const auto again = propose_poses(of, model, {}, 5, RandomStream{1});
-  const auto more = propose_poses(of, model, {}, 6, RandomStream{1});
+  const DiagnosisProblem problem = laboratory.diagnosed(data);
+  const DiagnosedModel model = laboratory.model_with(problem, {.kind = "gain", .joint = 3});
+  const auto once = propose_poses(problem, model, {}, 5, RandomStream{1});
+  const auto again = propose_poses(problem, model, {}, 5, RandomStream{1});
+  const auto more = propose_poses(problem, model, {}, 6, RandomStream{1});
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(once[i].joints, again[i].joints);
     EXPECT_EQ(once[i].joints, more[i].joints);
   }
-  EXPECT_TRUE(propose_poses(of, model, {}, 0, RandomStream{1}).empty());
+  EXPECT_TRUE(propose_poses(problem, model, {}, 0, RandomStream{1}).empty());
 }
 
 TEST(Proposal, ServesEveryKindOfMeasurement) {
@@ -141,12 +141,12 @@ TEST(Proposal, ServesEveryKindOfMeasurement) {
     const Instrument instrument{1e-4, 1e-4, kind != 2, kind == 1};
     measure(arm, random, instrument, 15);
     const DeclaredModel declared{.registration = true, .joint_offset = true};
-    const DiagnosisData of{arm.data, declared, all_poses(arm.data), {}};
+    const DiagnosisProblem problem{arm.data, declared, all_poses(arm.data), {}};
     DiagnosedModel model;
     model.robot = nominal_robot(arm.data);
-    model.smooth = smooth_corrections(arm.data, of.fitted, model.robot, false);
+    model.smooth = smooth_corrections(arm.data, problem.fitted, model.robot, false);
     model.scales = {kind != 2 ? 1e-4 : 0.0, kind == 1 ? 1e-4 : 0.0, kind == 2 ? 1e-4 : 0.0};
-    EXPECT_EQ(propose_poses(of, model, {}, 4, random).size(), 4u) << kind;
+    EXPECT_EQ(propose_poses(problem, model, {}, 4, random).size(), 4u) << kind;
   }
 }
 

@@ -11,7 +11,7 @@ constexpr Eigen::Index kFittedRows = 40, kJudging = 15;
 
 struct Problem {
   ModelColumns model;
-  Eigen::VectorXd fitted, judging;
+  Eigen::VectorXd fitted, validation;
 };
 
 /// `free` numbers of which nothing is believed and `believed` ones.
@@ -22,7 +22,7 @@ Problem random_problem(RandomStream& stream, Eigen::Index free, Eigen::Index bel
                   random_matrix(stream, kFittedRows, 1),
                   random_matrix(stream, kJudging, 1)};
   problem.model.fitted.col(0) *= 1e4;  // as columns of metres and radians differ
-  problem.model.judging.col(0) *= 1e4;
+  problem.model.validation.col(0) *= 1e4;
   for (Eigen::Index i = free; i < n; ++i) {
     problem.model.precision[i] = stream.real(0.5, 20.0);
     problem.model.offset[i] = stream.normal();
@@ -33,22 +33,22 @@ Problem random_problem(RandomStream& stream, Eigen::Index free, Eigen::Index bel
 /// Makes the last free column a sum of two others, over both kinds of rows.
 void make_dependent(Problem& problem, Eigen::Index column) {
   problem.model.fitted.col(column) = 2 * problem.model.fitted.col(0) - problem.model.fitted.col(1);
-  problem.model.judging.col(column) = 2 * problem.model.judging.col(0) - problem.model.judging.col(1);
+  problem.model.validation.col(column) = 2 * problem.model.validation.col(0) - problem.model.validation.col(1);
 }
 
-void append_columns(Problem& problem, const RowMatrix& fitted, const RowMatrix& judging) {
+void append_columns(Problem& problem, const RowMatrix& fitted, const RowMatrix& validation) {
   ModelColumns& model = problem.model;
   const Eigen::Index n = model.fitted.cols(), m = fitted.cols();
   model.fitted.conservativeResize(Eigen::NoChange, n + m);
   model.fitted.rightCols(m) = fitted;
-  model.judging.conservativeResize(Eigen::NoChange, n + m);
-  model.judging.rightCols(m) = judging;
+  model.validation.conservativeResize(Eigen::NoChange, n + m);
+  model.validation.rightCols(m) = validation;
   model.precision.conservativeResizeLike(Eigen::VectorXd::Zero(n + m));
   model.offset.conservativeResizeLike(Eigen::VectorXd::Zero(n + m));
 }
 
 struct Solution {
-  Eigen::VectorXd coefficients, left, judging_left;
+  Eigen::VectorXd coefficients, left, validation_left;
   Eigen::MatrixXd whole;  ///< rows of measurements, then of beliefs
   double squares = 0.0, freedom = 0.0;
 };
@@ -66,7 +66,7 @@ Solution solve_explicitly(const Problem& problem) {
   solver.compute(solution.whole);
   solution.coefficients = solver.solve(wanted);
   solution.left = problem.fitted - model.fitted * solution.coefficients;
-  solution.judging_left = problem.judging - model.judging * solution.coefficients;
+  solution.validation_left = problem.validation - model.validation * solution.coefficients;
   solution.squares = (wanted - solution.whole * solution.coefficients).squaredNorm();
   solution.freedom =
       static_cast<double>(kFittedRows) - (model.fitted * solver.pseudoInverse().leftCols(kFittedRows)).trace();
@@ -75,7 +75,7 @@ Solution solve_explicitly(const Problem& problem) {
 
 void expect_equal(const Projection& projection, const Solution& expected) {
   EXPECT_TRUE(projection.left().isApprox(expected.left, 1e-9));
-  EXPECT_TRUE(projection.judging_left().isApprox(expected.judging_left, 1e-8));
+  EXPECT_TRUE(projection.validation_left().isApprox(expected.validation_left, 1e-8));
   EXPECT_NEAR(projection.squares(), expected.squares, 1e-9 * expected.squares);
   EXPECT_NEAR(projection.freedom(), expected.freedom, 1e-8);
 }
@@ -84,7 +84,7 @@ TEST(Projection, IsTheLeastSquaresSolutionWithBeliefsAsFurtherRows) {
   RandomStream stream{82, 1};
   for (int trial = 0; trial < 20; ++trial) {
     const Problem problem = random_problem(stream, 5, 4);
-    const Projection projection(problem.model, problem.fitted, problem.judging);
+    const Projection projection(problem.model, problem.fitted, problem.validation);
     const Solution expected = solve_explicitly(problem);
     expect_equal(projection, expected);
     EXPECT_EQ(projection.rank(), 9);
@@ -98,7 +98,7 @@ TEST(Projection, IsTheSameWhereColumnsDependOnEachOther) {
   for (int trial = 0; trial < 20; ++trial) {
     Problem problem = random_problem(stream, 5, 4);
     make_dependent(problem, 4);
-    const Projection projection(problem.model, problem.fitted, problem.judging);
+    const Projection projection(problem.model, problem.fitted, problem.validation);
     expect_equal(projection, solve_explicitly(problem));
     EXPECT_EQ(projection.rank(), 8);
   }
@@ -106,10 +106,10 @@ TEST(Projection, IsTheSameWhereColumnsDependOnEachOther) {
 
 TEST(Projection, OfNoColumnsLeavesEverything) {
   RandomStream stream{82, 3};
-  const Eigen::VectorXd fitted = random_matrix(stream, kFittedRows, 1), judging = random_matrix(stream, kJudging, 1);
-  const Projection projection({RowMatrix(kFittedRows, 0), RowMatrix(kJudging, 0), {}, {}}, fitted, judging);
+  const Eigen::VectorXd fitted = random_matrix(stream, kFittedRows, 1), validation = random_matrix(stream, kJudging, 1);
+  const Projection projection({RowMatrix(kFittedRows, 0), RowMatrix(kJudging, 0), {}, {}}, fitted, validation);
   EXPECT_EQ(projection.left(), fitted);
-  EXPECT_EQ(projection.judging_left(), judging);
+  EXPECT_EQ(projection.validation_left(), validation);
   EXPECT_EQ(projection.rank(), 0);
   EXPECT_DOUBLE_EQ(projection.freedom(), static_cast<double>(kFittedRows));
 }
@@ -117,10 +117,10 @@ TEST(Projection, OfNoColumnsLeavesEverything) {
 TEST(Projection, BasisIsOrthonormalTogetherWithBeliefs) {
   RandomStream stream{82, 4};
   const Problem problem = random_problem(stream, 5, 0);
-  const Projection projection(problem.model, problem.fitted, problem.judging);
+  const Projection projection(problem.model, problem.fitted, problem.validation);
   EXPECT_TRUE((projection.basis().transpose() * projection.basis()).isIdentity(1e-10));
   const Problem believed = random_problem(stream, 3, 4);
-  const RowMatrix basis = Projection(believed.model, believed.fitted, believed.judging).basis();
+  const RowMatrix basis = Projection(believed.model, believed.fitted, believed.validation).basis();
   EXPECT_LT(basis.squaredNorm(), 7.0 - 1e-3);
 }
 
@@ -128,56 +128,56 @@ TEST(Projection, TrialIsWhatFittingWithTheColumnsGives) {
   RandomStream stream{82, 5};
   for (int trial = 0; trial < 20; ++trial) {
     Problem problem = random_problem(stream, 4, 4);
-    const Projection projection(problem.model, problem.fitted, problem.judging);
+    const Projection projection(problem.model, problem.fitted, problem.validation);
     const RowMatrix fitted = 1e3 * random_matrix(stream, kFittedRows, 3),
-                    judging = 1e3 * random_matrix(stream, kJudging, 3);
-    const Projection::Trial tried = projection.trial(fitted, judging);
+                    validation = 1e3 * random_matrix(stream, kJudging, 3);
+    const Projection::Trial tried = projection.trial(fitted, validation);
     const double before = solve_explicitly(problem).squares;
-    append_columns(problem, fitted, judging);
+    append_columns(problem, fitted, validation);
     const Solution expected = solve_explicitly(problem);
     EXPECT_EQ(tried.rank, 3);
     EXPECT_NEAR(tried.drop, before - expected.squares, 1e-8 * before);
     EXPECT_TRUE(tried.coefficients.isApprox(expected.coefficients.tail(3), 1e-8));
-    EXPECT_TRUE(tried.judging_left.isApprox(expected.judging_left, 1e-8));
+    EXPECT_TRUE(tried.validation_left.isApprox(expected.validation_left, 1e-8));
   }
 }
 
 TEST(Projection, TrialGivesNothingForWhatTheModelExplains) {
   RandomStream stream{82, 6};
   Problem problem = random_problem(stream, 4, 4);
-  const Projection projection(problem.model, problem.fitted, problem.judging);
-  RowMatrix fitted(kFittedRows, 2), judging(kJudging, 2);
+  const Projection projection(problem.model, problem.fitted, problem.validation);
+  RowMatrix fitted(kFittedRows, 2), validation(kJudging, 2);
   const auto known = [](const RowMatrix& columns) { return (1e-3 * columns.col(0) + columns.col(2)).eval(); };
   fitted << random_matrix(stream, kFittedRows, 1), known(problem.model.fitted);
-  judging << random_matrix(stream, kJudging, 1), known(problem.model.judging);
-  const Projection::Trial tried = projection.trial(fitted, judging);
+  validation << random_matrix(stream, kJudging, 1), known(problem.model.validation);
+  const Projection::Trial tried = projection.trial(fitted, validation);
   EXPECT_EQ(tried.rank, 1);
   EXPECT_NEAR(tried.coefficients[1], 0.0, 1e-9);
   const double before = projection.squares();
-  append_columns(problem, fitted, judging);
+  append_columns(problem, fitted, validation);
   EXPECT_NEAR(tried.drop, before - solve_explicitly(problem).squares, 1e-7 * before);
   const Projection::Trial zero = projection.trial(RowMatrix::Zero(kFittedRows, 1), RowMatrix::Zero(kJudging, 1));
   EXPECT_EQ(zero.rank, 0);
   EXPECT_EQ(zero.drop, 0.0);
-  EXPECT_EQ(zero.judging_left, projection.judging_left());
+  EXPECT_EQ(zero.validation_left, projection.validation_left());
 }
 
 TEST(Projection, AddingIsTheSameAsFittingWithTheColumns) {
   RandomStream stream{82, 7};
   for (int trial = 0; trial < 10; ++trial) {
     Problem problem = random_problem(stream, 4, 4);
-    Projection projection(problem.model, problem.fitted, problem.judging);
+    Projection projection(problem.model, problem.fitted, problem.validation);
     for (const Eigen::Index count : {2, 1}) {
       const RowMatrix fitted = random_matrix(stream, kFittedRows, count),
-                      judging = random_matrix(stream, kJudging, count);
-      projection.add(projection.trial(fitted, judging));
-      append_columns(problem, fitted, judging);
+                      validation = random_matrix(stream, kJudging, count);
+      projection.add(projection.trial(fitted, validation));
+      append_columns(problem, fitted, validation);
     }
     expect_equal(projection, solve_explicitly(problem));
     EXPECT_EQ(projection.rank(), 11);
-    const RowMatrix next = random_matrix(stream, kFittedRows, 1), judging = random_matrix(stream, kJudging, 1);
-    const Projection whole(problem.model, problem.fitted, problem.judging);
-    EXPECT_NEAR(projection.trial(next, judging).drop, whole.trial(next, judging).drop, 1e-9);
+    const RowMatrix next = random_matrix(stream, kFittedRows, 1), validation = random_matrix(stream, kJudging, 1);
+    const Projection whole(problem.model, problem.fitted, problem.validation);
+    EXPECT_NEAR(projection.trial(next, validation).drop, whole.trial(next, validation).drop, 1e-9);
   }
 }
 

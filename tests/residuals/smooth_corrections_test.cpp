@@ -180,12 +180,12 @@ TEST(SmoothCorrections, RecoverSmoothErrorsAtAnglesThatWereNotMeasured) {
         JointCorrection(wave(stream.real(5e-4, 1e-3), stream.real(0.8, 1.4), stream.real(-3, 3)), {}, {-2.5, 2.5});
   }
   measure(arm, stream, {.noise_m = 2e-5}, 80);
-  const DiagnosisData of{
+  const DiagnosisProblem problem{
       arm.data, {.registration = true, .joint_offset = true, .joint_corrections = true}, all_poses(arm.data), {}};
   DiagnosedModel model{nominal_robot(arm.data),
-                       smooth_corrections(arm.data, of.fitted, nominal_robot(arm.data), true),
+                       smooth_corrections(arm.data, problem.fitted, nominal_robot(arm.data), true),
                        {1e-4, 0.0, 0.0}};
-  model = refined(of, std::move(model), 12);
+  model = refined(problem, std::move(model), 12);
   const double before = largest_error_m(nominal_robot(arm.data), arm, stream);
   EXPECT_GT(before, 1e-3);
   EXPECT_LT(largest_error_m(model.robot, arm, stream), 0.05 * before);
@@ -196,11 +196,11 @@ TEST(SmoothCorrections, OfAPerfectArmStaySmall) {
   RandomStream stream{85, 6};
   KnownArm arm = perfect_arm(parallel_arm(), Frame::base);
   measure(arm, stream, {.noise_m = 5e-5}, 60);
-  const DiagnosisData of{arm.data, {.registration = true, .joint_corrections = true}, all_poses(arm.data), {}};
+  const DiagnosisProblem problem{arm.data, {.registration = true, .joint_corrections = true}, all_poses(arm.data), {}};
   DiagnosedModel model{nominal_robot(arm.data),
-                       smooth_corrections(arm.data, of.fitted, nominal_robot(arm.data), true),
+                       smooth_corrections(arm.data, problem.fitted, nominal_robot(arm.data), true),
                        {1e-4, 0.0, 0.0}};
-  model = refined(of, std::move(model), 12);
+  model = refined(problem, std::move(model), 12);
   EXPECT_LT(largest_error_m(model.robot, arm, stream), 1e-4);
 }
 

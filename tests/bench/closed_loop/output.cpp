@@ -42,7 +42,7 @@ Json round_json(const Round& round, const Robot& robot) {
   }
   return {{"verdict", to_string(round.verdict)},
           {"effect", words(round.effect, robot)},
-          {"fall_nats", round.fall_nats},
+          {"fall_nats", round.gain_nats},
           {"p_family", round.p_family},
           {"reason", round.reason},
           {"rivals", rivals}};

@@ -61,8 +61,8 @@ LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::ve
 
 /// Effects for a case by what the loop says of its clean twin.
 std::vector<Effect> truths_for(const CasePlan& plan, const DataSet& clean, const LoopResult& result) {
-  const DiagnosisData of{clean, row_of(plan.kind).declared, poses_of(clean, PoseSet::calibration),
-                         poses_of(clean, PoseSet::validation)};
+  const DiagnosisProblem of{clean, row_of(plan.kind).declared, poses_of(clean, PoseSet::calibration),
+                            poses_of(clean, PoseSet::validation)};
   const Sight sight(of, result.model);
   RandomStream random{plan.seed(), kTruth};
   return draw_truths(

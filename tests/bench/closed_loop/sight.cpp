@@ -6,7 +6,7 @@
 
 namespace demecal::bench {
 
-Sight::Sight(const DiagnosisData& of, const DiagnosedModel& model) : of_(of), at_(linearise(of, model)) {}
+Sight::Sight(const DiagnosisProblem& of, const DiagnosedModel& model) : of_(of), at_(linearize(of, model)) {}
 
 double Sight::detectable(const NotFound& measure, const Effect& effect) const {
   EffectColumns columns;

@@ -10,7 +10,7 @@ namespace demecal::bench {
 class Sight {
  public:
   /// Of the model that the loop ended with on the poses of `of`; both must outlive it.
-  Sight(const DiagnosisData& of, const DiagnosedModel& model);
+  Sight(const DiagnosisProblem& of, const DiagnosedModel& model);
 
   /// By how much `effect` (with coefficients) must be multiplied to be just detectable. `measure` says how long the
   /// coefficients of its kind must be, and so how much of the residual must be explained; the effect explains it where
@@ -18,8 +18,8 @@ class Sight {
   double detectable(const NotFound& measure, const Effect& effect) const;
 
  private:
-  const DiagnosisData& of_;
-  Linearised at_;
+  const DiagnosisProblem& of_;
+  Linearization at_;
 };
 
 }  // namespace demecal::bench

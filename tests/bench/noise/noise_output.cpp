@@ -27,7 +27,7 @@ Line rounds_json(const std::vector<Round>& rounds, const Robot& robot) {
     all.push_back({{"verdict", to_string(round.verdict)},
                    {"effect", words(round.effect, robot)},
                    {"p_family", round.p_family},
-                   {"fall_nats", round.fall_nats},
+                   {"fall_nats", round.gain_nats},
                    {"interval", round.interval},
                    {"reason", round.reason}});
   }
