@@ -36,7 +36,7 @@ double description_nats(const CorrectedRobot& robot, const DataSet& data, std::s
   double nats = 0.5 * jury.rows() * std::log(std::max(squares, 1e-300));
   for (const Effect& effect : robot.effects) {
     nats += 0.5 * static_cast<double>(effect.values.size()) * std::log(static_cast<double>(poses.size())) +
-            price_nats(effect, candidates);
+            naming_cost_nats(effect, candidates);
   }
   return nats;
 }

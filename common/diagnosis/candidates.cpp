@@ -34,7 +34,7 @@ bool has_kind(const std::vector<Candidate>& candidates, std::string_view kind) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.effect.kind == kind; });
 }
 
-/// A copy of every candidate of a kind (of the first of every joint) in a decoy_kind.
+/// A copy of every candidate of a kind (of the first of every joint) as a decoy.
 void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, DecoyKind decoy_kind, double ratio) {
   std::vector<Candidate> decoys;
   int last = -2;

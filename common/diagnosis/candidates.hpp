@@ -50,7 +50,7 @@ double naming_cost_nats(const Effect& effect, const std::vector<Candidate>& cand
 /// The evidence's ranges of the joints on whose values the effect depends: beyond them it is not known.
 void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence);
 
-/// The states that a decoy_kind sees: `states` with approach signs or temperatures dealt out anew over the poses.
+/// The states that a decoy sees: `states` with approach signs or temperatures dealt out anew over the poses.
 std::vector<ArmState> with_shuffled(const std::vector<ArmState>& states, DecoyKind decoy_kind, RandomStream random);
 
 /// "gear_harmonic of joint 2 at ratio 347.3", for people.

@@ -13,13 +13,13 @@ namespace demecal {
 namespace {
 
 constexpr int kMostRejections = 12;
-constexpr double kLeastFreedom = 12.0;      ///< measured numbers that a model must leave to be judged by
+constexpr double kLeastFreedom = 12.0;      ///< measured numbers that a model must leave over
 constexpr double kEquivalentCosine = 0.9;   ///< cosine
 constexpr double kIdenticalCosine = 0.995;  ///< cosine
 constexpr double kNatsToDistinguish = 5.0;
 constexpr double kNatsAboutEqual = 3.0;
 constexpr double kStable = 0.95;  ///< share of resamples that must agree with a sign
-constexpr double kGains = 0.5;    ///< share of a change borne out: errors fall above it
+constexpr double kGains = 0.5;    ///< share of a change borne out: errors decrease above it
 constexpr double kEvident = 2.0;  ///< times the largest gain from noise alone: no need to draw again
 
 double mean(const std::vector<double>& values) {
@@ -76,14 +76,18 @@ std::optional<std::size_t> Group::best() const {
   return simplest_equivalent(candidates_[*best].effect.kind == "symbolic" ? named_equivalent(*best) : *best);
 }
 
+std::vector<Rival> Group::rivals(std::size_t index) const {
+  const Projection::Trial trial =
+      projection_.trial(columns_.dense(linearization_.fitted, index),
+                        RowMatrix::Zero(linearization_.validation.rows(), columns_.spans()[index].count));
+  return rivals_of(index, trial, candidates_, scores_, scan_, columns_, linearization_.fitted);
+}
+
 /// Of candidates that explain the same and are as good a description, but for a little, the one with the fewest
 /// numbers.
 std::size_t Group::simplest_equivalent(std::size_t index) const {
   std::size_t simplest = index;
-  const Projection::Trial trial =
-      projection_.trial(columns_.dense(linearization_.fitted, index),
-                        RowMatrix::Zero(linearization_.validation.rows(), columns_.spans()[index].count));
-  for (const Rival& rival : rivals_of(index, trial, candidates_, scores_, scan_, columns_, linearization_.fitted)) {
+  for (const Rival& rival : rivals(index)) {
     if (rival.cosine < kEquivalentCosine || rival.nats_behind > kNatsAboutEqual) continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (excluded_[i] || candidates_[i].decoy_kind != DecoyKind::none || scores_[i].rank >= scores_[simplest].rank)
@@ -94,13 +98,10 @@ std::size_t Group::simplest_equivalent(std::size_t index) const {
   return simplest;
 }
 
-/// The catalogue's effect that a formula is in decoy_kind: as good a description, or all but the same columns.
+/// The catalogue's effect that a formula amounts to: as good a description, or all but the same columns.
 std::size_t Group::named_equivalent(std::size_t formula) const {
-  const Projection::Trial trial =
-      projection_.trial(columns_.dense(linearization_.fitted, formula),
-                        RowMatrix::Zero(linearization_.validation.rows(), columns_.spans()[formula].count));
   std::size_t named = formula;
-  for (const Rival& rival : rivals_of(formula, trial, candidates_, scores_, scan_, columns_, linearization_.fitted)) {
+  for (const Rival& rival : rivals(formula)) {
     if (rival.effect.kind == "symbolic" || (rival.cosine < kIdenticalCosine && rival.nats_behind > kNatsToDistinguish))
       continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -227,7 +228,7 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
     Projection::Trial trial;
     Round round = evaluate(*index, trial);
     excluded_[*index] = true;
-    // Beside effects just added the noise is not yet what it will be: the next group judges decoys again.
+    // Beside effects just added the noise is not yet what it will be: the next group tries decoys again.
     if (candidates_[*index].decoy_kind != DecoyKind::none && added > 0) break;
     if (candidates_[*index].decoy_kind != DecoyKind::none && round.p_family <= rules_.family_error) {
       outcome_.winning_decoy = decoy_name(candidates_[*index]);
@@ -247,7 +248,7 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       ++added;
     } else {
       round.verdict = outcome_.not_significant ? Verdict::none : Verdict::rejected;
-      if (!leans_too_far(round.effect)) exclude_equivalents(round);  // what needs no such lean is still to be judged
+      if (!leans_too_far(round.effect)) exclude_equivalents(round);  // what needs no such lean is still to be tried
       outcome_.rounds.push_back(std::move(round));
       ++rejected;
     }

@@ -13,7 +13,7 @@
 
 namespace demecal {
 
-/// What judging a candidate takes.
+/// What the evaluation of a candidate takes.
 struct GroupRules {
   double family_error = 0.05;
   int permutations = 999;
@@ -56,6 +56,7 @@ class Group {
 
  private:
   std::optional<std::size_t> best() const;
+  std::vector<Rival> rivals(std::size_t index) const;
   std::size_t named_equivalent(std::size_t formula) const;
   std::size_t simplest_equivalent(std::size_t index) const;
   bool found_by_search(std::size_t index) const;

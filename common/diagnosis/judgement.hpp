@@ -9,7 +9,7 @@
 
 namespace demecal {
 
-/// The tool error of every judging pose, mm, less what it shares with its neighbours: of its position rows or, where
+/// The tool error of every validation pose, mm, less what it shares with its neighbours: of its position rows or, where
 /// there are none, the root mean square of all.
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
                                    const DataSet& data);
@@ -17,9 +17,10 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
 /// The same of everything a pose measured, whitened: as far off as position alone would be were all its rows positions.
 std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
 
-/// What the poses that judge say of a change of the model.
+/// What the validation poses say of a change of the model.
 struct Confirmation {
-  double share = 0.0;  ///< of the change that their residuals bear out; their errors fall where it is above one half
+  double share =
+      0.0;  ///< of the change that their residuals bear out; their errors decrease where it is above one half
   double lower = 0.0;  ///< its one-sided 95 % bootstrap bound
 };
 

@@ -42,13 +42,13 @@ struct LoopResult {
 };
 
 /// Runs the ten steps from `start`, a declared model already fitted (its corrections are kept and, where joint
-/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses judge (where there
+/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses confirm (where there
 /// are none, resampling of the calibration poses alone does); accept poses are never looked at. A function of its
 /// arguments.
 LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
                       const RoundWatcher& watch = {});
 
-/// Drops effects one after another, the least needed first, as long as the description length falls by it, and refines
+/// Drops effects one after another, the least needed first, as long as that shortens the description, and refines
 /// the model after each. Dropped effects are noted in the outcome. Returns the surroundings of the model that is left.
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome);

@@ -18,7 +18,7 @@ enum class Verdict { added, rejected, none };
 /// One step of the loop: the best candidate, and what became of it.
 struct Round {
   int number = 0;  ///< from 1
-  int group = 0;   ///< rounds of one group were judged against the same permutations and refitted together; from 1
+  int group = 0;   ///< rounds of one group were held against the same permutations and refitted together; from 1
   Verdict verdict = Verdict::none;
   Effect effect;              ///< with its values at the end of its group; of the best candidate where none was added
   std::string diagnosis;      ///< one sentence for an engineer

@@ -1,4 +1,4 @@
-// How much of the residual each candidate effect would explain, and how much the best one would by luck.
+// How much of the residual each candidate effect would explain, and how much the best one would by noise alone.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace demecal {
 
 /// One candidate against the residual.
 struct Score {
-  double drop = 0.0;        ///< fall of the sum of squares
+  double drop = 0.0;        ///< decrease of the sum of squares
   Eigen::Index rank = 0;    ///< directions that the model does not have
-  double gain_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
+  double gain_nats = 0.0;   ///< description length saved: likelihood won, less the price of coefficients and name
   Eigen::VectorXd visible;  ///< per coefficient: the squared length of its column beyond the model
 };
 

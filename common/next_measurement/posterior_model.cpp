@@ -19,7 +19,7 @@ constexpr double kBelieved = 1e-5;
 constexpr std::size_t kMostPosesKnown = 2000;  ///< more tell the same, weighed
 constexpr double kNothing = 1e-12;             ///< of a correlation matrix's eigenvalues: rounding
 
-/// At most kMostPosesKnown of the fitted poses, in their order, and no judging ones.
+/// At most kMostPosesKnown of the fitted poses, in their order, and no validation ones.
 DiagnosisProblem sample(const DiagnosisProblem& problem, RandomStream random) {
   DiagnosisProblem some{problem.data, problem.declared, problem.fitted, {}};
   for (std::size_t i = 0; i < kMostPosesKnown && some.fitted.size() > kMostPosesKnown; ++i) {

@@ -22,8 +22,8 @@ struct DiagnosedModel {
   Eigen::VectorXd precision{};   ///< of the smooth terms, where they are to stay as they were chosen; else empty
 };
 
-/// The model's surroundings to first order: fields over the fitted and the judging poses, and the residual with all of
-/// the model's numbers at their least-squares values.
+/// The model's surroundings to first order: fields over the fitted and the validation poses, and the residual with all
+/// of the model's numbers at their least-squares values.
 struct Linearization {
   std::vector<ParameterId> ids;
   ResidualField fitted, validation;

@@ -1,4 +1,4 @@
-// The residual with everything already in the model projected off, on the poses that fit and on those that judge.
+// The residual with everything already in the model projected off, on the fitted poses and on the validation poses.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace demecal {
 /// Of a column's square that must remain for it to count as new: less is rounding and the errors of derivatives.
 inline constexpr double kNewShare = 1e-5;
 
-/// Columns of the model over the fitted poses and over the judging ones, and what is believed of their coefficients
+/// Columns of the model over the fitted poses and over the validation ones, and what is believed of their coefficients
 /// beforehand: `precision` (one over the standard deviation; 0: nothing) and `offset` (present value minus the believed
 /// one).
 struct ModelColumns {
@@ -35,7 +35,7 @@ class Projection {
   Eigen::Index rank() const { return basis_.cols(); }
   /// Over the fitted rows: rows x rank(), orthonormal together with the rows of beliefs.
   const RowMatrix& basis() const { return basis_; }
-  /// Residual of the fitted rows and of the judging rows.
+  /// Residual of the fitted rows and of the validation rows.
   const Eigen::VectorXd& left() const { return left_; }
   const Eigen::VectorXd& validation_left() const { return validation_left_; }
   /// Least-squares changes of the coefficients of the columns it was made from.
@@ -57,11 +57,11 @@ class Projection {
   /// leaves of either residual.
   struct Trial {
     RowMatrix fitted;              ///< new columns less the model's share, rows x m
-    RowMatrix validation;          ///< the same over the judging rows
+    RowMatrix validation;          ///< the same over the validation rows
     RowMatrix beliefs;             ///< the same over the rows of beliefs
     Eigen::MatrixXd to_basis;      ///< m x rank: makes the new columns orthonormal
     Eigen::VectorXd coefficients;  ///< m; 0 in directions that the model explains already
-    double drop = 0.0;             ///< fall of the sum of squares
+    double drop = 0.0;             ///< decrease of the sum of squares
     Eigen::Index rank = 0;         ///< directions that the model does not explain
     Eigen::VectorXd validation_left;
   };

@@ -17,8 +17,8 @@ struct SharedErrors {
 double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t> places);
 
 /// What repeats of one pose have in common, and what drifts in the order of measuring, of the components that `noise`
-/// has; `judging` poses share it with `fitted` ones. The order of measuring is that of the data set. Drift is followed
-/// through at most 120 of the fitted poses; of more than 200 repeated poses the error is not modelled.
+/// has; `validation` poses share it with `fitted` ones. The order of measuring is that of the data set. Drift is
+/// followed through at most 120 of the fitted poses; of more than 200 repeated poses the error is not modelled.
 SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted, const ResidualField& validation);
 
 }  // namespace demecal

@@ -133,21 +133,21 @@ TEST(Candidates, HaveDecoysThatCannotBeTrue) {
   const KnownArm arm = measured(stream, 20);
   Evidence evidence = evidence_of(arm.data, all_poses(arm.data));
   evidence.highest_ratio = 30;
-  std::map<DecoyKind, std::vector<Candidate>> by_disguise;
+  std::map<DecoyKind, std::vector<Candidate>> by_kind;
   std::set<std::string> names;
   for (const Candidate& each : candidates_for(arm.data.robot, evidence, {}, {.kinds = {}, .formulas = false})) {
-    by_disguise[each.decoy_kind].push_back(each);
+    by_kind[each.decoy_kind].push_back(each);
     if (each.decoy_kind != DecoyKind::none) names.insert(decoy_name(each));
   }
   for (const DecoyKind decoy_kind :
        {DecoyKind::wrong_ratio, DecoyKind::shuffled_approach, DecoyKind::shuffled_temperature}) {
     std::set<int> joints;
-    for (const Candidate& each : by_disguise[decoy_kind]) joints.insert(each.effect.joint);
+    for (const Candidate& each : by_kind[decoy_kind]) joints.insert(each.effect.joint);
     EXPECT_EQ(joints.size(), 6u);
-    EXPECT_EQ(by_disguise[decoy_kind].size(), 6u);
+    EXPECT_EQ(by_kind[decoy_kind].size(), 6u);
   }
   EXPECT_EQ(names.size(), 18u);
-  for (const Candidate& each : by_disguise[DecoyKind::wrong_ratio]) {
+  for (const Candidate& each : by_kind[DecoyKind::wrong_ratio]) {
     const double ratio = each.effect.setting("ratio");
     EXPECT_GT(ratio, 30.0);
     EXPECT_GT(std::abs(ratio - std::round(ratio)), 0.01);

@@ -46,7 +46,7 @@ inline ResidualField field_of(const KnownArm& arm, const DeclaredModel& declared
   return residual_field(arm.data, all_poses(arm.data), space_of(arm, arm.truth, declared), scales, false);
 }
 
-/// The projection off the field's declared columns, nothing believed of them, judged by the same rows.
+/// The projection off the field's declared columns, nothing believed of them, validated by the same rows.
 inline Projection projection_of(const ResidualField& field) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(field.declared.cols());
   return {{field.declared, field.declared, none, none}, field.residual, field.residual};

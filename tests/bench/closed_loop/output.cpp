@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bound.hpp"
+#include "summary.hpp"
 
 namespace demecal::bench {
 namespace {
