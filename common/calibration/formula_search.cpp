@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibration/formula_candidates.hpp"
-#include "residuals/null_noise.hpp"
+#include "residuals/noise.hpp"
 
 namespace demecal {
 namespace {

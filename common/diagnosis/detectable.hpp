@@ -8,7 +8,7 @@
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
 #include "residuals/diagnosed_model.hpp"
-#include "residuals/effect_columns.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 

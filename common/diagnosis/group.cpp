@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "diagnosis/implausible.hpp"
-#include "diagnosis/rivals.hpp"
+#include "diagnosis/judgement.hpp"
+#include "diagnosis/scan.hpp"
 #include "effects/joint_words.hpp"
 
 namespace demecal {

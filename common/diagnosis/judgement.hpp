@@ -1,10 +1,12 @@
-// Whether a candidate's gain is real: on poses it was not fitted to, and under resampling of those it was.
+// Whether a candidate is real: on validation poses, under resampling, and by how far it would move the arm.
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "random/random_stream.hpp"
+#include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
 
 namespace demecal {
@@ -47,5 +49,14 @@ struct Resampled {
 };
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
                     RandomStream random);
+
+/// Why no real arm has this effect, and what to look at; empty where one may. `states` are those of the fitted poses. A
+/// joint that moves by a whole share of another's motion, which `model` with it bears out, is how the controller
+/// reports its joints: the sentence says so.
+std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
+                           const std::vector<ArmState>& states);
+
+/// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in truth.
+bool leans_too_far(const Effect& effect);
 
 }  // namespace demecal

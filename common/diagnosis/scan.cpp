@@ -5,12 +5,25 @@
 #include <cmath>
 #include <limits>
 
-#include "residuals/null_noise.hpp"
+#include "residuals/noise.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
+
+constexpr double kRivalCosine = 0.9;
+constexpr double kRelated = 0.5;
+constexpr double kRivalNats = 5.0;
+constexpr std::size_t kMostRivals = 8;
+
+/// Whether `other` is the wave `named` with a phase that is not given: the same formula, no rival.
+bool is_its_wave(const Effect& named, const Effect& other) {
+  if (named.joint != other.joint || other.form != "wave" || named.formula.empty()) return false;
+  const Primitive root = named.formula[0].primitive;
+  return (root == Primitive::sine || root == Primitive::cosine) &&
+         std::equal(named.formula.begin() + 1, named.formula.end(), other.formula.begin(), other.formula.end());
+}
 
 }  // namespace
 
@@ -124,6 +137,27 @@ double Scan::best_fall(const Eigen::VectorXd& moments, double squares) const {
     best = std::max(best, gain_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
   }
   return best;
+}
+
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
+                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
+                             const ResidualField& field) {
+  const RowMatrix share = explained.fitted * explained.coefficients;
+  const std::vector<double> cosines = scan.cosines(columns.transposed_times(field, share), share.squaredNorm());
+  std::vector<Rival> rivals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == named || all[i].decoy_kind != DecoyKind::none) continue;
+    const double behind = scores[named].gain_nats - scores[i].gain_nats;
+    const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
+    if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
+    if (is_its_wave(all[named].effect, all[i].effect)) continue;
+    if (cosines[i] > kRivalCosine || (cosines[i] > kRelated && std::abs(behind) < kRivalNats)) {
+      rivals.push_back({all[i].effect, cosines[i], behind});
+    }
+  }
+  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cosine > b.cosine; });
+  if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
+  return rivals;
 }
 
 }  // namespace demecal

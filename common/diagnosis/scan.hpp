@@ -1,12 +1,15 @@
-// How much of the residual each candidate effect would explain, and how much the best one would by noise alone.
+// How much of the residual each candidate would explain, how much the best would by noise alone, and which explain the
+// same.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/outcome.hpp"
 #include "random/random_stream.hpp"
-#include "residuals/effect_columns.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 
@@ -60,5 +63,13 @@ class Scan {
   double rows_ = 0.0;
   double poses_ = 0.0;
 };
+
+/// Candidates other than `named` whose cosine with it is above 0.9, or whose description length is within 5 nats of its
+/// own at a cosine above one half; nearest first, at most eight.
+/// Formulas outside the catalogue are rivals only of each other. The cosine is between what the named one explains
+/// beyond the model and the best that the rival can make of it.
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
+                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
+                             const ResidualField& field);
 
 }  // namespace demecal

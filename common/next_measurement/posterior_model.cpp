@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "residuals/effect_columns.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 #include "fitting/median.hpp"
 #include "fitting/scatter.hpp"
 #include "fitting/triangular_factor.hpp"
-#include "residuals/shared_errors.hpp"
+#include "residuals/noise.hpp"
 
 namespace demecal {
 namespace {

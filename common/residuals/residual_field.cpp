@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "errors/check.hpp"
 #include "fitting/least_squares.hpp"
 
 namespace demecal {
@@ -107,6 +108,22 @@ std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const St
   return arm_state(real, Stop(robot.actual_joints(stop))).places;
 }
 
+/// Every pose's rows along one motion: poses x columns of `rows`.
+template <typename Rows>
+Rows along_motion(const ResidualField& field, Eigen::Index motion, const Rows& rows) {
+  using Scalar = typename Rows::Scalar;
+  Rows along(static_cast<Eigen::Index>(field.poses.size()), rows.cols());
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    auto target = along.row(static_cast<Eigen::Index>(pose));
+    target.setZero();
+    for (Eigen::Index row = first; row < first + count; ++row) {
+      target += static_cast<Scalar>(field.motions(row, motion)) * rows.row(row);
+    }
+  }
+  return along;
+}
+
 }  // namespace
 
 RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
@@ -178,6 +195,80 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
   }
   find_repeats(data, field);
   return field;
+}
+
+void EffectColumns::append(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  const auto poses = static_cast<Eigen::Index>(states.size());
+  const auto count = static_cast<Eigen::Index>(law_of(effect).coefficients(effect, robot).size());
+  std::vector<UnitMotion> motions;
+  for (Eigen::Index pose = 0; pose < poses; ++pose) {
+    motions.clear();
+    append_unit_motions(effect, robot, states[static_cast<std::size_t>(pose)], motions);
+    for (const UnitMotion& motion : motions) {
+      auto [features, fresh] =
+          loose_[motion_column(motion.place, motion.axis)].try_emplace(columns_ + motion.coefficient);
+      if (fresh) features->second.setZero(poses);
+      features->second[pose] += motion.size;
+    }
+  }
+  spans_.push_back({columns_, count});
+  columns_ += count;
+}
+
+void EffectColumns::pack() {
+  DEMECAL_CHECK(blocks_.empty(), "columns are packed once");
+  for (auto& [motion, features] : loose_) {
+    Block block{motion, {}, {}};
+    block.features.resize(features.begin()->second.size(), static_cast<Eigen::Index>(features.size()));
+    for (auto& [column, values] : features) {
+      block.features.col(static_cast<Eigen::Index>(block.columns.size())) = values;
+      block.columns.push_back(column);
+      values.resize(0);
+    }
+    blocks_.push_back(std::move(block));
+  }
+  loose_.clear();
+}
+
+Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
+  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns_, rows.cols());
+  for (const Block& block : blocks_) {
+    const Eigen::MatrixXd part = block.features.transpose() * along_motion(field, block.motion, rows);
+    for (std::size_t i = 0; i < block.columns.size(); ++i) {
+      product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return product;
+}
+
+Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, const RowMatrixF& rows) const {
+  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  Eigen::MatrixXf product = Eigen::MatrixXf::Zero(columns_, rows.cols());
+  for (const Block& block : blocks_) {
+    const Eigen::MatrixXf part = block.features.cast<float>().transpose() * along_motion(field, block.motion, rows);
+    for (std::size_t i = 0; i < block.columns.size(); ++i) {
+      product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return product;
+}
+
+RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) const {
+  const ColumnSpan span = spans_[effect];
+  RowMatrix matrix = RowMatrix::Zero(field.rows(), span.count);
+  for (const Block& block : blocks_) {
+    auto at = std::lower_bound(block.columns.begin(), block.columns.end(), span.first);
+    for (; at != block.columns.end() && *at < span.first + span.count; ++at) {
+      const auto feature = block.features.col(at - block.columns.begin());
+      for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+        const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+        matrix.block(first, *at - span.first, count, 1) +=
+            feature[static_cast<Eigen::Index>(pose)] * field.motions.block(first, block.motion, count, 1);
+      }
+    }
+  }
+  return matrix;
 }
 
 }  // namespace demecal

@@ -1,4 +1,4 @@
-#include "residuals/restricted_likelihood.hpp"
+#include "residuals/noise_estimation.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include <unsupported/Eigen/SpecialFunctions>
 #include <utility>
 
-#include "residuals/null_noise.hpp"
+#include "residuals/noise.hpp"
 
 namespace demecal {
 namespace {

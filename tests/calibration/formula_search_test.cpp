@@ -13,7 +13,7 @@
 #include "calibration/formula_tables.hpp"
 #include "formula_arm.hpp"
 #include "island_evolution.hpp"
-#include "residuals/effect_columns.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/rivals.hpp"
+#include "diagnosis/scan.hpp"
 #include "measured_arm.hpp"
 
 namespace demecal {

@@ -6,7 +6,7 @@
 
 #include "fitting/fit.hpp"
 #include "residuals/diagnosed_model.hpp"
-#include "residuals/effect_columns.hpp"
+#include "residuals/residual_field.hpp"
 #include "simulation/planar_arm.hpp"
 
 namespace demecal {

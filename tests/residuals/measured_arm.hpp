@@ -7,7 +7,6 @@
 
 #include "effects/laden_arm.hpp"
 #include "fitting/known_arm.hpp"
-#include "residuals/effect_columns.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "measured_arm.hpp"
-#include "residuals/noise_model.hpp"
-#include "residuals/shared_errors.hpp"
+#include "residuals/noise.hpp"
+#include "residuals/noise_estimation.hpp"
 
 namespace demecal {
 namespace {
