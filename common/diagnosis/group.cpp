@@ -66,7 +66,7 @@ RandomStream Group::random(RandomPurpose purpose) const {
                       outcome_.rounds.size()};
 }
 
-std::optional<std::size_t> Group::best() const {
+std::optional<std::size_t> Group::best_candidate() const {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < scores_.size(); ++i) {
     if (excluded_[i] || scores_[i].rank == 0) continue;
@@ -222,7 +222,7 @@ void Group::drop_unconfirmed() {
 GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
   int added = 0, rejected = 0;
   while (added < rules_.most && rejected < kMostRejections && !outcome_.stopped) {
-    const auto index = best();
+    const auto index = best_candidate();
     if (!index) break;
     update_null_maxima(*index);
     Projection::Trial trial;

@@ -1,4 +1,4 @@
-// One group of rounds: effects added one after another to one linearised model, until noise alone could do as much.
+// One group of rounds: effects added one after another to one linearized model, until noise alone could do as much.
 #pragma once
 
 #include <functional>
@@ -55,7 +55,7 @@ class Group {
   std::vector<double> decoy_p_values() const;
 
  private:
-  std::optional<std::size_t> best() const;
+  std::optional<std::size_t> best_candidate() const;
   std::vector<Rival> rivals(std::size_t index) const;
   std::size_t named_equivalent(std::size_t formula) const;
   std::size_t simplest_equivalent(std::size_t index) const;

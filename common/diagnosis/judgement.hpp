@@ -21,8 +21,7 @@ std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::Vec
 
 /// What the validation poses say of a change of the model.
 struct Confirmation {
-  double share =
-      0.0;  ///< of the change that their residuals bear out; their errors decrease where it is above one half
+  double share = 0.0;  ///< of the change that their residuals bear out; above one half their errors decrease
   double lower = 0.0;  ///< its one-sided 95 % bootstrap bound
 };
 

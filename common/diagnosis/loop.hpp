@@ -24,9 +24,9 @@ struct LoopOptions {
   std::vector<double> stated_ratios;  ///< beyond the scan
   bool formulas = true;               ///< formulas outside the catalogue compete, where there are at most 5000 poses
   std::vector<Candidate> evolved{};   ///< formulas that evolution found on the residual: they compete too
-  std::vector<double>
-      evolved_null_gains{};  ///< best gains (nats, ascending) of the same evolution on permuted residuals:
-                             ///< what `evolved` candidates are held against; empty: as all others are
+  /// Best gains (nats, ascending) of the same evolution on permuted residuals: what `evolved` candidates are held
+  /// against; empty: as all others are.
+  std::vector<double> evolved_null_gains{};
   bool decoys = true;
   bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
   std::uint64_t seed = 1;

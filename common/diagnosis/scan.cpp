@@ -27,10 +27,10 @@ bool is_its_wave(const Effect& named, const Effect& other) {
 
 }  // namespace
 
-Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_cost_nats, const ResidualField& field,
+Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
            const Projection& model)
     : spans_(columns.spans()),
-      name_nats_(naming_cost_nats),
+      naming_costs_nats_(naming_costs_nats),
       rows_(static_cast<double>(field.rows())),
       poses_(static_cast<double>(distinct_poses(field))) {
   whole_.reserve(spans_.size());
@@ -78,7 +78,8 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
 double Scan::gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
   if (rank == 0) return 0.0;
   const double share = std::min(drop / squares, 1.0 - 1e-12);
-  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) - name_nats_[candidate];
+  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) -
+         naming_costs_nats_[candidate];
 }
 
 std::vector<Score> Scan::scores() const {
@@ -123,13 +124,13 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
         (rows.colwise().squaredNorm() + beliefs.colwise().squaredNorm() - explained.colwise().squaredNorm())
             .transpose()
             .cast<double>();
-    for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_fall(moments.col(i), squares[i]));
+    for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_gain(moments.col(i), squares[i]));
   }
   std::sort(maxima.begin(), maxima.end());
   return maxima;
 }
 
-double Scan::best_fall(const Eigen::VectorXd& moments, double squares) const {
+double Scan::best_gain(const Eigen::VectorXd& moments, double squares) const {
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const auto moment = moments.segment(spans_[k].first, spans_[k].count);

@@ -24,11 +24,11 @@ struct Score {
 /// All candidates' projections off one model. Building it costs one pass over the candidates' columns.
 class Scan {
  public:
-  /// `naming_cost_nats`: per candidate, the price of naming it (log of the number of its like).
-  Scan(const EffectColumns& columns, const std::vector<double>& naming_cost_nats, const ResidualField& field,
+  /// `naming_costs_nats`: per candidate, the price of naming it (log of the number of its like).
+  Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
        const Projection& model);
 
-  /// Brings the scan up to date with a model to which columns were added (as `added` says, from column `from` on).
+  /// Brings the scan up to date with a model to which columns were added.
   void follow(const EffectColumns& columns, const ResidualField& field, const Projection& model);
 
   /// One score per candidate.
@@ -50,11 +50,11 @@ class Scan {
     Eigen::VectorXd visible;
   };
   double gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
-  double best_fall(const Eigen::VectorXd& moments, double squares) const;
+  double best_gain(const Eigen::VectorXd& moments, double squares) const;
   void invert(const std::vector<ColumnSpan>& spans);
 
   std::vector<ColumnSpan> spans_;
-  std::vector<double> name_nats_;
+  std::vector<double> naming_costs_nats_;
   std::vector<Eigen::MatrixXd> whole_;  ///< X^T X per candidate
   Eigen::MatrixXd along_;               ///< X^T basis: columns x rank
   std::vector<Gram> grams_;

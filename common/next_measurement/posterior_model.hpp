@@ -74,7 +74,7 @@ class PosteriorModel {
   DiagnosedModel model_;
   Linearization linearization_;
   double weight_;
-  std::vector<Eigen::Index> kept_;  ///< columns of the linearised model that are not asked about
+  std::vector<Eigen::Index> kept_;  ///< columns of the linearized model that are not asked about
   Eigen::MatrixXd to_units_;        ///< kept x r
 };
 

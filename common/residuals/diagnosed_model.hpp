@@ -47,7 +47,7 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
 /// Rows of a field as they were before those of one pose were made independent.
 RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
 
-/// Linearises at `model`. What poses share by its noise is fitted beside it and then forgotten: with that the rows left
+/// Linearizes at `model`. What poses share by its noise is fitted beside it and then forgotten: with that the rows left
 /// are independent. Smooth terms are believed to be near zero by automatic relevance determination, links to be
 /// near their maker's figures.
 Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model);
