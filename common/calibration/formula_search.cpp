@@ -59,13 +59,13 @@ Found Search::found_in(const Eigen::VectorXd& left, Purpose purpose) {
 }
 
 FormulaSearch Search::run(double family_error, RandomStream random) {
-  const Found found = found_in(at_.projection.left(), Purpose::formulas);
+  const Found found = found_in(at_.projection.residual(), Purpose::formulas);
   if (!found || found->empty() || found->front().fall_nats <= 0.0) return {};
   FormulaSearch result;
   const NullNoise noise(at_.fitted, at_.projection);
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.luck_nats.size() + 1 < searches) {
-    const Found luck = found_in(noise.left(random), Purpose::null_distribution);
+    const Found luck = found_in(noise.residual(random), Purpose::null_distribution);
     if (!luck) return {};
     const double fall_nats = luck->empty() ? 0.0 : std::max(0.0, luck->front().fall_nats);
     if (fall_nats >= found->front().fall_nats) return {};

@@ -59,7 +59,7 @@ void tell_of(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& des
     if (round.verdict != Verdict::added) continue;
     if (const Effect* effect = held(model, round.effect)) {
       round.effect = *effect;
-      if (!effect->standard_errors.empty()) round.interval = intervals_of(*effect);
+      if (!effect->standard_errors.empty()) round.interval = confidence_intervals(*effect);
       round.diagnosis = law_of(*effect).diagnosis(*effect, described);
       round.formula = law_of(*effect).formula(*effect, described);
     } else {

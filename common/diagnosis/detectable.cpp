@@ -81,7 +81,7 @@ void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const F
     const Projection::Trial trial = beyond.trial(loop.columns.dense(fitted, i), columns.dense(validation, i));
     double seen = 0.0;
     for (const auto& column : trial.validation.colwise())
-      seen += validation_square(column, validation, beyond.validation_left());
+      seen += validation_square(column, validation, beyond.validation_residual());
     const double square = trial.fitted.squaredNorm() / variance;
     candidates[i].validation_ratio = square > 0.0 ? seen / square : 0.0;
   }

@@ -48,7 +48,7 @@ Group::Group(const DiagnosisProblem& problem, const DiagnosedModel& model, const
       projection_(linearization.projection),
       scan_(columns, naming_costs_nats(candidates), linearization.fitted, projection_),
       scores_(scan_.scores()),
-      confirmed_left_(projection_.validation_left()) {
+      confirmed_residual_(projection_.validation_residual()) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].decoy_kind != DecoyKind::none) decoy_gains_.push_back(scores_[i].gain_nats);
   }
@@ -134,9 +134,9 @@ Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
   trial =
       projection_.trial(columns_.dense(linearization_.fitted, index), validation.dense(linearization_.validation, 0));
   const auto before =
-      tool_errors_mm(linearization_.validation, projection_.validation_left(), model_.scales, problem_.data);
-  const auto after = tool_errors_mm(linearization_.validation, trial.validation_left, model_.scales, problem_.data);
-  const Resampled draws = resampled(linearization_.fitted, trial, projection_.left(), rules_.resamples,
+      tool_errors_mm(linearization_.validation, projection_.validation_residual(), model_.scales, problem_.data);
+  const auto after = tool_errors_mm(linearization_.validation, trial.validation_residual, model_.scales, problem_.data);
+  const Resampled draws = resampled(linearization_.fitted, trial, projection_.residual(), rules_.resamples,
                                     random(RandomPurpose::resampled_effect));
   Round round;
   round.number = rules_.first_round + static_cast<int>(outcome_.rounds.size());
@@ -151,7 +151,7 @@ Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
   const Confirmation borne_out =
-      confirmation_of(projection_.validation_left(), trial.validation_left, RandomPurpose::gain_of_effect);
+      confirmation_of(projection_.validation_residual(), trial.validation_residual, RandomPurpose::gain_of_effect);
   round.confirmed = borne_out.share;
   round.confirmed_lower = borne_out.lower;
   round.sign_stability = draws.sign_stability;
@@ -165,9 +165,9 @@ Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
 /// What the validation poses say of a change of their residual rows.
 Confirmation Group::confirmation_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                                     RandomPurpose purpose) const {
-  return confirmation(whole_errors_mm(linearization_.validation, before, model_.scales),
-                      whole_errors_mm(linearization_.validation, after, model_.scales),
-                      whole_errors_mm(linearization_.validation, before - after, model_.scales),
+  return confirmation(pose_errors_mm(linearization_.validation, before, model_.scales),
+                      pose_errors_mm(linearization_.validation, after, model_.scales),
+                      pose_errors_mm(linearization_.validation, before - after, model_.scales),
                       linearization_.validation.group, random(purpose));
 }
 
@@ -187,10 +187,10 @@ void Group::add(Round round, const Projection::Trial& trial) {
   projection_.add(trial);
   scan_.follow(columns_, linearization_.fitted, projection_);
   scores_ = scan_.scores();
-  const Eigen::VectorXd& left = projection_.validation_left();
-  const Confirmation since = confirmation_of(confirmed_left_, left, RandomPurpose::gain_of_group);
+  const Eigen::VectorXd& left = projection_.validation_residual();
+  const Confirmation since = confirmation_of(confirmed_residual_, left, RandomPurpose::gain_of_group);
   if (!linearization_.validation.poses.empty() && (since.share <= kGains || since.lower <= 0.0)) return;
-  confirmed_left_ = left;
+  confirmed_residual_ = left;
   confirmed_rounds_ = outcome_.rounds.size();
 }
 
@@ -248,7 +248,8 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       ++added;
     } else {
       round.verdict = outcome_.not_significant ? Verdict::none : Verdict::rejected;
-      if (!leans_too_far(round.effect)) exclude_equivalents(round);  // what needs no such lean is still to be tried
+      if (!tilt_is_implausible(round.effect))
+        exclude_equivalents(round);  // what needs no such lean is still to be tried
       outcome_.rounds.push_back(std::move(round));
       ++rejected;
     }

@@ -81,8 +81,8 @@ class Group {
   Projection projection_;
   Scan scan_;
   std::vector<Score> scores_;
-  Eigen::VectorXd confirmed_left_;    ///< of the validation rows with what they confirmed so far
-  std::size_t confirmed_rounds_ = 0;  ///< rounds up to which they did
+  Eigen::VectorXd confirmed_residual_;  ///< of the validation rows with what they confirmed so far
+  std::size_t confirmed_rounds_ = 0;    ///< rounds up to which they did
   std::vector<double> decoy_gains_;
   GroupOutcome outcome_;
 };

@@ -144,7 +144,7 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
   return errors;
 }
 
-std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales) {
+std::vector<double> pose_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales) {
   const double unit_mm = 1e3 * (scales[kPosition] > 0 ? scales[kPosition] : std::max(scales[kDistance], 1e-9));
   std::vector<double> errors;
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
@@ -234,7 +234,7 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
   return result;
 }
 
-bool leans_too_far(const Effect& effect) {
+bool tilt_is_implausible(const Effect& effect) {
   constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
   if (effect.kind != "compliance" || effect.form != "tilted") return false;
   return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
@@ -244,7 +244,7 @@ std::string implausibility(const Effect& effect, const DiagnosisProblem& problem
                            const std::vector<ArmState>& states) {
   const LargestMotion largest = largest_motion(effect, problem.data.robot, states);
   if (largest.turn_rad <= kLargestTurn_rad && largest.shift_m <= kLargestShift_m)
-    return leans_too_far(effect) ? "mounting tilt implausible (> 20 deg)" : "";
+    return tilt_is_implausible(effect) ? "mounting tilt implausible (> 20 deg)" : "";
   if (effect.kind == "coupling" && effect.form == "linear") {
     if (const double share = whole_share(effect, problem, model); share != 0.0) return unit_coupling(effect, share);
   }

@@ -17,7 +17,7 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
                                    const DataSet& data);
 
 /// The same of everything a pose measured, whitened: as far off as position alone would be were all its rows positions.
-std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
+std::vector<double> pose_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
 
 /// What the validation poses say of a change of the model.
 struct Confirmation {
@@ -56,6 +56,6 @@ std::string implausibility(const Effect& effect, const DiagnosisProblem& problem
                            const std::vector<ArmState>& states);
 
 /// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in truth.
-bool leans_too_far(const Effect& effect);
+bool tilt_is_implausible(const Effect& effect);
 
 }  // namespace demecal

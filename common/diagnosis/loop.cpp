@@ -239,7 +239,7 @@ void ClosedLoop::describe_added() {
     for (const Effect& effect : model_.robot.effects) {
       if (effect.same_law_as(round.effect)) round.effect = effect;
     }
-    if (!round.effect.standard_errors.empty()) round.interval = intervals_of(round.effect);
+    if (!round.effect.standard_errors.empty()) round.interval = confidence_intervals(round.effect);
     round.diagnosis = law_of(round.effect).diagnosis(round.effect, problem_.data.robot);
     round.formula = law_of(round.effect).formula(round.effect, problem_.data.robot);
   }

@@ -96,7 +96,7 @@ inline std::vector<AmbiguousEffect> ambiguous_effects(const std::vector<Round>& 
 }
 
 /// The 95 % interval of every coefficient by its standard error (normal); nothing where standard errors are unknown.
-inline std::vector<std::array<double, 2>> intervals_of(const Effect& effect) {
+inline std::vector<std::array<double, 2>> confidence_intervals(const Effect& effect) {
   constexpr double kNormal95 = 1.96;
   std::vector<std::array<double, 2>> intervals;
   for (std::size_t i = 0; i < effect.standard_errors.size(); ++i) {

@@ -46,7 +46,7 @@ void Scan::follow(const EffectColumns& columns, const ResidualField& field, cons
   const Eigen::Index known = along_.cols(), fresh = model.rank() - known;
   RowMatrix news(field.rows(), fresh + 1);
   news.leftCols(fresh) = model.basis().rightCols(fresh);
-  news.col(fresh) = model.left();
+  news.col(fresh) = model.residual();
   const Eigen::MatrixXd products = columns.transposed_times(field, news);
   along_.conservativeResize(Eigen::NoChange, model.rank());
   along_.rightCols(fresh) = products.leftCols(fresh);
@@ -105,20 +105,20 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
 
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                       int count, RandomStream random) const {
-  const RowMatrixF basis = model.basis().cast<float>(), beliefs_basis = model.beliefs_basis().cast<float>();
+  const RowMatrixF basis = model.basis().cast<float>(), prior_basis = model.prior_basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
   const NullNoise noise(field, model);
   std::vector<double> maxima;
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
-    Eigen::MatrixXf drawn(field.rows(), now), beliefs(beliefs_basis.rows(), now);
+    Eigen::MatrixXf drawn(field.rows(), now), beliefs(prior_basis.rows(), now);
     for (Eigen::Index i = 0; i < now; ++i) {
       const NullNoise::Rows rows = noise.draw(random);
       drawn.col(i) = rows.fitted.cast<float>();
       beliefs.col(i) = rows.beliefs.cast<float>();
     }
     const RowMatrixF rows = drawn;
-    const Eigen::MatrixXf explained = basis.transpose() * rows + beliefs_basis.transpose() * beliefs;
+    const Eigen::MatrixXf explained = basis.transpose() * rows + prior_basis.transpose() * beliefs;
     const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();
     const Eigen::VectorXd squares =
         (rows.colwise().squaredNorm() + beliefs.colwise().squaredNorm() - explained.colwise().squaredNorm())

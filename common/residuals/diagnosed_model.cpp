@@ -103,7 +103,7 @@ RowScales scales_of(const DiagnosisProblem& problem, const Linearization& linear
     for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
       if (present[kind] <= 0) continue;
       for (int k = 0; k < count[kind]; ++k, ++row) {
-        squares[kind] += std::pow(linearization.projection.left()[row], 2);
+        squares[kind] += std::pow(linearization.projection.residual()[row], 2);
         freedom[kind] +=
             std::pow(linearization.fitted.root_weight[i], 2) - linearization.projection.basis().row(row).squaredNorm();
       }

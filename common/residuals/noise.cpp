@@ -104,17 +104,17 @@ RowMatrix columns_of_drift(const Drift& drift, const ResidualField& field) {
 /// average (quadratic estimation; Rao, 1971). Where hardly anything tells, one.
 Eigen::Vector3d variances_found(const Projection& model) {
   constexpr double kTakenAsKnown = 2.0;  ///< rows' worth of the assumption
-  const Eigen::Index shared = model.shared(), own = model.beliefs_left().size() - shared;
+  const Eigen::Index shared = model.shared(), own = model.prior_residual().size() - shared;
   const auto gram = [](const auto& basis) { return Eigen::MatrixXd(basis.transpose() * basis); };
-  const std::array<Eigen::MatrixXd, 3> grams{gram(model.basis()), gram(model.beliefs_basis().topRows(own)),
-                                             gram(model.beliefs_basis().bottomRows(shared))};
+  const std::array<Eigen::MatrixXd, 3> grams{gram(model.basis()), gram(model.prior_basis().topRows(own)),
+                                             gram(model.prior_basis().bottomRows(shared))};
   const auto believed = [&](Eigen::Index first, Eigen::Index count) {
-    const auto begin = model.believed().begin() + first;
+    const auto begin = model.has_prior().begin() + first;
     return static_cast<double>(std::count(begin, begin + count, true));
   };
-  const std::array rows{static_cast<double>(model.left().size()), believed(0, own), believed(own, shared)};
-  const Eigen::Vector3d found(model.left().squaredNorm(), model.beliefs_left().head(own).squaredNorm(),
-                              model.beliefs_left().tail(shared).squaredNorm());
+  const std::array rows{static_cast<double>(model.residual().size()), believed(0, own), believed(own, shared)};
+  const Eigen::Vector3d found(model.residual().squaredNorm(), model.prior_residual().head(own).squaredNorm(),
+                              model.prior_residual().tail(shared).squaredNorm());
   Eigen::Matrix3d expected;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -168,11 +168,11 @@ NullNoise::NullNoise(const ResidualField& field, const Projection& model) : fiel
     const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
     const double followed = model.basis().middleRows(first, count).squaredNorm() / static_cast<double>(count);
     const double free = std::max(kLeastFree, 1.0 - followed);
-    lengths_[count].push_back(model.left().segment(first, count).norm() / std::sqrt(free));
+    lengths_[count].push_back(model.residual().segment(first, count).norm() / std::sqrt(free));
   }
   const Eigen::Vector3d deviations = variances_found(model).cwiseSqrt();
   const Eigen::Index shared = model.shared();
-  belief_deviations_ = Eigen::VectorXd::Constant(model.beliefs_left().size(), deviations[1]);
+  belief_deviations_ = Eigen::VectorXd::Constant(model.prior_residual().size(), deviations[1]);
   belief_deviations_.tail(shared).setConstant(deviations[2]);
   double squares = 0.0;
   for (const auto& [count, lengths] : lengths_)
@@ -183,7 +183,7 @@ NullNoise::NullNoise(const ResidualField& field, const Projection& model) : fiel
 }
 
 NullNoise::Rows NullNoise::draw(RandomStream& random) const {
-  Rows drawn{Eigen::VectorXd(field_.rows()), Eigen::VectorXd::Zero(model_.beliefs_left().size())};
+  Rows drawn{Eigen::VectorXd(field_.rows()), Eigen::VectorXd::Zero(model_.prior_residual().size())};
   std::map<Eigen::Index, std::vector<double>> dealt = lengths_;
   for (auto& [count, lengths] : dealt)
     for (std::size_t i = lengths.size(); i > 1; --i) std::swap(lengths[i - 1], lengths[random.index(i)]);
@@ -195,16 +195,16 @@ NullNoise::Rows NullNoise::draw(RandomStream& random) const {
     lengths.pop_back();
   }
   for (Eigen::Index i = 0; i < drawn.beliefs.size(); ++i)
-    if (model_.believed()[static_cast<std::size_t>(i)]) drawn.beliefs[i] = belief_deviations_[i] * random.normal();
+    if (model_.has_prior()[static_cast<std::size_t>(i)]) drawn.beliefs[i] = belief_deviations_[i] * random.normal();
   return drawn;
 }
 
-Eigen::VectorXd NullNoise::left(RandomStream& random) const {
+Eigen::VectorXd NullNoise::residual(RandomStream& random) const {
   Rows drawn = draw(random);
   const Eigen::VectorXd along =
-      model_.basis().transpose() * drawn.fitted + model_.beliefs_basis().transpose() * drawn.beliefs;
+      model_.basis().transpose() * drawn.fitted + model_.prior_basis().transpose() * drawn.beliefs;
   drawn.fitted -= model_.basis() * along;
-  drawn.beliefs -= model_.beliefs_basis() * along;
+  drawn.beliefs -= model_.prior_basis() * along;
   const double whole = drawn.fitted.squaredNorm() + drawn.beliefs.squaredNorm();
   return whole > 0 ? Eigen::VectorXd(std::sqrt(model_.squares() / whole) * drawn.fitted) : drawn.fitted;
 }

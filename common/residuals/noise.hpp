@@ -38,7 +38,7 @@ class NullNoise {
   };
   Rows draw(RandomStream& random) const;
   /// What the model leaves of a draw's rows, of the residual's sum of squares (beliefs included).
-  Eigen::VectorXd left(RandomStream& random) const;
+  Eigen::VectorXd residual(RandomStream& random) const;
 
  private:
   const ResidualField& field_;

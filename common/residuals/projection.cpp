@@ -36,28 +36,28 @@ void append(RowMatrix& to, const RowMatrix& columns) {
 }  // namespace
 
 Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation)
-    : left_(fitted),
-      validation_left_(validation),
-      beliefs_left_(-model.precision.cwiseProduct(model.offset)),
+    : residual_(fitted),
+      validation_residual_(validation),
+      prior_residual_(-model.precision.cwiseProduct(model.offset)),
       shared_(model.shared) {
   TriangularFactor factor(static_cast<int>(model.fitted.cols()));
   factor.add(model.fitted);
-  const RowMatrix beliefs = model.precision.asDiagonal().toDenseMatrix();
-  factor.add(beliefs);
+  const RowMatrix prior = model.precision.asDiagonal().toDenseMatrix();
+  factor.add(prior);
   to_basis_ = orthonormaliser(factor.factor());
-  for (const double precision : model.precision) believed_.push_back(precision != 0.0);
+  for (const double precision : model.precision) has_prior_.push_back(precision != 0.0);
   basis_ = model.fitted * to_basis_;
   validation_basis_ = model.validation * to_basis_;
-  beliefs_basis_ = beliefs * to_basis_;
-  const Eigen::VectorXd along = basis_.transpose() * left_ + beliefs_basis_.transpose() * beliefs_left_;
+  prior_basis_ = prior * to_basis_;
+  const Eigen::VectorXd along = basis_.transpose() * residual_ + prior_basis_.transpose() * prior_residual_;
   changes_ = to_basis_ * along;
-  left_ -= basis_ * along;
-  validation_left_ -= validation_basis_ * along;
-  beliefs_left_ -= beliefs_basis_ * along;
+  residual_ -= basis_ * along;
+  validation_residual_ -= validation_basis_ * along;
+  prior_residual_ -= prior_basis_ * along;
 }
 
 double Projection::freedom() const {
-  return static_cast<double>(left_.size()) - basis_.squaredNorm();
+  return static_cast<double>(residual_.size()) - basis_.squaredNorm();
 }
 
 Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& validation) const {
@@ -65,12 +65,12 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& va
   const Eigen::MatrixXd along = basis_.transpose() * fitted;
   result.fitted = fitted - basis_ * along;
   result.validation = validation - validation_basis_ * along;
-  result.beliefs = -beliefs_basis_ * along;
+  result.prior = -prior_basis_ * along;
   Eigen::VectorXd scale = fitted.colwise().norm().transpose();
   for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
   const Eigen::MatrixXd gram =
       scale.asDiagonal() * (fitted.transpose() * fitted - along.transpose() * along) * scale.asDiagonal();
-  const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * left_);
+  const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * residual_);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
   const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * moment;
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(turned.size());
@@ -84,20 +84,20 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& va
   }
   result.to_basis.conservativeResize(Eigen::NoChange, result.rank);
   result.coefficients = scale.cwiseProduct(eigen.eigenvectors() * solution);
-  result.validation_left = validation_left_ - result.validation * result.coefficients;
+  result.validation_residual = validation_residual_ - result.validation * result.coefficients;
   return result;
 }
 
 void Projection::add(const Trial& trial) {
   const RowMatrix fitted = trial.fitted * trial.to_basis, validation = trial.validation * trial.to_basis;
-  const RowMatrix beliefs = trial.beliefs * trial.to_basis;
-  const Eigen::VectorXd share = fitted.transpose() * left_ + beliefs.transpose() * beliefs_left_;
-  left_ -= fitted * share;
-  validation_left_ -= validation * share;
-  beliefs_left_ -= beliefs * share;
+  const RowMatrix prior = trial.prior * trial.to_basis;
+  const Eigen::VectorXd share = fitted.transpose() * residual_ + prior.transpose() * prior_residual_;
+  residual_ -= fitted * share;
+  validation_residual_ -= validation * share;
+  prior_residual_ -= prior * share;
   append(basis_, fitted);
   append(validation_basis_, validation);
-  append(beliefs_basis_, beliefs);
+  append(prior_basis_, prior);
 }
 
 }  // namespace demecal

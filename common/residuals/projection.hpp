@@ -33,47 +33,47 @@ class Projection {
 
   /// Rank of the model's columns so far.
   Eigen::Index rank() const { return basis_.cols(); }
-  /// Over the fitted rows: rows x rank(), orthonormal together with the rows of beliefs.
+  /// Over the fitted rows: rows x rank(), orthonormal together with the rows of the prior.
   const RowMatrix& basis() const { return basis_; }
   /// Residual of the fitted rows and of the validation rows.
-  const Eigen::VectorXd& left() const { return left_; }
-  const Eigen::VectorXd& validation_left() const { return validation_left_; }
+  const Eigen::VectorXd& residual() const { return residual_; }
+  const Eigen::VectorXd& validation_residual() const { return validation_residual_; }
   /// Least-squares changes of the coefficients of the columns it was made from.
   const Eigen::VectorXd& changes() const { return changes_; }
   /// Of the same, in rows of unit variance.
   Eigen::MatrixXd covariance() const { return to_basis_ * to_basis_.transpose(); }
-  /// Sum of squares left, beliefs included, and degrees of freedom of the fitted rows.
-  double squares() const { return left_.squaredNorm() + beliefs_left_.squaredNorm(); }
+  /// Sum of squares left, prior values included, and degrees of freedom of the fitted rows.
+  double squares() const { return residual_.squaredNorm() + prior_residual_.squaredNorm(); }
   double freedom() const;
-  /// Over the rows of beliefs: one a column of the model it was made from, zero where nothing is believed.
-  const RowMatrix& beliefs_basis() const { return beliefs_basis_; }
-  const Eigen::VectorXd& beliefs_left() const { return beliefs_left_; }
+  /// Over the rows of the prior: one a column of the model it was made from, zero where nothing is believed.
+  const RowMatrix& prior_basis() const { return prior_basis_; }
+  const Eigen::VectorXd& prior_residual() const { return prior_residual_; }
   /// How many of these rows, the last, are of errors that poses share.
   Eigen::Index shared() const { return shared_; }
   /// Of the same rows: whether anything is believed.
-  const std::vector<bool>& believed() const { return believed_; }
+  const std::vector<bool>& has_prior() const { return has_prior_; }
 
   /// What of new columns the model does not explain: their coefficients' least-squares values and what adding them
   /// leaves of either residual.
   struct Trial {
     RowMatrix fitted;              ///< new columns less the model's share, rows x m
     RowMatrix validation;          ///< the same over the validation rows
-    RowMatrix beliefs;             ///< the same over the rows of beliefs
+    RowMatrix prior;               ///< the same over the rows of the prior
     Eigen::MatrixXd to_basis;      ///< m x rank: makes the new columns orthonormal
     Eigen::VectorXd coefficients;  ///< m; 0 in directions that the model explains already
     double drop = 0.0;             ///< decrease of the sum of squares
     Eigen::Index rank = 0;         ///< directions that the model does not explain
-    Eigen::VectorXd validation_left;
+    Eigen::VectorXd validation_residual;
   };
   Trial trial(const RowMatrix& fitted, const RowMatrix& validation) const;
   /// Takes a trial's columns into the model.
   void add(const Trial& trial);
 
  private:
-  RowMatrix basis_, validation_basis_, beliefs_basis_;
+  RowMatrix basis_, validation_basis_, prior_basis_;
   Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
-  Eigen::VectorXd left_, validation_left_, beliefs_left_, changes_;
-  std::vector<bool> believed_;
+  Eigen::VectorXd residual_, validation_residual_, prior_residual_, changes_;
+  std::vector<bool> has_prior_;
   Eigen::Index shared_;
 };
 

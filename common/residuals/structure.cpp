@@ -166,11 +166,11 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);
   if (all.empty()) return 1.0;
-  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.left(), chain), all);
+  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual(), chain), all);
   const NullNoise noise(field, model);
   Eigen::MatrixXd null(seen.size(), draws);
   for (int i = 0; i < draws; ++i) {
-    null.col(i) = agreements(joint_errors(field, poses, noise.left(random), chain), all);
+    null.col(i) = agreements(joint_errors(field, poses, noise.residual(random), chain), all);
   }
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =

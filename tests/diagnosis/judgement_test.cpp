@@ -39,7 +39,7 @@ TEST(WholeErrors, AreThoseOfPositionWhereNothingElseWasMeasured) {
   measure_anyhow(arm, stream, {.orientation = true}, 1);
   ResidualField field = field_of(arm, {});
   field.residual.tail(6).setConstant(2.0);
-  const std::vector<double> whole = whole_errors_mm(field, field.residual, kScales);
+  const std::vector<double> whole = pose_errors_mm(field, field.residual, kScales);
   const std::vector<double> position = tool_errors_mm(field, field.residual, kScales, arm.data);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(whole[i], position[i]);
   EXPECT_DOUBLE_EQ(whole[4], 1e3 * kScales[kPosition] * 2.0 * std::sqrt(3.0));
@@ -134,7 +134,7 @@ Noisy noisy_backlash(RandomStream& stream, double standard_errors) {
 }
 
 Resampled resample(const Noisy& at, std::uint64_t seed) {
-  return resampled(at.field, at.trial, projection_of(at.field).left(), 400, RandomStream{87, seed});
+  return resampled(at.field, at.trial, projection_of(at.field).residual(), 400, RandomStream{87, seed});
 }
 
 TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {

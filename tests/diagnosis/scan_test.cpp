@@ -62,7 +62,7 @@ TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
     const Projection::Trial trial = model.trial(dense, dense);
     EXPECT_EQ(scores[i].rank, trial.rank);
     EXPECT_NEAR(scores[i].drop, trial.drop, 1e-6 * (1 + trial.drop));
-    const double left = model.left().squaredNorm();
+    const double left = model.residual().squaredNorm();
     const double nats = trial.rank == 0
                             ? 0.0
                             : 0.5 * 120 * std::log(left / (left - trial.drop)) -

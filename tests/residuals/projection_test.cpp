@@ -48,7 +48,7 @@ void append_columns(Problem& problem, const RowMatrix& fitted, const RowMatrix& 
 }
 
 struct Solution {
-  Eigen::VectorXd coefficients, left, validation_left;
+  Eigen::VectorXd coefficients, left, validation_residual;
   Eigen::MatrixXd whole;  ///< rows of measurements, then of beliefs
   double squares = 0.0, freedom = 0.0;
 };
@@ -66,7 +66,7 @@ Solution solve_explicitly(const Problem& problem) {
   solver.compute(solution.whole);
   solution.coefficients = solver.solve(wanted);
   solution.left = problem.fitted - model.fitted * solution.coefficients;
-  solution.validation_left = problem.validation - model.validation * solution.coefficients;
+  solution.validation_residual = problem.validation - model.validation * solution.coefficients;
   solution.squares = (wanted - solution.whole * solution.coefficients).squaredNorm();
   solution.freedom =
       static_cast<double>(kFittedRows) - (model.fitted * solver.pseudoInverse().leftCols(kFittedRows)).trace();
@@ -74,8 +74,8 @@ Solution solve_explicitly(const Problem& problem) {
 }
 
 void expect_equal(const Projection& projection, const Solution& expected) {
-  EXPECT_TRUE(projection.left().isApprox(expected.left, 1e-9));
-  EXPECT_TRUE(projection.validation_left().isApprox(expected.validation_left, 1e-8));
+  EXPECT_TRUE(projection.residual().isApprox(expected.left, 1e-9));
+  EXPECT_TRUE(projection.validation_residual().isApprox(expected.validation_residual, 1e-8));
   EXPECT_NEAR(projection.squares(), expected.squares, 1e-9 * expected.squares);
   EXPECT_NEAR(projection.freedom(), expected.freedom, 1e-8);
 }
@@ -108,8 +108,8 @@ TEST(Projection, OfNoColumnsLeavesEverything) {
   RandomStream stream{82, 3};
   const Eigen::VectorXd fitted = random_matrix(stream, kFittedRows, 1), validation = random_matrix(stream, kJudging, 1);
   const Projection projection({RowMatrix(kFittedRows, 0), RowMatrix(kJudging, 0), {}, {}}, fitted, validation);
-  EXPECT_EQ(projection.left(), fitted);
-  EXPECT_EQ(projection.validation_left(), validation);
+  EXPECT_EQ(projection.residual(), fitted);
+  EXPECT_EQ(projection.validation_residual(), validation);
   EXPECT_EQ(projection.rank(), 0);
   EXPECT_DOUBLE_EQ(projection.freedom(), static_cast<double>(kFittedRows));
 }
@@ -138,7 +138,7 @@ TEST(Projection, TrialIsWhatFittingWithTheColumnsGives) {
     EXPECT_EQ(tried.rank, 3);
     EXPECT_NEAR(tried.drop, before - expected.squares, 1e-8 * before);
     EXPECT_TRUE(tried.coefficients.isApprox(expected.coefficients.tail(3), 1e-8));
-    EXPECT_TRUE(tried.validation_left.isApprox(expected.validation_left, 1e-8));
+    EXPECT_TRUE(tried.validation_residual.isApprox(expected.validation_residual, 1e-8));
   }
 }
 
@@ -159,7 +159,7 @@ TEST(Projection, TrialGivesNothingForWhatTheModelExplains) {
   const Projection::Trial zero = projection.trial(RowMatrix::Zero(kFittedRows, 1), RowMatrix::Zero(kJudging, 1));
   EXPECT_EQ(zero.rank, 0);
   EXPECT_EQ(zero.drop, 0.0);
-  EXPECT_EQ(zero.validation_left, projection.validation_left());
+  EXPECT_EQ(zero.validation_residual, projection.validation_residual());
 }
 
 TEST(Projection, AddingIsTheSameAsFittingWithTheColumns) {
