@@ -9,7 +9,7 @@
 namespace demecal {
 namespace {
 
-constexpr Eigen::Index kAxes = 3;  ///< of positions, the first rows of a pose
+constexpr Eigen::Index kPositionAxes = 3;  ///< of positions, the first rows of a pose
 constexpr std::size_t kMostRepeated = 200;
 constexpr Eigen::Index kMostKnots = 120;
 constexpr double kLeastVariance = 0.05;  ///< of a function's part in all rows, over that of independent noise
@@ -87,12 +87,12 @@ class Drift {
 };
 
 RowMatrix columns_of_drift(const Drift& drift, const ResidualField& field) {
-  RowMatrix result = RowMatrix::Zero(field.rows(), kAxes * drift.size());
+  RowMatrix result = RowMatrix::Zero(field.rows(), kPositionAxes * drift.size());
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
     const Eigen::RowVectorXd values = drift.at(static_cast<double>(field.poses[pose]));
     const Eigen::Index count = field.rows_of_pose(pose);
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(count, result.cols());
-    for (Eigen::Index axis = 0; axis < std::min(count, kAxes); ++axis)
+    for (Eigen::Index axis = 0; axis < std::min(count, kPositionAxes); ++axis)
       unit.row(axis).segment(axis * drift.size(), drift.size()) = values;
     place(field, pose, unit, 0, result);
   }

@@ -140,13 +140,13 @@ Resampled resample(const Noisy& at, std::uint64_t seed) {
 TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
   RandomStream stream{87, 5};
   double width = 0.0;
-  constexpr int kArms = 10;
-  for (int i = 0; i < kArms; ++i) {
+  constexpr int kJudgedArms = 10;
+  for (int i = 0; i < kJudgedArms; ++i) {
     const Noisy at = noisy_backlash(stream, 8.0);
     const auto [lower, upper] = resample(at, 6).interval[0];
     EXPECT_LT(lower, at.trial.coefficients[0]);
     EXPECT_GT(upper, at.trial.coefficients[0]);
-    width += (upper - lower) * at.trial.fitted.norm() / kArms;
+    width += (upper - lower) * at.trial.fitted.norm() / kJudgedArms;
   }
   EXPECT_NEAR(width, 3.92, 0.6);
 }

@@ -37,8 +37,8 @@ std::vector<Candidate> as_candidates(const std::vector<Effect>& effects) {
 TEST(Refined, FindsCoefficientsWithHonestStandardErrors) {
   RandomStream stream{90, 1};
   double squares = 0.0;
-  constexpr int kArms = 12;
-  for (int i = 0; i < kArms; ++i) {
+  constexpr int kRefittedArms = 12;
+  for (int i = 0; i < kRefittedArms; ++i) {
     const KnownArm arm = loose_arm(stream);
     const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
     Effect unknown = kBacklash;
@@ -46,7 +46,7 @@ TEST(Refined, FindsCoefficientsWithHonestStandardErrors) {
     const DiagnosedModel model = model_with(problem, arm, {unknown});
     const Effect& found = model.robot.effects[0];
     ASSERT_EQ(found.standard_errors.size(), 1u);
-    squares += std::pow((found.values[0] - 4e-4) / found.standard_errors[0], 2) / kArms;
+    squares += std::pow((found.values[0] - 4e-4) / found.standard_errors[0], 2) / kRefittedArms;
     EXPECT_NEAR(model.scales[kPosition], 5e-5, 1e-5);
   }
   EXPECT_GT(squares, 0.3);
