@@ -91,21 +91,21 @@ class ExperimentDesign {
   }
 
   bool can_widen(int joint) const {
-    const auto at = static_cast<std::size_t>(joint);
-    const Interval &allowed_range = feasible_.allowed()[at], &measured_range = feasible_.measured()[at];
+    const auto index = static_cast<std::size_t>(joint);
+    const Interval &allowed_range = feasible_.allowed()[index], &measured_range = feasible_.measured()[index];
     const double both =
         std::max(allowed_range.upper, measured_range.upper) - std::min(allowed_range.lower, measured_range.lower);
     return both > kWorthwhile * (measured_range.upper - measured_range.lower);
   }
 
   Experiment with_wider_range(int joint) {
-    const auto at = static_cast<std::size_t>(joint);
+    const auto index = static_cast<std::size_t>(joint);
     std::vector<Interval> ranges = feasible_.measured();
-    const Interval measured_range = ranges[at], allowed_range = feasible_.allowed()[at];
-    ranges[at] = {std::min(allowed_range.lower, measured_range.lower),
-                  std::max(allowed_range.upper, measured_range.upper)};
+    const Interval measured_range = ranges[index], allowed_range = feasible_.allowed()[index];
+    ranges[index] = {std::min(allowed_range.lower, measured_range.lower),
+                     std::max(allowed_range.upper, measured_range.upper)};
     Experiment experiment{"",
-                          " with joint " + std::to_string(joint + 1) + " anywhere from " + words(joint, ranges[at]) +
+                          " with joint " + std::to_string(joint + 1) + " anywhere from " + words(joint, ranges[index]) +
                               ", not only from " + words(joint, measured_range),
                           1,
                           joint,

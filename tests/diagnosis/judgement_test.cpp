@@ -133,8 +133,8 @@ Noisy noisy_backlash(RandomStream& stream, double standard_errors) {
   return made;
 }
 
-Resampled resample(const Noisy& at, std::uint64_t seed) {
-  return resampled(at.field, at.trial, projection_of(at.field).residual(), 400, RandomStream{87, seed});
+Resampled resample(const Noisy& tested, std::uint64_t seed) {
+  return resampled(tested.field, tested.trial, projection_of(tested.field).residual(), 400, RandomStream{87, seed});
 }
 
 TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
@@ -142,11 +142,11 @@ TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
   double width = 0.0;
   constexpr int kJudgedArms = 10;
   for (int i = 0; i < kJudgedArms; ++i) {
-    const Noisy at = noisy_backlash(stream, 8.0);
-    const auto [lower, upper] = resample(at, 6).interval[0];
-    EXPECT_LT(lower, at.trial.coefficients[0]);
-    EXPECT_GT(upper, at.trial.coefficients[0]);
-    width += (upper - lower) * at.trial.fitted.norm() / kJudgedArms;
+    const Noisy tested = noisy_backlash(stream, 8.0);
+    const auto [lower, upper] = resample(tested, 6).interval[0];
+    EXPECT_LT(lower, tested.trial.coefficients[0]);
+    EXPECT_GT(upper, tested.trial.coefficients[0]);
+    width += (upper - lower) * tested.trial.fitted.norm() / kJudgedArms;
   }
   EXPECT_NEAR(width, 3.92, 0.6);
 }
@@ -154,18 +154,18 @@ TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
 TEST(Resampled, SignIsStableWhereTheEffectIsThereAndNotWhereItIsNot) {
   RandomStream stream{87, 7};
   EXPECT_EQ(resample(noisy_backlash(stream, 8.0), 8).sign_stability, 1.0);
-  const Noisy at = noisy_backlash(stream, 0.0);
-  const double in_errors = std::abs(at.trial.coefficients[0]) * at.trial.fitted.norm();
+  const Noisy tested = noisy_backlash(stream, 0.0);
+  const double in_errors = std::abs(tested.trial.coefficients[0]) * tested.trial.fitted.norm();
   const double expected = 0.5 * std::erfc(-in_errors / std::sqrt(2.0));
   EXPECT_LT(in_errors, 1.6);
-  EXPECT_NEAR(resample(at, 9).sign_stability, expected, 0.1);
+  EXPECT_NEAR(resample(tested, 9).sign_stability, expected, 0.1);
 }
 
 TEST(Resampled, IsAFunctionOfItsSeed) {
   RandomStream stream{87, 10};
-  const Noisy at = noisy_backlash(stream, 2.0);
-  EXPECT_EQ(resample(at, 11).interval, resample(at, 11).interval);
-  EXPECT_NE(resample(at, 11).interval, resample(at, 12).interval);
+  const Noisy tested = noisy_backlash(stream, 2.0);
+  EXPECT_EQ(resample(tested, 11).interval, resample(tested, 11).interval);
+  EXPECT_NE(resample(tested, 11).interval, resample(tested, 12).interval);
 }
 
 TEST(LargestMotion, IsHowFarAnEffectStraysFromItsMean) {

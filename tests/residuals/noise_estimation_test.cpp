@@ -39,37 +39,38 @@ NoisyArm noisy_arm(RandomStream& stream, int poses, int repeats = 1) {
 }
 
 /// Noise of `model`, independent part `scale`, over the rows.
-void draw(NoisyArm& at, const NoiseModel& model, double scale, RandomStream& stream) {
-  Eigen::VectorXd residual(at.field.rows());
+void draw(NoisyArm& tested, const NoiseModel& model, double scale, RandomStream& stream) {
+  Eigen::VectorXd residual(tested.field.rows());
   for (double& value : residual) value = scale * stream.normal();
   Eigen::Vector3d drift = Eigen::Vector3d::Zero(), shared = drift;
-  for (std::size_t i = 0; i < at.field.poses.size(); ++i) {
-    const Eigen::Index first = at.field.first_row[i];
+  for (std::size_t i = 0; i < tested.field.poses.size(); ++i) {
+    const Eigen::Index first = tested.field.first_row[i];
     JointVector joints(6);
     for (Eigen::Index joint = 0; joint < 6; ++joint)
       joints[joint] = std::sqrt(model.joint_variance_rad2(static_cast<std::size_t>(joint))) * stream.normal();
-    residual.segment(first, 3) += at.rows.joint_motions.middleRows(first, 3) * joints;
+    residual.segment(first, 3) += tested.rows.joint_motions.middleRows(first, 3) * joints;
     for (double& value : drift) {
       value = i == 0 ? stream.normal()
                      : model.correlation * value + std::sqrt(1 - std::pow(model.correlation, 2)) * stream.normal();
     }
     residual.segment(first, 3) += scale * model.order * drift;
-    if (at.field.group[i] == i)
+    if (tested.field.group[i] == i)
       for (double& value : shared) value = stream.normal();
     residual.segment(first, 3) += scale * model.repeats * shared;
   }
-  at.rows.residual = residual;
+  tested.rows.residual = residual;
 }
 
 TEST(NoiseModel, ComponentsAreFoundAboutAsLargeAsTheyAre) {
   RandomStream stream{91, 1};
-  NoisyArm at = noisy_arm(stream, 30, 4);
-  const double joint_rad = 1.5 / std::sqrt(at.rows.joint_motions.squaredNorm() / static_cast<double>(at.field.rows()));
+  NoisyArm tested = noisy_arm(stream, 30, 4);
+  const double joint_rad =
+      1.5 / std::sqrt(tested.rows.joint_motions.squaredNorm() / static_cast<double>(tested.field.rows()));
   constexpr int kDraws = 12;
   double joints = 0.0, repeats = 0.0, scale = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    draw(at, {.joint_rad = joint_rad, .repeats = 2.0}, 1.3, stream);
-    const NoiseEstimate found = estimate_noise(at.rows);
+    draw(tested, {.joint_rad = joint_rad, .repeats = 2.0}, 1.3, stream);
+    const NoiseEstimate found = estimate_noise(tested.rows);
     joints += found.model.joint_rad / joint_rad / kDraws;
     repeats += found.model.repeats / 2.0 / kDraws;
     scale += found.scale / 1.3 / kDraws;
@@ -82,14 +83,15 @@ TEST(NoiseModel, ComponentsAreFoundAboutAsLargeAsTheyAre) {
 
 TEST(NoiseModel, JointsThatScatterMoreThanOthersAreToldFromThem) {
   RandomStream stream{91, 5};
-  NoisyArm at = noisy_arm(stream, 100);
-  const double joint_rad = 2.0 / std::sqrt(at.rows.joint_motions.squaredNorm() / static_cast<double>(at.field.rows()));
+  NoisyArm tested = noisy_arm(stream, 100);
+  const double joint_rad =
+      2.0 / std::sqrt(tested.rows.joint_motions.squaredNorm() / static_cast<double>(tested.field.rows()));
   const std::vector<double> shares{2.0, 0.5, 2.0, 0.5, 0.5, 0.5};
   constexpr int kDraws = 6;
   std::vector<double> found(6, 0.0);
   for (int i = 0; i < kDraws; ++i) {
-    draw(at, {.joint_rad = joint_rad, .joint_shares = shares}, 1.0, stream);
-    const NoiseModel model = estimate_noise(at.rows).model;
+    draw(tested, {.joint_rad = joint_rad, .joint_shares = shares}, 1.0, stream);
+    const NoiseModel model = estimate_noise(tested.rows).model;
     ASSERT_EQ(model.joint_shares.size(), 6u);
     for (std::size_t joint = 0; joint < 6; ++joint)
       found[joint] += model.joint_variance_rad2(joint) / (joint_rad * joint_rad) / kDraws;
@@ -103,12 +105,12 @@ TEST(NoiseModel, JointsThatScatterMoreThanOthersAreToldFromThem) {
 
 TEST(NoiseModel, DriftInOrderIsFound) {
   RandomStream stream{91, 2};
-  NoisyArm at = noisy_arm(stream, 100);
+  NoisyArm tested = noisy_arm(stream, 100);
   constexpr int kDraws = 8;
   double step = 0.0, correlation = 0.0;  // how far it goes from one pose to the next is what data tell best
   for (int i = 0; i < kDraws; ++i) {
-    draw(at, {.order = 3.0, .correlation = 0.9}, 1.0, stream);
-    const NoiseEstimate found = estimate_noise(at.rows);
+    draw(tested, {.order = 3.0, .correlation = 0.9}, 1.0, stream);
+    const NoiseEstimate found = estimate_noise(tested.rows);
     step += found.model.order * std::sqrt((1.0 - found.model.correlation) / (1.0 - 0.9)) / 3.0 / kDraws;
     correlation += found.model.correlation / kDraws;
   }
@@ -118,15 +120,15 @@ TEST(NoiseModel, DriftInOrderIsFound) {
 
 TEST(NoiseModel, IndependentNoiseHasNoOtherComponentsWorthTheName) {
   RandomStream stream{91, 3};
-  NoisyArm at = noisy_arm(stream, 60);
+  NoisyArm tested = noisy_arm(stream, 60);
   constexpr int kDraws = 20;
   int drifting = 0;
   for (int i = 0; i < kDraws; ++i) {
-    draw(at, {}, 1.0, stream);
-    const NoiseEstimate found = estimate_noise(at.rows);
+    draw(tested, {}, 1.0, stream);
+    const NoiseEstimate found = estimate_noise(tested.rows);
     drifting += found.model.order > 0.0;
-    const double share =
-        std::pow(found.model.joint_rad, 2) * at.rows.joint_motions.squaredNorm() / static_cast<double>(at.field.rows());
+    const double share = std::pow(found.model.joint_rad, 2) * tested.rows.joint_motions.squaredNorm() /
+                         static_cast<double>(tested.field.rows());
     EXPECT_LT(share, 0.5);
     EXPECT_EQ(found.model.repeats, 0.0);
   }
@@ -135,16 +137,16 @@ TEST(NoiseModel, IndependentNoiseHasNoOtherComponentsWorthTheName) {
 
 TEST(SharedErrors, HaveTheCovarianceOfTheirNoise) {
   RandomStream stream{91, 4};
-  const NoisyArm at = noisy_arm(stream, 20, 2);
+  const NoisyArm tested = noisy_arm(stream, 20, 2);
   const NoiseModel noise{.joint_rad = 0.0, .repeats = 0.7, .order = 2.0, .correlation = 0.9};
-  const SharedErrors shared = shared_errors(noise, at.field, at.field);
+  const SharedErrors shared = shared_errors(noise, tested.field, tested.field);
   const Eigen::MatrixXd covariance = shared.fitted * shared.fitted.transpose();
-  for (std::size_t i = 0; i < at.field.poses.size(); ++i) {
-    for (std::size_t k = 0; k < at.field.poses.size(); ++k) {
+  for (std::size_t i = 0; i < tested.field.poses.size(); ++i) {
+    for (std::size_t k = 0; k < tested.field.poses.size(); ++k) {
       const double apart = std::abs(static_cast<double>(i) - static_cast<double>(k));
       const double expected = 4.0 * std::pow(0.9, apart) + (i / 2 == k / 2 ? 0.49 : 0.0);
-      EXPECT_NEAR(covariance(at.field.first_row[i], at.field.first_row[k]), expected, 0.1) << i << ' ' << k;
-      EXPECT_NEAR(covariance(at.field.first_row[i], at.field.first_row[k] + 1), 0.0, 1e-9);
+      EXPECT_NEAR(covariance(tested.field.first_row[i], tested.field.first_row[k]), expected, 0.1) << i << ' ' << k;
+      EXPECT_NEAR(covariance(tested.field.first_row[i], tested.field.first_row[k] + 1), 0.0, 1e-9);
     }
   }
 }

@@ -21,29 +21,30 @@ TestedArm tested_arm(RandomStream& stream, int poses) {
   return made;
 }
 
-double p_value(const TestedArm& at, std::uint64_t seed) {
-  return structure_p_value(at.field, projection_of(at.field), at.arm.data.robot.chain, 99, RandomStream{86, seed});
+double p_value(const TestedArm& tested, std::uint64_t seed) {
+  return structure_p_value(tested.field, projection_of(tested.field), tested.arm.data.robot.chain, 99,
+                           RandomStream{86, seed});
 }
 
 /// Fresh noise and an error of a joint that is `error` of the state, its root mean square `size` times the noise.
 template <typename Error>
-void plant(TestedArm& at, int joint, double size, RandomStream& stream, const Error& error) {
-  renew_noise(at.field, stream);
-  Eigen::VectorXd signal = at.field.motions.col(motion_column(joint, kTurnAboutZ));
-  for (std::size_t i = 0; i < at.field.states.size(); ++i) {
-    signal.segment(at.field.first_row[i], at.field.rows_of_pose(i)) *= error(at.field.states[i]);
+void plant(TestedArm& tested, int joint, double size, RandomStream& stream, const Error& error) {
+  renew_noise(tested.field, stream);
+  Eigen::VectorXd signal = tested.field.motions.col(motion_column(joint, kTurnAboutZ));
+  for (std::size_t i = 0; i < tested.field.states.size(); ++i) {
+    signal.segment(tested.field.first_row[i], tested.field.rows_of_pose(i)) *= error(tested.field.states[i]);
   }
-  at.field.residual += size * std::sqrt(static_cast<double>(at.field.rows())) * signal.normalized();
+  tested.field.residual += size * std::sqrt(static_cast<double>(tested.field.rows())) * signal.normalized();
 }
 
 TEST(Structure, IsFoundWhateverTheResidualDependsOn) {
   RandomStream stream{86, 1};
-  TestedArm at = tested_arm(stream, 120);
-  for (ArmState& state : at.field.states) state.stop.payload_kg = stream.chance(0.5) ? 3.0 : 0.0;
-  const Chain& chain = at.arm.data.robot.chain;
+  TestedArm tested = tested_arm(stream, 120);
+  for (ArmState& state : tested.field.states) state.stop.payload_kg = stream.chance(0.5) ? 3.0 : 0.0;
+  const Chain& chain = tested.arm.data.robot.chain;
   const auto expect_found = [&](const char* circumstance, int joint, const auto& error) {
-    plant(at, joint, 1.0, stream, error);
-    EXPECT_LE(p_value(at, 2), 0.05) << circumstance;
+    plant(tested, joint, 1.0, stream, error);
+    EXPECT_LE(p_value(tested, 2), 0.05) << circumstance;
   };
   expect_found("joint", 1, [](const ArmState& state) { return std::sin(2 * state.joints()[1]); });
   expect_found("another joint", 1, [](const ArmState& state) { return std::cos(state.joints()[4]); });
@@ -58,23 +59,23 @@ TEST(Structure, IsFoundWhateverTheResidualDependsOn) {
 
 TEST(Structure, IsFoundOfPosesThatMeasuredDifferentThings) {
   RandomStream stream{86, 3};
-  TestedArm at{arm_of(stream, laden_arm(stream, Arm::standard)), {}};
-  measure_anyhow(at.arm, stream, {.noise_m = 5e-5}, 60);
-  measure_anyhow(at.arm, stream, {.noise_m = 5e-5, .noise_rad = 1e-4, .orientation = true}, 60);
-  at.field = field_of(at.arm, {.registration = true});
-  plant(at, 1, 1.0, stream, [](const ArmState& state) { return std::sin(state.joints()[1]); });
-  EXPECT_LE(p_value(at, 4), 0.05);
+  TestedArm tested{arm_of(stream, laden_arm(stream, Arm::standard)), {}};
+  measure_anyhow(tested.arm, stream, {.noise_m = 5e-5}, 60);
+  measure_anyhow(tested.arm, stream, {.noise_m = 5e-5, .noise_rad = 1e-4, .orientation = true}, 60);
+  tested.field = field_of(tested.arm, {.registration = true});
+  plant(tested, 1, 1.0, stream, [](const ArmState& state) { return std::sin(state.joints()[1]); });
+  EXPECT_LE(p_value(tested, 4), 0.05);
 }
 
 TEST(Structure, IsFoundInNoiseAsOftenAsItsPValuesSay) {
   RandomStream stream{86, 5};
-  TestedArm at = tested_arm(stream, 50);
+  TestedArm tested = tested_arm(stream, 50);
   constexpr int kDraws = 100;
   int rare = 0;
   double sum = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    renew_noise(at.field, stream);
-    const double p = p_value(at, 100 + static_cast<std::uint64_t>(draw));
+    renew_noise(tested.field, stream);
+    const double p = p_value(tested, 100 + static_cast<std::uint64_t>(draw));
     rare += p <= 0.05;
     sum += p;
   }
@@ -84,8 +85,8 @@ TEST(Structure, IsFoundInNoiseAsOftenAsItsPValuesSay) {
 
 TEST(Structure, IsAFunctionOfItsSeed) {
   RandomStream stream{86, 6};
-  const TestedArm at = tested_arm(stream, 40);
-  EXPECT_EQ(p_value(at, 7), p_value(at, 7));
+  const TestedArm tested = tested_arm(stream, 40);
+  EXPECT_EQ(p_value(tested, 7), p_value(tested, 7));
 }
 
 TEST(Structure, IsNotFoundInAHandfulOfPoses) {
