@@ -1,6 +1,7 @@
 // What validation poses, resampling and the size of its motion say of an effect, and how often they are right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,6 @@
 // The backward step takes back what is not needed; the last fit takes all poses that had a part in choosing.
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "diagnosis/loop.hpp"

@@ -1,5 +1,6 @@
 // The projection against explicit least squares with beliefs as further rows.
 #include <gtest/gtest.h>
+
 #include <Eigen/QR>
 
 #include "measured_arm.hpp"
