@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "residuals/noise.hpp"
@@ -18,6 +19,7 @@ constexpr std::size_t kRuns = 3;         ///< of poses, where not all take part
 constexpr double kLikelier = 0.5;        ///< nats that a component must make the residuals likelier by
 constexpr double kLikelierInOrder = 2.0;
 constexpr std::array kCorrelations{0.5, 0.8, 0.9, 0.95, 0.98, 0.995};
+constexpr std::size_t kSlow = 2;  ///< of these, the last: those of what heat does
 constexpr std::array kVariances{0.01, 0.1, 1.0, 10.0, 100.0};
 
 /// The poses of a field that take part: all, or as many as kMostRows allow, in kRuns runs.
@@ -81,10 +83,10 @@ class Components {
     variances[component] = without - with > 2.0 * nats ? trial[component] : 0.0;
     least_ = value();
   }
-  void estimate_order() {
+  void estimate_order(std::span<const double> correlations, double nats) {
     const double before = least_;
     double best = least_;
-    for (const double candidate : kCorrelations) {
+    for (const double candidate : correlations) {
       likelihood_.set_correlation(candidate);
       for (const double variance : {0.3, 3.0, 30.0}) {
         std::array<double, 3> trial = variances;
@@ -95,9 +97,9 @@ class Components {
         correlation = candidate;
       }
     }
-    if (before - best <= 2.0 * kLikelierInOrder) return void(correlation = 0.0);
+    if (before - best <= 2.0 * nats) return void(correlation = 0.0);
     likelihood_.set_correlation(correlation);
-    estimate(RestrictedLikelihood::order, kLikelierInOrder);
+    estimate(RestrictedLikelihood::order, nats);
   }
 
   /// How the joints' variances differ, which are believed to be alike within a factor of e or so (one standard
@@ -201,6 +203,14 @@ Eigen::VectorXd at_rest(const RowMatrix& columns, const std::vector<Eigen::Index
   return columns * numbers;
 }
 
+/// Whether anything could be told of heat: then drift explains as much where it warms while it is measured.
+bool heat_varies(const ResidualField& field) {
+  const auto celsius = [](const ArmState& state) { return state.stop.temperature_celsius; };
+  return std::ranges::any_of(field.states, [&](const ArmState& state) {
+    return celsius(state).has_value() && celsius(state) != celsius(field.states.front());
+  });
+}
+
 /// Whether an arm and an instrument may be as noisy: else what the model lacks is taken for noise.
 bool is_noise(const NoiseEstimate& noise, const RowScales& scales) {
   constexpr double kWorstJoint_rad = 1e-3, kWorstShared_m = 5e-3;
@@ -220,12 +230,17 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
   Components components(likelihood);
   components.estimate(RestrictedLikelihood::joints, kLikelier);
   if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
-  if (likelihood.neighbourhood() > kInOrder) components.estimate_order();
+  double order_nats = kLikelierInOrder;
+  if (likelihood.neighbourhood() > kInOrder) components.estimate_order(kCorrelations, order_nats);
+  if (rows.drift_is_rival && components.correlation == 0.0) {
+    order_nats = 0.0;
+    components.estimate_order(std::span(kCorrelations).last(kSlow), order_nats);
+  }
   constexpr int kSweeps = 2;  // components take from one another
   for (int sweep = 0; sweep < kSweeps && components.others_than_joints(); ++sweep) {
     components.estimate(RestrictedLikelihood::joints, kLikelier);
     if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
-    if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, kLikelierInOrder);
+    if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, order_nats);
   }
   components.estimate_joints_apart();
   const double scale = std::sqrt(likelihood.variance_left(components.variances));
@@ -251,7 +266,8 @@ DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedMo
       .joint_motions = taken.select(linearization.fitted.motions(Eigen::all, linearization.fitted.scattering)),
       .first_row = {0},
       .group = {},
-      .order = {}};
+      .order = {},
+      .drift_is_rival = heat_varies(linearization.fitted)};
   for (const std::size_t pose : taken.poses) {
     rows.first_row.push_back(rows.first_row.back() + linearization.fitted.rows_of_pose(pose));
     rows.group.push_back(linearization.fitted.group[pose]);
