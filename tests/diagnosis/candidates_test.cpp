@@ -9,7 +9,7 @@
 #include <set>
 
 #include "diagnosis/scan.hpp"
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 
 namespace demecal {
 namespace {

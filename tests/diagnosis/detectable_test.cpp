@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 
 namespace demecal {
 namespace {

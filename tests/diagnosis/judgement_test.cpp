@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "diagnosis/judgement.hpp"
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 #include "simulated_arm.hpp"
 
 namespace demecal {

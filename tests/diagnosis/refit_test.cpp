@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/loop.hpp"
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 #include "simulated_arm.hpp"
 
 namespace demecal {

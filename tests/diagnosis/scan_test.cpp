@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "diagnosis/scan.hpp"
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 
 namespace demecal {
 namespace {
