@@ -7,7 +7,7 @@
 #include "baselines/radial_basis.hpp"
 #include "baselines/scaled_joints.hpp"
 #include "baselines/varying_links.hpp"
-#include "effects/error_figures.hpp"
+#include "effects/measurement.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal {
@@ -18,7 +18,7 @@ constexpr std::size_t kMostCoefficients = 1000;  // of polynomials: beyond, a lo
 
 /// The parameter that the joint's variable adds to.
 LinkParameter variable_of(const Chain& chain, int joint) {
-  const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const bool revolute = is_revolute(chain, joint);
   return revolute ? LinkParameter::theta : LinkParameter::d;
 }
 

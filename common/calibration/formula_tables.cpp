@@ -77,7 +77,7 @@ std::vector<FormulaTable> formula_tables(const DiagnosisData& of, const Linearis
   const Evidence evidence = evidence_of(of.data, of.fitted);
   std::vector<FormulaTable> tables;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
+    if (!is_revolute(chain, joint)) continue;
     tables.push_back(table_of(at, left, chain, joint, evidence));
   }
   return tables;

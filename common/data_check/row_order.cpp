@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fitting/base_candidates.hpp"
+#include "fitting/base_search.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 

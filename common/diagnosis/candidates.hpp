@@ -10,9 +10,6 @@
 
 namespace demecal {
 
-/// From what a decoy's columns are made.
-enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
-
 struct Candidate {
   Effect effect;
   Disguise disguise = Disguise::none;

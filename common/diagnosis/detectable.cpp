@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "diagnosis/judgement.hpp"
-#include "effects/likely_causes.hpp"
+#include "effects/catalogue.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 #include "diagnosis/shared_errors.hpp"
 #include "fitting/median.hpp"
 #include "fitting/scatter.hpp"
-#include "fitting/triangular_factor.hpp"
+#include "fitting/row_sums.hpp"
 
 namespace demecal {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "diagnosis/projection.hpp"
 #include "diagnosis/smooth_corrections.hpp"
-#include "fitting/prior.hpp"
+#include "fitting/least_squares.hpp"
 
 namespace demecal {
 

@@ -71,18 +71,17 @@ Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses) {
 
 std::vector<Unseen> unseen_kinds(const Evidence& evidence, const std::vector<std::string>& kinds) {
   std::vector<Unseen> unseen;
-  const auto add = [&](const char* kind, bool seen, const char* reason) {
-    const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-    if (wanted && !seen) unseen.push_back({kind, reason});
+  const auto add_lacking = [&](Circumstance circumstance, bool recorded, const char* reason) {
+    if (recorded) return;
+    for (const EffectLaw* law : catalogue()) {
+      const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), law->kind()) != kinds.end();
+      if (wanted && law->prerequisite() == circumstance) unseen.push_back({std::string(law->kind()), reason});
+    }
   };
-  const char* approach = "no approach columns, or every joint always came from one side";
-  add("backlash", evidence.approach, approach);
-  add("hysteresis", evidence.approach, approach);
-  const char* temperature = "no temperature column, or one temperature only";
-  add("thermal_offset", evidence.temperature, temperature);
-  add("thermal_length", evidence.temperature, temperature);
-  add("drift", evidence.time, "no time column");
-  add("link_bending", evidence.masses, "no link masses in the robot's file");
+  add_lacking(Circumstance::approach, evidence.approach, "no approach columns, or every joint always came from one side");
+  add_lacking(Circumstance::temperature, evidence.temperature, "no temperature column, or one temperature only");
+  add_lacking(Circumstance::time, evidence.time, "no time column");
+  add_lacking(Circumstance::masses, evidence.masses, "no link masses in the robot's file");
   return unseen;
 }
 

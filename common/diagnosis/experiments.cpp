@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
@@ -91,7 +91,7 @@ class Drafting {
 
  private:
   std::string words(int joint, const Interval& range) const {
-    const bool turns = is_revolute(of_.data.robot, joint);
+    const bool turns = is_revolute(of_.data.robot.chain, joint);
     const auto number = [&](double value) {
       return number_words(std::round(turns ? degrees(value) : millimetres(value)));
     };

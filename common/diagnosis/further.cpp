@@ -7,7 +7,7 @@
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/knowledge.hpp"
 #include "diagnosis/separation.hpp"
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 
 namespace demecal {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "diagnosis/implausible.hpp"
 #include "diagnosis/rivals.hpp"
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 
 namespace demecal {
 namespace {

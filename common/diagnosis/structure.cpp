@@ -128,7 +128,7 @@ Eigen::MatrixXd joint_errors(const ResidualField& field, const std::vector<std::
     const Eigen::Index count = field.rows_of_pose(poses[i]);
     const auto rows = residual.segment(first, count);
     for (int joint = 0; joint < chain.size(); ++joint) {
-      const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+      const bool revolute = is_revolute(chain, joint);
       const auto column = field.motions.block(first, motion_column(joint, revolute ? 5 : 2), count, 1);
       const double length = column.norm();
       errors(static_cast<Eigen::Index>(i), joint) = length > 1e-12 ? column.col(0).dot(rows) / length : 0.0;

@@ -1,7 +1,7 @@
 #include "effects/arm_state.hpp"
 
 #include "errors/check.hpp"
-#include "kinematics/elementary.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal {
 namespace {
@@ -42,9 +42,22 @@ void weigh(const Robot& robot, ArmState& state) {
 
 }  // namespace
 
+Stop::Stop(const MeasuredPose& pose)
+    : joints(pose.joints),
+      approach(pose.approach.value_or(ApproachSigns{})),
+      payload_kg(pose.payload_kg.value_or(0.0)),
+      temperature_celsius(pose.temperature_celsius),
+      time_s(pose.time_s) {}
+
+Stop Stop::with_joints(const JointVector& commanded) const {
+  Stop stop = *this;
+  stop.joints = commanded;
+  return stop;
+}
+
 double ArmState::torque(const Chain& chain, int joint) const {
   const auto i = static_cast<std::size_t>(joint);
-  return chain.joints[i].type == JointType::revolute ? loads[i].moment_nm.z() : loads[i].force_n.z();
+  return is_revolute(chain.joints[i]) ? loads[i].moment_nm.z() : loads[i].force_n.z();
 }
 
 ArmState arm_state(const Robot& robot, const Stop& stop) {

@@ -12,13 +12,13 @@ using Kind = ParameterId::Kind;
 using Twist = SmallMotion;
 
 /// The rotation vectors a change holds, of the base and of each target's tool.
-struct Turns {
+struct RotationVectors {
   Eigen::Vector3d base = Eigen::Vector3d::Zero();
   std::map<std::string, Eigen::Vector3d> tools;
 };
 
-Turns turns_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& change) {
-  Turns turns;
+RotationVectors rotation_vectors_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& change) {
+  RotationVectors turns;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const double value = change[static_cast<Eigen::Index>(i)];
     if (ids[i].kind == Kind::base_rotation) turns.base[ids[i].index] = value;
@@ -29,7 +29,7 @@ Turns turns_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& chang
   return turns;
 }
 
-void add(CorrectedRobot& robot, const ParameterId& id, double change) {
+void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
   switch (id.kind) {
     case Kind::base_translation:
       robot.sensor_from_base.translation()[id.index] += change;
@@ -50,13 +50,13 @@ void add(CorrectedRobot& robot, const ParameterId& id, double change) {
 }
 
 /// What of a pose's prediction the twists of base and tool parameters are made from, in the measurements' frame.
-struct Frames {
+struct TwistFrames {
   Eigen::Matrix3d base;
   Eigen::Matrix3d flange;
   Eigen::Vector3d base_to_tool;
 };
 
-Twist twist_of(const ParameterId& id, const ModelPoint& point, const Frames& frames, const LinkJacobian& links) {
+Twist twist_of(const ParameterId& id, const ModelPoint& point, const TwistFrames& frames, const LinkJacobian& links) {
   Twist twist = Twist::Zero();
   switch (id.kind) {
     case Kind::base_translation:
@@ -94,8 +94,8 @@ void move_declared(const std::vector<ParameterId>& ids, const ModelPoint& point,
   const CorrectedRobot& robot = point.robot;
   const Eigen::Isometry3d flange = robot.sensor_from_base * at.flange;
   motion.predicted = flange * robot.tool(target);
-  const Frames frames{robot.sensor_from_base.linear(), flange.linear(),
-                      motion.predicted.translation() - robot.sensor_from_base.translation()};
+  const TwistFrames frames{robot.sensor_from_base.linear(), flange.linear(),
+                           motion.predicted.translation() - robot.sensor_from_base.translation()};
   motion.twists.resize(6, static_cast<Eigen::Index>(ids.size()));
   for (std::size_t i = 0; i < ids.size(); ++i) {
     auto twist = motion.twists.col(static_cast<Eigen::Index>(i));
@@ -171,8 +171,8 @@ ParameterSpace::ParameterSpace(CorrectedRobot reference, std::vector<ParameterId
 ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
   DEMECAL_CHECK(change.size() == size(), change.size() << " changes of " << size() << " parameters");
   ModelPoint point{reference_, Eigen::Matrix3d::Identity(), {}};
-  for (int i = 0; i < size(); ++i) add(point.robot, ids_[static_cast<std::size_t>(i)], change[i]);
-  const Turns turns = turns_of(ids_, change);
+  for (int i = 0; i < size(); ++i) add_change(point.robot, ids_[static_cast<std::size_t>(i)], change[i]);
+  const RotationVectors turns = rotation_vectors_of(ids_, change);
   point.robot.sensor_from_base.linear() = rotation_of(turns.base) * reference_.sensor_from_base.linear();
   point.base_turns = left_jacobian(turns.base);
   for (const auto& [target, turn] : turns.tools) {

@@ -3,7 +3,7 @@
 
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
-#include "simulation/situation.hpp"
+#include "simulation/truth.hpp"
 
 namespace demecal {
 

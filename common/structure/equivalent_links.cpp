@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/elementary.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal {
 namespace {

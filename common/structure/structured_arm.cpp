@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
-#include "kinematics/walk.hpp"
 
 namespace demecal {
 namespace {

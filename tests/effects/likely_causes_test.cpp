@@ -1,5 +1,5 @@
 // The causes of errors by commonness: all of the catalogue, each with words and sizes.
-#include "effects/likely_causes.hpp"
+#include "effects/catalogue.hpp"
 
 #include <gtest/gtest.h>
 

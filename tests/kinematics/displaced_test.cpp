@@ -1,5 +1,5 @@
 // Arms whose places have moved: against products of matrices, and every unit's twist against differences.
-#include "kinematics/displaced.hpp"
+#include "kinematics/forward.hpp"
 
 #include <gtest/gtest.h>
 
