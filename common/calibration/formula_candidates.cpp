@@ -63,8 +63,7 @@ std::vector<PricedFormula> formula_candidates(const FormulaTable& table, const P
     const auto says_the_same = [&](const Tree& other) { return alike(one.formula, other, misfit); };
     if (std::ranges::any_of(taken, says_the_same)) continue;
     taken.push_back(one.formula);
-    Candidate candidate{
-        .effect = {.kind = "symbolic", .joint = table.joint}, .name_nats = one.price_nats, .evolved = true};
+    Candidate candidate{.effect = symbolic_effect(table.joint), .name_nats = one.price_nats, .evolved = true};
     candidate.effect.formula = in_symbolic_variables(one.formula, table);
     if (table.reference_celsius) candidate.effect.settings["reference_celsius"] = *table.reference_celsius;
     found.push_back({std::move(candidate), one.fall_nats});

@@ -10,23 +10,19 @@ namespace {
 
 constexpr double kBeyondDoubt = 2.0;  ///< standard errors
 
-bool is_formula(const Effect& effect) {
-  return effect.kind == "symbolic";
-}
-
 }  // namespace
 
 CorrectedRobot without_formulas(const CorrectedRobot& robot) {
   CorrectedRobot bare = robot;
-  std::erase_if(bare.effects, is_formula);
+  std::erase_if(bare.effects, is_symbolic);
   return bare;
 }
 
 bool asks_for_formulas(const LoopOutcome& loop, const CorrectedRobot& robot, const ClosedLoopOptions& options) {
-  const bool wanted = options.candidates.empty() || std::ranges::count(options.candidates, "symbolic") > 0;
+  const bool wanted = options.candidates.empty() || std::ranges::count(options.candidates, symbolic_kind()) > 0;
   const bool at_its_end = loop.stopped == StopReason::no_gain || loop.stopped == StopReason::no_structure;
   const bool left = loop.p_structure_left <= options.family_error;
-  return wanted && at_its_end && (left || std::ranges::any_of(robot.effects, is_formula));
+  return wanted && at_its_end && (left || std::ranges::any_of(robot.effects, is_symbolic));
 }
 
 double description_nats(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses,

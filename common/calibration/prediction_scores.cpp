@@ -7,6 +7,7 @@
 
 #include "diagnosis/structure.hpp"
 #include "effects/measurement.hpp"
+#include "fitting/distributions.hpp"
 #include "fitting/median.hpp"
 
 namespace demecal {
@@ -54,7 +55,7 @@ class Judgements {
 
  private:
   /// Of three axes, where no pose tells more.
-  static double normal_quantile() { return std::sqrt(7.815 / 3.0); }
+  static double normal_quantile() { return normal_length_quantile(3, kIntervalShare) / std::sqrt(3.0); }
 
   int fewest_axes() const { return std::ranges::min(judged_, {}, &JudgedPose::axes).axes; }
 

@@ -222,7 +222,7 @@ std::vector<NotFound> smallest_detectable(const std::vector<Candidate>& candidat
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
     const Effect& effect = candidate.effect;
-    if (effect.kind == "symbolic") continue;
+    if (is_symbolic(effect)) continue;
     if (candidate.disguise != Disguise::none || scores[i].rank == 0 || holds(model, effect)) continue;
     const auto same = std::find_if(all.begin(), all.end(), [&](const NotFound& other) {
       return other.effect.kind == effect.kind && other.effect.joint == effect.joint;
@@ -235,7 +235,7 @@ std::vector<NotFound> smallest_detectable(const std::vector<Candidate>& candidat
       continue;
     }
     Showing shows = showing(i, candidate, scores[i], robot, detection);
-    if (effect.kind != "gear_harmonic" || shows.own() >= kLeastOwn) showings[at].push_back(std::move(shows));
+    if (!is_harmonic(effect.kind) || shows.own() >= kLeastOwn) showings[at].push_back(std::move(shows));
   }
   for (std::size_t i = 0; i < all.size(); ++i)
     all[i].smallest_detectable = showings[i].empty() ? kUnseen : amplitude(showings[i]);

@@ -101,7 +101,7 @@ class Library {
 };
 
 Effect symbolic(int joint, const Tree& formula, const char* form, const Evidence& evidence) {
-  Effect effect{.kind = "symbolic", .joint = joint, .form = form};
+  Effect effect = symbolic_effect(joint, form);
   effect.formula = formula;
   if (evidence.temperature) effect.settings["reference_celsius"] = evidence.mean_temperature_celsius;
   return effect;

@@ -73,7 +73,7 @@ std::optional<std::size_t> Group::best() const {
     if (!best || scores_[i].fall_nats > scores_[*best].fall_nats) best = i;
   }
   if (!best) return best;
-  return simplest_like(candidates_[*best].effect.kind == "symbolic" ? by_name(*best) : *best);
+  return simplest_like(is_symbolic(candidates_[*best].effect) ? by_name(*best) : *best);
 }
 
 /// Of candidates that explain the same and are as good a description, but for a little, the one with the fewest
@@ -98,7 +98,7 @@ std::size_t Group::by_name(std::size_t formula) const {
       columns_.dense(at_.fitted, formula), RowMatrix::Zero(at_.judging.rows(), columns_.spans()[formula].count));
   std::size_t named = formula;
   for (const Rival& rival : rivals_of(formula, trial, candidates_, scores_, scan_, columns_, at_.fitted)) {
-    if (rival.effect.kind == "symbolic" || (rival.cosine < kSame && rival.nats_behind > kNatsToTell)) continue;
+    if (is_symbolic(rival.effect) || (rival.cosine < kSame && rival.nats_behind > kNatsToTell)) continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (candidates_[i].disguise != Disguise::none) continue;
       const bool better = named == formula || scores_[i].fall_nats > scores_[named].fall_nats;
@@ -240,7 +240,8 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       ++added;
     } else {
       round.verdict = outcome_.luck ? Verdict::none : Verdict::rejected;
-      if (!leans_too_far(round.effect)) leave_out_alike(round);  // what needs no such lean is still to be judged
+      // An effect that leans too far is another one in disguise: what needs no such lean is still to be judged.
+      if (law_of(round.effect).implausibility(round.effect).empty()) leave_out_alike(round);
       outcome_.rounds.push_back(std::move(round));
       ++rejected;
     }

@@ -14,7 +14,4 @@ namespace demecal {
 std::string implausibility(const Effect& effect, const DiagnosisData& of, const DiagnosedModel& model,
                            const std::vector<ArmState>& states);
 
-/// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in disguise.
-bool leans_too_far(const Effect& effect);
-
 }  // namespace demecal

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <map>
-#include <unsupported/Eigen/SpecialFunctions>
 #include <utility>
 
 #include "diagnosis/structure.hpp"
+#include "fitting/distributions.hpp"
 
 namespace demecal {
 
@@ -31,9 +31,7 @@ double lack_of_fit_p_value(const PureError& pure, double squares_m2, double free
   if (more <= 0.0 || excess <= 0.0) return 1.0;
   if (pure.squares <= 0.0) return 0.0;
   const double ratio = (excess / more) / (pure.squares / pure.freedom);
-  // P(F > ratio) by the regularised incomplete beta function (Abramowitz and Stegun, 26.6.2).
-  const double at = pure.freedom / (pure.freedom + more * ratio);
-  return Eigen::numext::betainc(0.5 * pure.freedom, 0.5 * more, at);
+  return fisher_p_value(ratio, more, pure.freedom);
 }
 
 }  // namespace demecal

@@ -1,12 +1,13 @@
-// How the nominal arm stands at a stop: where it was commanded, its circumstances, its axes, and its masses' weight on each of them.
+// How the nominal arm stands at a stop: where it was commanded, its circumstances, its axes, and its masses' weight on
+// each of them.
 #pragma once
 
-#include <optional>
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
-#include "data/pose.hpp"
 #include "data/data_set.hpp"
+#include "data/pose.hpp"
 
 namespace demecal {
 

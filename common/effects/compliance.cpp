@@ -100,7 +100,7 @@ std::vector<CoefficientLabel> ComplianceLaw::coefficients(const Effect& effect, 
 }
 
 void ComplianceLaw::unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
-                              std::vector<UnitMotion>& motions) const {
+                                 std::vector<UnitMotion>& motions) const {
   const int joint = effect.joint;
   int coefficient = 0;
   const auto append = [&](double size) { append_joint_motion(robot, joint, coefficient++, size, motions); };

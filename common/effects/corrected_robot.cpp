@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "errors/check.hpp"
 #include "expression/differentiate.hpp"
 #include "expression/evaluate.hpp"
-#include "errors/check.hpp"
 #include "kinematics/inverse.hpp"
 
 namespace demecal {

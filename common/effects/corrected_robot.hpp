@@ -1,17 +1,18 @@
-// The robot as it really is: identified geometry, base and tool, and what its joints do wrong; what to command so that it arrives.
+// The robot as it really is: identified geometry, base and tool, and what its joints do wrong; what to command so that
+// it arrives.
 #pragma once
 
-#include <vector>
 #include <Eigen/Geometry>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
 #include "kinematics/angles.hpp"
-#include "effects/effect.hpp"
 #include "kinematics/forward.hpp"
-#include "data/data_set.hpp"
 #include "kinematics/inverse.hpp"
 
 namespace demecal {

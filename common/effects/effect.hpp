@@ -74,7 +74,7 @@ enum class Circumstance { none, approach, temperature, time, masses };
 /// What makes a decoy impossible: a ratio that no gear has, or a circumstance dealt out anew over the poses.
 enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
 
-struct Decoy;            ///< an effect that cannot be true, tried among those that may be
+struct Decoy;           ///< an effect that cannot be true, tried among those that may be
 struct SymbolicWriter;  ///< see effects/symbolic_state.hpp
 
 /// A law of the catalogue. Laws know no coefficients' values unless an effect brings them.

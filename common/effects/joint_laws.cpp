@@ -34,9 +34,7 @@ class JointOffsetLaw final : public EffectLaw {
            motion_words(robot, effect.joint, effect.value(0)) + '.';
   }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
-  void append_symbolic_motions(SymbolicWriter& writer) const override {
-    writer.append_joint(0, writer.constant(1.0));
-  }
+  void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_joint(0, writer.constant(1.0)); }
 };
 
 /// A wrong gear ratio or encoder scale.
@@ -65,9 +63,7 @@ class GainLaw final : public EffectLaw {
   }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {effect.joint}; }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
-  void append_symbolic_motions(SymbolicWriter& writer) const override {
-    writer.append_joint(0, writer.own_joint());
-  }
+  void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_joint(0, writer.own_joint()); }
 };
 
 /// A joint dragged along by another.

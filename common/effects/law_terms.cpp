@@ -1,9 +1,9 @@
 #include "effects/law_terms.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <array>
 
 namespace demecal {
 namespace {

@@ -28,7 +28,8 @@ SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter 
 void append_symbolic_link_motion(SymbolicWriter& writer, int coefficient, LinkParameter parameter) {
   const auto& transforms = elementary_transforms(writer.robot().chain.convention);
   const Elementary transform = *std::ranges::find(transforms, parameter, &Elementary::parameter);
-  const SymbolicFrame seen = seen_from(symbolic_frame_before(writer, LinkParameter::theta), symbolic_frame_before(writer, parameter));
+  const SymbolicFrame seen =
+      seen_from(symbolic_frame_before(writer, LinkParameter::theta), symbolic_frame_before(writer, parameter));
   const SymbolicVector& direction = seen.axes[static_cast<std::size_t>(transform.axis)];
   const SymbolicVector shift = transform.rotates ? cross(seen.origin, direction) : direction;
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +52,8 @@ struct FreeParameter {
 std::vector<FreeParameter> free_parameters_of(const Robot& robot, int joint) {
   const bool parallel = leads_between_parallels(robot.chain, joint, kParallel_rad);
   const FreeParameter beta{LinkParameter::beta, "beta", "rad"}, alpha{LinkParameter::alpha, "alpha", "rad"};
-  if (!is_revolute(robot.chain, joint)) return {parallel ? beta : FreeParameter{LinkParameter::theta, "theta", "rad"}, alpha};
+  if (!is_revolute(robot.chain, joint))
+    return {parallel ? beta : FreeParameter{LinkParameter::theta, "theta", "rad"}, alpha};
   return {parallel ? beta : FreeParameter{LinkParameter::d, "d", "m"}, {LinkParameter::a, "a", "m"}, alpha};
 }
 
@@ -61,7 +63,8 @@ class GeometryLaw final : public EffectLaw {
   std::string_view kind() const override { return "geometry"; }
   std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override {
     std::vector<CoefficientLabel> labels;
-    for (const FreeParameter& free : free_parameters_of(robot, effect.joint)) labels.push_back({free.symbol + '_' + free.unit, free.unit});
+    for (const FreeParameter& free : free_parameters_of(robot, effect.joint))
+      labels.push_back({free.symbol + '_' + free.unit, free.unit});
     return labels;
   }
   void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,

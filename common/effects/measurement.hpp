@@ -1,4 +1,5 @@
-// How a prediction meets what was measured: the residual rows of a pose, whichever quantities its instrument gives, and the figures that users judge by.
+// How a prediction meets what was measured: the residual rows of a pose, whichever quantities its instrument gives, and
+// the figures that users judge by.
 #pragma once
 
 #include <Eigen/Core>

@@ -62,10 +62,11 @@ class EccentricityLaw final : public JointWaveLaw {
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
 };
 
-constexpr double kRipple = 6.0;  // so many periods a turn and more average out where nothing is known of them
-constexpr int kLowestRatio = 3;  // one and two periods a turn are eccentricity
-constexpr double kSmoothRatio = 3.0;           // up to which a joint correction holds it
-constexpr double kImpossibleRatio = 1.7320508;  // times the highest scanned: no ratio of integers near it, and beyond the scan
+constexpr double kRipple = 6.0;       // so many periods a turn and more average out where nothing is known of them
+constexpr int kLowestRatio = 3;       // one and two periods a turn are eccentricity
+constexpr double kSmoothRatio = 3.0;  // up to which a joint correction holds it
+constexpr double kImpossibleRatio =
+    1.7320508;  // times the highest scanned: no ratio of integers near it, and beyond the scan
 
 /// The transmission error of a gear stage: N periods a turn of the joint.
 class GearHarmonicLaw final : public JointWaveLaw {

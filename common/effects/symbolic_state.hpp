@@ -1,13 +1,13 @@
-// How the nominal arm stands and what its own weight does to its joints, as expressions of them, and how laws write their
-// motions in these.
+// How the nominal arm stands and what its own weight does to its joints, as expressions of them, and how laws write
+// their motions in these.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
 
+#include "effects/weight_parts.hpp"
 #include "kinematics/chain.hpp"
 #include "symbolic/matrix.hpp"
-#include "effects/weight_parts.hpp"
 
 namespace demecal {
 

@@ -1,8 +1,8 @@
 #include "effects/weight_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "effects/law_terms.hpp"

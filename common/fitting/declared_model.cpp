@@ -1,5 +1,6 @@
 #include "fitting/declared_model.hpp"
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <sstream>
@@ -9,6 +10,16 @@
 
 namespace demecal {
 namespace {
+
+struct DeclaredWord {
+  std::string_view word;
+  bool DeclaredModel::*flag;
+};
+constexpr std::array<DeclaredWord, 5> kDeclaredWords{{{"registration", &DeclaredModel::registration},
+                                                      {"tool", &DeclaredModel::tool},
+                                                      {"joint_offset", &DeclaredModel::joint_offset},
+                                                      {"geometry", &DeclaredModel::geometry},
+                                                      {"joint_corrections", &DeclaredModel::joint_corrections}}};
 
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
@@ -101,6 +112,30 @@ std::string ratio_text(double share) {
 }
 
 }  // namespace
+
+std::vector<std::string> declared_words() {
+  std::vector<std::string> words;
+  for (const DeclaredWord& known : kDeclaredWords) words.emplace_back(known.word);
+  return words;
+}
+
+bool DeclaredModel::*declared_flag(std::string_view word) {
+  const auto* const found = std::ranges::find(kDeclaredWords, word, &DeclaredWord::word);
+  return found == kDeclaredWords.end() ? nullptr : found->flag;
+}
+
+std::vector<std::string> DeclaredModel::words() const {
+  std::vector<std::string> words;
+  for (const DeclaredWord& known : kDeclaredWords) {
+    if (this->*known.flag) words.emplace_back(known.word);
+  }
+  return words;
+}
+
+bool DeclaredModel::holds(std::string_view kind) const {
+  bool DeclaredModel::*const flag = declared_flag(kind);
+  return flag != nullptr && this->*flag;
+}
 
 std::string ParameterId::name() const {
   if (kind == Kind::link) return "joint " + std::to_string(index + 1) + " " + link_name(link);

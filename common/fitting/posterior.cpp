@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <unsupported/Eigen/SpecialFunctions>
 #include <vector>
 
 #include "effects/measurement.hpp"
 #include "errors/check.hpp"
+#include "fitting/distributions.hpp"
 
 namespace demecal {
 namespace {
@@ -25,11 +25,6 @@ std::vector<double> votes(std::span<const std::size_t> groups) {
 
 bool is_of_distances(const MeasuredPose& pose) {
   return !pose.position_m && !pose.distances_m.empty();
-}
-
-/// P(F <= ratio) of Fisher's F (Abramowitz and Stegun, 26.6.2).
-double fisher_share(double ratio, double above, double below) {
-  return 1.0 - Eigen::numext::betainc(0.5 * below, 0.5 * above, below / (below + above * ratio));
 }
 
 }  // namespace
@@ -75,7 +70,6 @@ double conformal_quantile(std::span<const double> scores, std::span<const std::s
 
 double normal_quantile_of_scores(std::span<const double> scores, std::span<const std::size_t> groups, int rows,
                                  double share) {
-  constexpr int kHalvings = 200;
   const std::vector<double> parts = votes(groups);
   double count = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -83,12 +77,7 @@ double normal_quantile_of_scores(std::span<const double> scores, std::span<const
     squares += parts[i] * scores[i] * scores[i];
   }
   if (count <= 0.0) return std::numeric_limits<double>::infinity();
-  double lower = 0.0, upper = 1e6;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (lower + upper);
-    (fisher_share(middle, rows, rows * count) < share ? lower : upper) = middle;
-  }
-  return std::sqrt(upper * squares / count);
+  return std::sqrt(fisher_quantile(share, rows, rows * count) * squares / count);
 }
 
 double posterior_square_m2(const Posterior& posterior, const CorrectedRobot& robot, const DataSet& data,

@@ -70,7 +70,8 @@ Expression farther_end(const RangedJoint& joint) {
   return middle(joint.range) - 0.5 * width(joint.range) * side;
 }
 
-std::vector<SymbolicHeldState> held_states(const SymbolicState& state, const std::vector<RangedJoint>& joints, bool fades) {
+std::vector<SymbolicHeldState> held_states(const SymbolicState& state, const std::vector<RangedJoint>& joints,
+                                           bool fades) {
   Algebra& algebra = state.algebra();
   std::vector<SymbolicHeldState> all{{state.joints, algebra.constant(1.0)}};
   for (const RangedJoint& joint : joints) {

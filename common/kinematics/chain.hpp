@@ -67,8 +67,8 @@ JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> va
 /// so that d of one is not separable from d of the other and Hayati's beta is needed. `joint` counts from 0; the last
 /// joint has no successor: false.
 bool near_parallel_to_next(const Chain& chain, int joint, double tolerance_rad);
-/// Whether link `link` leads between near-parallel axes: its common normal has no certain place along them, and Hayati's
-/// beta stands for its d.
+/// Whether link `link` leads between near-parallel axes: its common normal has no certain place along them, and
+/// Hayati's beta stands for its d.
 bool leads_between_parallels(const Chain& chain, int link, double tolerance_rad);
 
 struct Elementary {
