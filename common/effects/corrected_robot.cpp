@@ -16,7 +16,7 @@ Eigen::Isometry3d tool_at(const Eigen::Vector3d& point_m) {
 }
 
 struct StandingArm {
-  Kinematics at;
+  Kinematics kinematics;
   Eigen::Isometry3d base;  ///< in the measurements' frame, as the instrument's own effects show it
 };
 
@@ -24,9 +24,9 @@ StandingArm kinematics_at(const CorrectedRobot& robot, const Stop& stop, const s
   const JointVector corrected = robot.corrected_joints(stop.joints);
   const Eigen::Vector3d point_m = robot.tool(target).translation();
   if (robot.effects.empty()) return {differential_kinematics(robot.chain, corrected, point_m), robot.sensor_from_base};
-  const Displacement by = displacement(robot.chain, robot.effects, robot.motions(stop, target));
-  return {differential_kinematics(robot.chain, corrected + by.joints, point_m, by.places).at,
-          moved(Eigen::Isometry3d::Identity(), by.sensor) * robot.sensor_from_base};
+  const Displacement displaced = displacement(robot.chain, robot.effects, robot.motions(stop, target));
+  return {differential_kinematics(robot.chain, corrected + displaced.joints, point_m, displaced.places).kinematics,
+          moved(Eigen::Isometry3d::Identity(), displaced.sensor) * robot.sensor_from_base};
 }
 
 /// rad or m. Errors are thousandths; commands that need more would turn the wrist over to mend an angle of that size.
@@ -106,8 +106,8 @@ JointVector CorrectedRobot::corrected_joints(const JointVector& commanded) const
 
 JointVector CorrectedRobot::actual_joints(const Stop& stop) const {
   if (effects.empty()) return corrected_joints(stop.joints);
-  const auto at = effect_motions(effects, described, arm_state(described, stop));
-  return corrected_joints(stop.joints) + displacement(chain, effects, at).joints;
+  const auto unit_motions = effect_motions(effects, described, arm_state(described, stop));
+  return corrected_joints(stop.joints) + displacement(chain, effects, unit_motions).joints;
 }
 
 std::vector<EffectMotion> CorrectedRobot::motions(const Stop& stop, const std::string& target) const {
@@ -124,20 +124,20 @@ Eigen::Isometry3d CorrectedRobot::predict(const Stop& stop, const std::string& t
 Eigen::Isometry3d CorrectedRobot::predict(const JointVector& corrected, const std::vector<EffectMotion>& motions,
                                           const std::string& target) const {
   if (motions.empty()) return sensor_from_base * forward(chain, corrected) * tool(target);
-  const Displacement by = displacement(chain, effects, motions);
-  const Eigen::Isometry3d base = moved(Eigen::Isometry3d::Identity(), by.sensor) * sensor_from_base;
-  return base * forward(chain, corrected + by.joints, by.places) * tool(target);
+  const Displacement displaced = displacement(chain, effects, motions);
+  const Eigen::Isometry3d base = moved(Eigen::Isometry3d::Identity(), displaced.sensor) * sensor_from_base;
+  return base * forward(chain, corrected + displaced.joints, displaced.places) * tool(target);
 }
 
 PoseAndJacobian CorrectedRobot::predict_with_jacobian(const Stop& stop, const std::string& target) const {
   const Eigen::Isometry3d& flange_from_tool = tool(target);
-  const auto [at, base] = kinematics_at(*this, stop, target);
-  PoseAndJacobian result{base * at.flange * flange_from_tool, at.joints};
+  const auto [kinematics, base] = kinematics_at(*this, stop, target);
+  PoseAndJacobian result{base * kinematics.flange * flange_from_tool, kinematics.joints};
   const Eigen::Matrix3d rotation = base.linear();
   for (Eigen::Index i = 0; i < result.jacobian.cols(); ++i) {
     const double gain = 1.0 + corrections[static_cast<std::size_t>(i)].slope(stop.joints[i]);
-    result.jacobian.col(i).head<3>() = gain * rotation * at.joints.col(i).head<3>();
-    result.jacobian.col(i).tail<3>() = gain * rotation * at.joints.col(i).tail<3>();
+    result.jacobian.col(i).head<3>() = gain * rotation * kinematics.joints.col(i).head<3>();
+    result.jacobian.col(i).tail<3>() = gain * rotation * kinematics.joints.col(i).tail<3>();
   }
   return result;
 }

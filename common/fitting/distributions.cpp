@@ -20,7 +20,8 @@ double normal_length_quantile(int axes, double share) {
 }
 
 double median_coverage(std::size_t count, std::size_t rank) {
-  return 1.0 - 2.0 * boost::math::cdf(boost::math::binomial(static_cast<double>(count), 0.5), static_cast<double>(rank));
+  return 1.0 -
+         2.0 * boost::math::cdf(boost::math::binomial(static_cast<double>(count), 0.5), static_cast<double>(rank));
 }
 
 }  // namespace demecal

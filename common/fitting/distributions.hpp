@@ -10,8 +10,8 @@ double fisher_p_value(double ratio, double above, double below);
 /// The ratio that Fisher's F stays below with probability `share`.
 double fisher_quantile(double share, double above, double below);
 
-/// The length that a vector of `axes` independent standard normal numbers stays below with probability `share`: the root
-/// of the quantile of chi-square.
+/// The length that a vector of `axes` independent standard normal numbers stays below with probability `share`: the
+/// root of the quantile of chi-square.
 double normal_length_quantile(int axes, double share);
 
 /// The probability that a median lies between the value number `rank` (from 0) of a sample of `count`, in order, and

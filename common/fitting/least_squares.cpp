@@ -68,14 +68,14 @@ struct DampedStep {
 };
 
 /// Newton's step with the curvature of every direction raised by `damping` times its mean.
-DampedStep damped_step(const QuadraticModel& at, double damping) {
-  const double raise = damping * std::max(at.curvature.diagonal().mean(), 1e-300);
-  const Eigen::Index n = at.gradient.size();
-  const Eigen::MatrixXd damped = at.curvature + raise * Eigen::MatrixXd::Identity(n, n);
+DampedStep damped_step(const QuadraticModel& model, double damping) {
+  const double raise = damping * std::max(model.curvature.diagonal().mean(), 1e-300);
+  const Eigen::Index n = model.gradient.size();
+  const Eigen::MatrixXd damped = model.curvature + raise * Eigen::MatrixXd::Identity(n, n);
   const Eigen::LDLT<Eigen::MatrixXd> factor(damped);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return {Eigen::VectorXd::Zero(n), -1.0};
-  DampedStep step{factor.solve(-at.gradient), 0.0};
-  step.model_cost_change = -at.gradient.dot(step.z) - 0.5 * step.z.dot(at.curvature * step.z);
+  DampedStep step{factor.solve(-model.gradient), 0.0};
+  step.model_cost_change = -model.gradient.dot(step.z) - 0.5 * step.z.dot(model.curvature * step.z);
   return step;
 }
 
@@ -114,18 +114,18 @@ Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start) {
   constexpr double kFunctionTolerance = 1e-12;
   Minimum best{start, 0.0, true};
   if (problem.basis.cols() == 0) return best;
-  QuadraticModel at = quadratic_model_at(problem, start);
+  QuadraticModel model = quadratic_model_at(problem, start);
   MarquardtDamping damping;
-  best = {start, at.cost, false};
-  for (int i = 0; i < problem.max_iterations && std::isfinite(at.cost) && !damping.exhausted(); ++i) {
-    const DampedStep step = damped_step(at, damping.value());
-    if (step.model_cost_change >= 0.0 && step.model_cost_change <= kFunctionTolerance * (1.0 + at.cost))
-      return {best.change, at.cost, true};
+  best = {start, model.cost, false};
+  for (int i = 0; i < problem.max_iterations && std::isfinite(model.cost) && !damping.exhausted(); ++i) {
+    const DampedStep step = damped_step(model, damping.value());
+    if (step.model_cost_change >= 0.0 && step.model_cost_change <= kFunctionTolerance * (1.0 + model.cost))
+      return {best.change, model.cost, true};
     const Eigen::VectorXd there = best.change + problem.basis * step.z;
-    QuadraticModel ahead = step.model_cost_change > 0.0 ? quadratic_model_at(problem, there) : at;
-    if (ahead.cost < at.cost) {
-      at = std::move(ahead);
-      best = {there, at.cost, false};
+    QuadraticModel ahead = step.model_cost_change > 0.0 ? quadratic_model_at(problem, there) : model;
+    if (ahead.cost < model.cost) {
+      model = std::move(ahead);
+      best = {there, model.cost, false};
       damping.relax();
     } else {
       damping.tighten();

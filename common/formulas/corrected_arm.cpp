@@ -22,10 +22,10 @@ struct SymbolicDisplacement {
 
   void add(const Chain& chain, const SymbolicUnit& unit, double value) {
     const auto axis = static_cast<std::size_t>(unit.axis), place = static_cast<std::size_t>(unit.place);
-    Expression& at = unit.place == kSensorPlace                                          ? sensor[axis]
-                     : is_joint_motion(chain, {unit.coefficient, unit.place, unit.axis}) ? joints[place]
-                                                                                         : places[place][axis];
-    at = at + value * unit.size;
+    Expression& sum = unit.place == kSensorPlace                                          ? sensor[axis]
+                      : is_joint_motion(chain, {unit.coefficient, unit.place, unit.axis}) ? joints[place]
+                                                                                          : places[place][axis];
+    sum = sum + value * unit.size;
   }
 };
 

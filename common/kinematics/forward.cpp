@@ -83,7 +83,7 @@ DisplacedKinematics differential_kinematics(const Chain& chain, const JointVecto
         result.places[static_cast<std::size_t>(place)] = frame;
         by(motions)(place, frame);
       });
-  result.at = screws.kinematics(chain, flange, point_m);
+  result.kinematics = screws.kinematics(chain, flange, point_m);
   return result;
 }
 

@@ -56,7 +56,7 @@ Eigen::Isometry3d forward(const Chain& chain, const JointVector& q, const PlaceM
 
 /// The same with the Jacobians, and where the places stand (base frame) before their motions.
 struct DisplacedKinematics {
-  Kinematics at;
+  Kinematics kinematics;
   std::array<Eigen::Isometry3d, kMaxJoints + 1> places;
 };
 DisplacedKinematics differential_kinematics(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m,

@@ -43,14 +43,14 @@ double merit(const PoseError& error, const InverseOptions& options) {
 /// Where the iteration stands.
 struct Iterate {
   JointVector q;
-  PoseAndJacobian at;
+  PoseAndJacobian reached;
   PoseError error;
 };
 
 Iterate iterate_at(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& q) {
-  PoseAndJacobian at = model(q);
-  const PoseError error = pose_error(at.pose, target);
-  return {q, std::move(at), error};
+  PoseAndJacobian reached = model(q);
+  const PoseError error = pose_error(reached.pose, target);
+  return {q, std::move(reached), error};
 }
 
 /// Tries the step, and halves of it as often as needed; false if `lowers_cost(fraction)` never holds.
@@ -89,19 +89,19 @@ struct DampedProblem {
   const JointVector& start;
   const DampingOptions& options;
   JointVector change;
-  PoseAndJacobian at;
+  PoseAndJacobian reached;
   double cost;
 };
 
-double cost_of(const DampedProblem& problem, const PoseAndJacobian& at, const JointVector& change) {
-  const PoseError error = row_scales(problem.options).cwiseProduct(pose_error(at.pose, problem.target));
+double cost_of(const DampedProblem& problem, const PoseAndJacobian& reached, const JointVector& change) {
+  const PoseError error = row_scales(problem.options).cwiseProduct(pose_error(reached.pose, problem.target));
   return error.squaredNorm() + problem.options.damping * problem.options.damping * change.squaredNorm();
 }
 
 JointVector gauss_newton_step(const DampedProblem& problem) {
   const PoseError scales = row_scales(problem.options);
-  const Eigen::MatrixXd jacobian = scales.asDiagonal() * problem.at.jacobian;
-  const PoseError error = scales.cwiseProduct(pose_error(problem.at.pose, problem.target));
+  const Eigen::MatrixXd jacobian = scales.asDiagonal() * problem.reached.jacobian;
+  const PoseError error = scales.cwiseProduct(pose_error(problem.reached.pose, problem.target));
   const double damping = problem.options.damping * problem.options.damping;
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   normal.diagonal().array() += damping;
@@ -116,7 +116,7 @@ bool damped_advance(const JointVector& step, DampedProblem& problem) {
     const double cost = cost_of(problem, ahead, change);
     if (!(cost < problem.cost)) return false;
     problem.change = change;
-    problem.at = std::move(ahead);
+    problem.reached = std::move(ahead);
     problem.cost = cost;
     return true;
   });
@@ -133,11 +133,11 @@ PoseError pose_error(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& tar
 InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                         const InverseOptions& options) {
   Iterate iterate = iterate_at(model, target, start);
-  NewtonStep step = newton_step(iterate.at.jacobian, iterate.error, options);
+  NewtonStep step = newton_step(iterate.reached.jacobian, iterate.error, options);
   const double smallest_singular = step.smallest_singular;
   for (int iteration = 0; iteration < options.max_iterations && !within(iterate.error, options); ++iteration) {
     if (!newton_advance(step.dq, model, target, options, iterate)) break;
-    step = newton_step(iterate.at.jacobian, iterate.error, options);
+    step = newton_step(iterate.reached.jacobian, iterate.error, options);
   }
   const bool singular = smallest_singular < options.singular_below;
   const InverseStatus status = within(iterate.error, options)     ? InverseStatus::converged
@@ -150,7 +150,7 @@ InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& targ
 JointVector damped_least_squares(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                                  const DampingOptions& options) {
   DampedProblem problem{model, target, start, options, JointVector::Zero(start.size()), model(start), 0.0};
-  problem.cost = cost_of(problem, problem.at, problem.change);
+  problem.cost = cost_of(problem, problem.reached, problem.change);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     const JointVector step = gauss_newton_step(problem);
     if (!step.allFinite() || step.norm() < kSmallestStep || !damped_advance(step, problem)) break;

@@ -103,21 +103,21 @@ Situation SimulatedRobot::situation(const Visit& visit) const {
   return situation;
 }
 
-JointVector SimulatedRobot::joints_in(const Situation& at) const {
-  JointVector joints = at.commanded;
+JointVector SimulatedRobot::joints_in(const Situation& circumstances) const {
+  JointVector joints = circumstances.commanded;
   visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
-    if constexpr (requires { deviation(errors.front(), at); }) {
-      for (const auto& error : errors) joints[error.joint] += deviation(error, at);
+    if constexpr (requires { deviation(errors.front(), circumstances); }) {
+      for (const auto& error : errors) joints[error.joint] += deviation(error, circumstances);
     }
   });
   return joints;
 }
 
-std::vector<Eigen::Vector3d> SimulatedRobot::axis_tilts(const Situation& at) const {
+std::vector<Eigen::Vector3d> SimulatedRobot::axis_tilts(const Situation& circumstances) const {
   std::vector<Eigen::Vector3d> tilts(true_chain_.joints.size(), Eigen::Vector3d::Zero());
   visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
-    if constexpr (requires { tilt(errors.front(), at); }) {
-      for (const auto& error : errors) tilts[static_cast<std::size_t>(error.joint)] += tilt(error, at);
+    if constexpr (requires { tilt(errors.front(), circumstances); }) {
+      for (const auto& error : errors) tilts[static_cast<std::size_t>(error.joint)] += tilt(error, circumstances);
     }
   });
   return tilts;
@@ -128,14 +128,14 @@ JointVector SimulatedRobot::true_joints(const Visit& visit) const {
 }
 
 Eigen::Isometry3d SimulatedRobot::true_pose(const Visit& visit) const {
-  const Situation at = situation(visit);
+  const Situation circumstances = situation(visit);
   Chain chain = true_chain_;
   visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
-    if constexpr (requires { deform(chain, errors.front(), at); }) {
-      for (const auto& error : errors) deform(chain, error, at);
+    if constexpr (requires { deform(chain, errors.front(), circumstances); }) {
+      for (const auto& error : errors) deform(chain, error, circumstances);
     }
   });
-  Eigen::Isometry3d pose = stand(chain, joints_in(at), axis_tilts(at)).links.back();
+  Eigen::Isometry3d pose = stand(chain, joints_in(circumstances), axis_tilts(circumstances)).links.back();
   pose.translate(chain.tool_m);
   return drifted(scenario_.sensor_from_base * pose, scenario_.drift, visit.time_s);
 }
