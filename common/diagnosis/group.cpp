@@ -164,7 +164,7 @@ Confirmation Group::confirmed(const Eigen::VectorXd& before, const Eigen::Vector
 }
 
 std::string Group::objection(const Round& round, const Projection::Trial& trial) const {
-  if (round.p_family > rules_.family_error) return "not significant (p = " + number_words(round.p_family) + ")";
+  if (round.p_family > rules_.family_error) return "not significant (p = " + rounded_text(round.p_family) + ")";
   if (round.fall_nats <= 0.0) return "the description grows longer by it";
   if (projection_.freedom() - static_cast<double>(trial.rank) < kLeastFreedom)
     return "too few measured numbers are left";

@@ -184,12 +184,12 @@ std::string ComplianceLaw::formula(const Effect& effect, const Robot& robot) con
 std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) const {
   const std::string load = load_unit(robot, effect.joint);
   const std::string gives_way = joint_name(effect.joint) + " gives way ";
-  const auto amount = [&](double value) { return motion_words(robot, effect.joint, value) + " per " + load; };
+  const auto amount = [&](double value) { return motion_text(robot, effect.joint, value) + " per " + load; };
   if (effect.form == "payload") return gives_way + "by " + amount(effect.value(0)) + " of the payload's pull on it.";
   if (effect.form == "tilted") {
     const double lean = std::atan2(std::hypot(effect.value(1), effect.value(2)), std::abs(effect.value(0)));
     return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it, and gravity leans by " +
-           number_words(degrees(lean)) + " deg from where the robot's file says it points.";
+           rounded_text(degrees(lean)) + " deg from where the robot's file says it points.";
   }
   if (effect.form != "moments") return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it.";
   double largest = 0.0;
@@ -198,7 +198,7 @@ std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) c
     if (parts[i].axis < 3 || !is_revolute(robot.chain, effect.joint)) largest += std::abs(effect.value(i));
   }
   return gives_way + "under the weight of the links beyond it, whose masses are not known: by up to " +
-         motion_words(robot, effect.joint, largest) + '.';
+         motion_text(robot, effect.joint, largest) + '.';
 }
 
 bool ComplianceLaw::bears_payload(const Effect& effect, const Robot& robot) const {

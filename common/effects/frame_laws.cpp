@@ -28,7 +28,7 @@ class RegistrationLaw final : public EffectLaw {
   }
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
     return "The base stands elsewhere in the instrument's frame than the model has it: by " +
-           triple_words(effect, 0, 1e3, "mm") + ", turned by " + triple_words(effect, 3, 1e3, "mrad") + '.';
+           triple_text(effect, 0, 1e3, "mm") + ", turned by " + triple_text(effect, 3, 1e3, "mrad") + '.';
   }
   Subject subject() const override { return Subject::instrument; }
   void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_rigid(kSensorPlace, 6); }
@@ -53,8 +53,8 @@ class ToolLaw final : public EffectLaw {
     return write_rigid_equations(effect, robot, count(effect), "dtool_");
   }
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
-    const std::string turned = count(effect) == 6 ? ", turned by " + triple_words(effect, 3, 1e3, "mrad") : "";
-    return "The tool sits elsewhere on the flange than the model has it: by " + triple_words(effect, 0, 1e3, "mm") +
+    const std::string turned = count(effect) == 6 ? ", turned by " + triple_text(effect, 3, 1e3, "mrad") : "";
+    return "The tool sits elsewhere on the flange than the model has it: by " + triple_text(effect, 0, 1e3, "mm") +
            turned + '.';
   }
   std::vector<std::string> forms() const override { return {"position", "pose"}; }
@@ -88,12 +88,12 @@ class DriftLaw final : public EffectLaw {
   Needs needs(const Effect& /*effect*/, const Robot& /*robot*/) const override { return {.time = true}; }
   std::string formula(const Effect& effect, const Robot& robot) const override {
     return write_rigid_equations(effect, robot, 6, "dbase_",
-                                 "(t - " + number_words(effect.setting("reference_time_s")) + " s)");
+                                 "(t - " + rounded_text(effect.setting("reference_time_s")) + " s)");
   }
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
     return "The base creeps through the instrument's frame by " +
-           triple_words(effect, 0, 1e3 * kSecondsPerHour, "mm/h") + " and turns by " +
-           triple_words(effect, 3, 1e3 * kSecondsPerHour, "mrad/h") + ": its mount or the instrument's moves.";
+           triple_text(effect, 0, 1e3 * kSecondsPerHour, "mm/h") + " and turns by " +
+           triple_text(effect, 3, 1e3 * kSecondsPerHour, "mrad/h") + ": its mount or the instrument's moves.";
   }
   std::vector<std::string> settings() const override { return {"reference_time_s"}; }
   Subject subject() const override { return Subject::instrument; }
@@ -119,7 +119,7 @@ class SensorScaleLaw final : public EffectLaw {
     return write_equations(effect, robot, {{"dp", {{0, "p"}}}});
   }
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
-    return "The instrument reads lengths " + share_words(std::abs(effect.value(0))) +
+    return "The instrument reads lengths " + share_text(std::abs(effect.value(0))) +
            (effect.value(0) < 0.0 ? " too short." : " too long.");
   }
   Subject subject() const override { return Subject::instrument; }

@@ -81,13 +81,13 @@ std::vector<Effect> BacklashLaw::proposals(const Robot& robot, const Evidence& e
 std::string BacklashLaw::formula(const Effect& effect, const Robot& robot) const {
   const std::string joint = std::to_string(approaching(effect) + 1);
   if (!seated(effect)) return write_joint_equation(effect, robot, {{0, 's' + joint, -0.5}});
-  const std::string load = "tau" + joint + " / " + number_words(effect.setting("torque0_nm"));
+  const std::string load = "tau" + joint + " / " + rounded_text(effect.setting("torque0_nm"));
   return write_joint_equation(effect, robot, {{0, "tanh(" + load + ' ' + load_unit(robot, effect.joint) + ')', 0.5}});
 }
 
 std::string BacklashLaw::diagnosis(const Effect& effect, const Robot& robot) const {
   const double width = effect.value(0);
-  const std::string half = motion_words(robot, effect.joint, 0.5 * std::abs(width));
+  const std::string half = motion_text(robot, effect.joint, 0.5 * std::abs(width));
   if (seated(effect)) {
     return joint_name(effect.joint) + " stands " + half + " off on the side its load pushes it " +
            (width < 0.0 ? "away from" : "to") +
@@ -140,9 +140,9 @@ class HysteresisLaw final : public EffectLaw {
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     const double friction = effect.value(0), by_load = effect.value(1);
-    return joint_name(effect.joint) + " stops " + motion_words(robot, effect.joint, std::abs(friction)) +
+    return joint_name(effect.joint) + " stops " + motion_text(robot, effect.joint, std::abs(friction)) +
            (friction < 0.0 ? " beyond" : " short") + " on either side of where it is sent, and " +
-           motion_words(robot, effect.joint, std::abs(by_load)) + (by_load * friction < 0.0 ? " less" : " more") +
+           motion_text(robot, effect.joint, std::abs(by_load)) + (by_load * friction < 0.0 ? " less" : " more") +
            " per " + load_unit(robot, effect.joint) +
            " of gravity's pull on it: friction held by the spring of its gear.";
   }

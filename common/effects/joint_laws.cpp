@@ -31,7 +31,7 @@ class JointOffsetLaw final : public EffectLaw {
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     return "The zero of joint " + std::to_string(effect.joint + 1) + " is off by " +
-           motion_words(robot, effect.joint, effect.value(0)) + '.';
+           motion_text(robot, effect.joint, effect.value(0)) + '.';
   }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
   void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_joint(0, writer.constant(1.0)); }
@@ -58,7 +58,7 @@ class GainLaw final : public EffectLaw {
     return write_joint_equation(effect, robot, {{0, joint_symbol(effect.joint)}});
   }
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
-    return joint_name(effect.joint) + " moves " + share_words(std::abs(effect.value(0))) +
+    return joint_name(effect.joint) + " moves " + share_text(std::abs(effect.value(0))) +
            (effect.value(0) < 0.0 ? " less" : " more") + " than it is told: its gear ratio or encoder scale is off.";
   }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {effect.joint}; }
@@ -105,11 +105,11 @@ class CouplingLaw final : public EffectLaw {
     const std::string both =
         joint_name(effect.joint) + " is dragged along by joint " + std::to_string(from(effect) + 1);
     if (harmonic(effect)) {
-      return both + ", by up to " + motion_words(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) +
+      return both + ", by up to " + motion_text(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) +
              " once per turn of it.";
     }
     const std::string unit = coefficients(effect, robot)[0].unit;
-    const std::string amount = unit == "1" ? share_words(effect.value(0)) : number_words(effect.value(0)) + ' ' + unit;
+    const std::string amount = unit == "1" ? share_text(effect.value(0)) : rounded_text(effect.value(0)) + ' ' + unit;
     return both + ", by " + amount + " of its motion.";
   }
   std::vector<std::string> settings() const override { return {"from"}; }

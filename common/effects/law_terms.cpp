@@ -77,24 +77,24 @@ CoefficientLabel compliance_label(const Robot& robot, int joint, const std::stri
                                          : CoefficientLabel{before + "m_per_n", "m/N"};
 }
 
-std::string number_words(double value) {
+std::string rounded_text(double value) {
   return std::abs(value) < 100.0 ? digits(value, 3) : digits(std::round(value), 9);
 }
 
-std::string angle_words(double angle_rad) {
-  return number_words(1e3 * angle_rad) + " mrad (" + number_words(kArcsecondsPerRadian * angle_rad) + " arcsec)";
+std::string angle_text(double angle_rad) {
+  return rounded_text(1e3 * angle_rad) + " mrad (" + rounded_text(kArcsecondsPerRadian * angle_rad) + " arcsec)";
 }
 
-std::string length_words(double length_m) {
-  return number_words(1e3 * length_m) + " mm";
+std::string length_text(double length_m) {
+  return rounded_text(1e3 * length_m) + " mm";
 }
 
-std::string motion_words(const Robot& robot, int joint, double motion) {
-  return is_revolute(robot.chain, joint) ? angle_words(motion) : length_words(motion);
+std::string motion_text(const Robot& robot, int joint, double motion) {
+  return is_revolute(robot.chain, joint) ? angle_text(motion) : length_text(motion);
 }
 
-std::string share_words(double share) {
-  return number_words(1e6 * share) + " ppm";
+std::string share_text(double share) {
+  return rounded_text(1e6 * share) + " ppm";
 }
 
 std::string load_unit(const Robot& robot, int joint) {
@@ -164,9 +164,9 @@ std::string write_rigid_equations(const Effect& effect, const Robot& robot, int 
   return write_equations(effect, robot, equations);
 }
 
-std::string triple_words(const Effect& effect, std::size_t first, double scale, const std::string& unit) {
+std::string triple_text(const Effect& effect, std::size_t first, double scale, const std::string& unit) {
   std::string text = "(";
-  for (std::size_t i = 0; i < 3; ++i) text += (i == 0 ? "" : ", ") + number_words(scale * effect.value(first + i));
+  for (std::size_t i = 0; i < 3; ++i) text += (i == 0 ? "" : ", ") + rounded_text(scale * effect.value(first + i));
   return text + ") " + unit;
 }
 

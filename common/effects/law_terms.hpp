@@ -22,15 +22,15 @@ CoefficientLabel motion_label(const Robot& robot, int joint, const std::string& 
 CoefficientLabel compliance_label(const Robot& robot, int joint, const std::string& stem = "");
 
 /// Three significant digits; whole numbers from 100 on.
-std::string number_words(double value);
+std::string rounded_text(double value);
 /// "0.5 mrad (103 arcsec)".
-std::string angle_words(double angle_rad);
+std::string angle_text(double angle_rad);
 /// "0.12 mm".
-std::string length_words(double length_m);
+std::string length_text(double length_m);
 /// The size of a joint's motion: an angle or a length.
-std::string motion_words(const Robot& robot, int joint, double motion);
+std::string motion_text(const Robot& robot, int joint, double motion);
 /// "120 ppm".
-std::string share_words(double share);
+std::string share_text(double share);
 /// "Nm" or "N": what gravity does to the joint along its axis.
 std::string load_unit(const Robot& robot, int joint);
 /// "Joint 2"; joints count from 1.
@@ -68,7 +68,7 @@ void append_rigid_motions(int place, int count, double size, std::vector<UnitMot
 std::string write_rigid_equations(const Effect& effect, const Robot& robot, int count, const std::string& symbol,
                                   const std::string& factor = "");
 /// "(0.1, 0.2, 0.3) mm": three coefficients from `first` on, times `scale`.
-std::string triple_words(const Effect& effect, std::size_t first, double scale, const std::string& unit);
+std::string triple_text(const Effect& effect, std::size_t first, double scale, const std::string& unit);
 
 /// K above the setting reference_celsius; 0 where either is unknown.
 inline double warming_kelvin(const Effect& effect, const Stop& stop) {
@@ -79,7 +79,7 @@ inline double warming_kelvin(const Effect& effect, const Stop& stop) {
 
 /// "(T - 20 degC)".
 inline std::string warming_symbol(const Effect& effect) {
-  return "(T - " + number_words(effect.setting("reference_celsius")) + " degC)";
+  return "(T - " + rounded_text(effect.setting("reference_celsius")) + " degC)";
 }
 
 }  // namespace demecal

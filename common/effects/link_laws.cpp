@@ -94,7 +94,7 @@ class GeometryLaw final : public EffectLaw {
     for (const FreeParameter& free : free_parameters_of(robot, effect.joint)) {
       const double value = effect.value(coefficient++);
       amounts += (amounts.empty() ? "" : ", ") + free.symbol + " by " +
-                 (free.unit == "m" ? length_words(value) : angle_words(value));
+                 (free.unit == "m" ? length_text(value) : angle_text(value));
     }
     return "Link " + std::to_string(effect.joint + 1) + " is not as drawn: " + amounts + '.';
   }
@@ -140,8 +140,8 @@ class LinkBendingLaw final : public EffectLaw {
                            {{"tilt_x" + joint, {{0, "M_x" + joint}}}, {"tilt_y" + joint, {{1, "M_y" + joint}}}});
   }
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
-    return "The axis of joint " + std::to_string(effect.joint + 1) + " tilts by " + angle_words(effect.value(0)) +
-           " about its x and " + angle_words(effect.value(1)) +
+    return "The axis of joint " + std::to_string(effect.joint + 1) + " tilts by " + angle_text(effect.value(0)) +
+           " about its x and " + angle_text(effect.value(1)) +
            " about its y per Nm of gravity's moment there: its bearing or the link before it bends.";
   }
   Circumstance prerequisite() const override { return Circumstance::masses; }

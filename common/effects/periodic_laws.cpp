@@ -56,7 +56,7 @@ class EccentricityLaw final : public JointWaveLaw {
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     return joint_name(effect.joint) + " swings by " +
-           motion_words(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " to either side, " +
+           motion_text(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " to either side, " +
            times_per_turn(periods(effect)) + ": a gear or encoder disc runs off its centre.";
   }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
@@ -87,7 +87,7 @@ class GearHarmonicLaw final : public JointWaveLaw {
   bool fades(const Effect& effect) const override { return periods(effect) >= kRipple; }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     return joint_name(effect.joint) + " swings by " +
-           motion_words(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " to either side, " +
+           motion_text(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " to either side, " +
            times_per_turn(periods(effect)) + ": the transmission error of a gear stage.";
   }
   bool is_harmonic() const override { return true; }
@@ -146,8 +146,8 @@ class AxisWobbleLaw final : public EffectLaw {
   std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
     return "The axis of joint " + std::to_string(effect.joint + 1) + " wobbles as it turns, " +
            times_per_turn(effect.setting("order")) + ": by up to " +
-           angle_words(std::hypot(effect.value(0), effect.value(2))) + " about its x and " +
-           angle_words(std::hypot(effect.value(1), effect.value(3))) + " about its y, as a bearing off its seat does.";
+           angle_text(std::hypot(effect.value(0), effect.value(2))) + " about its x and " +
+           angle_text(std::hypot(effect.value(1), effect.value(3))) + " about its y, as a bearing off its seat does.";
   }
   std::vector<std::string> settings() const override { return {"order"}; }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {effect.joint}; }

@@ -85,10 +85,10 @@ class SymbolicLaw final : public EffectLaw {
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     const std::string start = joint_name(effect.joint) + " errs as no effect of the catalogue does: by ";
     if (!is_wave(effect))
-      return start + motion_words(robot, effect.joint, effect.value(0)) + " times " + formula_text(effect, robot) + '.';
+      return start + motion_text(robot, effect.joint, effect.value(0)) + " times " + formula_text(effect, robot) + '.';
     const double phase = std::atan2(-effect.value(1), effect.value(0));
-    return start + motion_words(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " times COS(" +
-           formula_text(effect, robot) + (phase < 0 ? " - " : " + ") + number_words(std::abs(phase)) + ").";
+    return start + motion_text(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " times COS(" +
+           formula_text(effect, robot) + (phase < 0 ? " - " : " + ") + rounded_text(std::abs(phase)) + ").";
   }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
   std::vector<std::string> forms() const override { return {"formula", "wave"}; }

@@ -46,8 +46,8 @@ class ThermalLengthLaw final : public EffectLaw {
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     const Joint& link = link_of(robot, effect);
-    return "Link " + std::to_string(effect.joint + 1) + " grows by " + share_words(effect.value(0)) +
-           " per kelvin as the arm warms up: " + length_words(effect.value(0) * std::hypot(link.a_m, link.d_m)) +
+    return "Link " + std::to_string(effect.joint + 1) + " grows by " + share_text(effect.value(0)) +
+           " per kelvin as the arm warms up: " + length_text(effect.value(0) * std::hypot(link.a_m, link.d_m)) +
            " per kelvin over its length.";
   }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
@@ -81,7 +81,7 @@ class ThermalOffsetLaw final : public EffectLaw {
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     return "The zero of joint " + std::to_string(effect.joint + 1) + " moves by " +
-           motion_words(robot, effect.joint, effect.value(0)) + " per kelvin as the arm warms up.";
+           motion_text(robot, effect.joint, effect.value(0)) + " per kelvin as the arm warms up.";
   }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
   Circumstance prerequisite() const override { return Circumstance::temperature; }
