@@ -26,10 +26,10 @@ std::vector<Candidate> decoys_of(const std::vector<Candidate>& candidates, const
   std::vector<Candidate> decoys;
   for (const Candidate& candidate : candidates) {
     const Effect& effect = candidate.effect;
-    const bool has_one = !decoys.empty() && decoys.back().effect.kind == effect.kind &&
-                         decoys.back().effect.joint == effect.joint;
+    const bool has_one =
+        !decoys.empty() && decoys.back().effect.kind == effect.kind && decoys.back().effect.joint == effect.joint;
     if (has_one) continue;
-    const std::optional<Decoy> decoy = law_of(effect).decoy(effect, evidence);
+    const std::optional<DecoyEffect> decoy = law_of(effect).decoy(effect, evidence);
     if (!decoy) continue;
     decoys.push_back(candidate);
     decoys.back().effect = decoy->effect;

@@ -78,7 +78,7 @@ double Effect::setting(const std::string& name) const {
   return found->second;
 }
 
-std::optional<Decoy> EffectLaw::decoy(const Effect& /*effect*/, const Evidence& /*evidence*/) const {
+std::optional<DecoyEffect> EffectLaw::decoy(const Effect& /*effect*/, const Evidence& /*evidence*/) const {
   return std::nullopt;
 }
 

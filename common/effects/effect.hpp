@@ -74,7 +74,7 @@ enum class Circumstance { none, approach, temperature, time, masses };
 /// What makes a decoy impossible: a ratio that no gear has, or a circumstance dealt out anew over the poses.
 enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
 
-struct Decoy;           ///< an effect that cannot be true, tried among those that may be
+struct DecoyEffect;     ///< an effect that cannot be true, tried among those that may be
 struct SymbolicWriter;  ///< see effects/symbolic_state.hpp
 
 /// A law of the catalogue. Laws know no coefficients' values unless an effect brings them.
@@ -120,7 +120,7 @@ class EffectLaw {
   /// Why no real arm has these coefficients, whatever motions they make; empty where one may.
   virtual std::string implausibility(const Effect& /*effect*/) const { return {}; }
   /// The same effect as it cannot be, to be tried as a control; none where there is no such thing.
-  virtual std::optional<Decoy> decoy(const Effect& effect, const Evidence& evidence) const;
+  virtual std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& evidence) const;
   /// Whether it is nothing beyond the measured range, on average: a ripple. Others go on from what they are at its end.
   virtual bool fades(const Effect& /*effect*/) const { return false; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
@@ -130,7 +130,7 @@ class EffectLaw {
   virtual void append_symbolic_motions(SymbolicWriter& /*motions*/) const {}
 };
 
-struct Decoy {
+struct DecoyEffect {
   Effect effect;
   Disguise disguise = Disguise::none;
 };

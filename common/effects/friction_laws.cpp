@@ -36,9 +36,9 @@ class BacklashLaw final : public EffectLaw {
   }
   std::vector<std::string> forms() const override { return {"approach", "seated", "coupled"}; }
   Circumstance prerequisite() const override { return Circumstance::approach; }
-  std::optional<Decoy> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
+  std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
     if (seated(effect) || coupled(effect)) return std::nullopt;
-    return Decoy{effect, Disguise::shuffled_approach};
+    return DecoyEffect{effect, Disguise::shuffled_approach};
   }
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     const Effect& effect = writer.effect;

@@ -92,10 +92,10 @@ class GearHarmonicLaw final : public JointWaveLaw {
   }
   bool is_harmonic() const override { return true; }
   bool is_smooth(const Effect& effect) const override { return periods(effect) <= kSmoothRatio; }
-  std::optional<Decoy> decoy(const Effect& effect, const Evidence& evidence) const override {
+  std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& evidence) const override {
     Effect impossible = effect;
     impossible.settings["ratio"] = kImpossibleRatio * evidence.highest_ratio;
-    return Decoy{std::move(impossible), Disguise::wrong_ratio};
+    return DecoyEffect{std::move(impossible), Disguise::wrong_ratio};
   }
 
  private:

@@ -118,15 +118,15 @@ Eigen::Isometry3d base_through(const Eigen::Matrix3d& rotation, const Eigen::Vec
   return base;
 }
 
-struct PointPairs {
+struct RegisteredPoints {
   Eigen::Matrix3Xd in_base;
   Eigen::Matrix3Xd in_sensor;
 };
 
 /// The points of the observations that measured a position.
-PointPairs measured_points(const DataSet& data, const std::vector<Observation>& observations,
-                           const CorrectedRobot& robot) {
-  PointPairs points;
+RegisteredPoints measured_points(const DataSet& data, const std::vector<Observation>& observations,
+                                 const CorrectedRobot& robot) {
+  RegisteredPoints points;
   for (const Observation& observation : observations) {
     const MeasuredPose& pose = data.poses[observation.pose];
     if (!pose.position_m) continue;
@@ -139,7 +139,7 @@ PointPairs measured_points(const DataSet& data, const std::vector<Observation>& 
   return points;
 }
 
-std::vector<Eigen::Isometry3d> candidates_from_points(const PointPairs& points, int count) {
+std::vector<Eigen::Isometry3d> candidates_from_points(const RegisteredPoints& points, int count) {
   std::vector<Eigen::Isometry3d> bases;
   bases.emplace_back(Eigen::umeyama(points.in_base, points.in_sensor, false));
   const Eigen::Vector3d base_middle = points.in_base.rowwise().mean(),
@@ -227,7 +227,7 @@ CorrectedRobot locate_base_and_tools(const DataSet& data, std::span<const std::s
 
 std::vector<Eigen::Isometry3d> base_candidates(const DataSet& data, const std::vector<Observation>& observations,
                                                const CorrectedRobot& robot, int count) {
-  const PointPairs points = measured_points(data, observations, robot);
+  const RegisteredPoints points = measured_points(data, observations, robot);
   if (points.in_base.cols() > 0) return candidates_from_points(points, count);
   if (count_rows(data, observations)[kDistance] > 0) return candidates_from_distances(data, observations, robot, count);
   std::vector<Eigen::Isometry3d> bases;
