@@ -15,7 +15,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 
-const std::string kRoot = DEMECAL_SOURCE_DIR;
+const std::string kSourceTree = DEMECAL_SOURCE_DIR;
 const std::string kCatalogue = "common/effects/catalogue.cpp", kTruth = "common/simulation/truth.hpp";
 
 /// The law's file by the kind, as laws say it.
@@ -43,7 +43,7 @@ bool means_something_else(const std::string& kind, const std::string& path) {
 }
 
 TEST(EffectKinds, AreNamedByTheirLawAndTheirTruthAlone) {
-  const std::vector<Source> tree = read_tree(kRoot, {"common", "coordinator", "worker"});
+  const std::vector<Source> tree = read_tree(kSourceTree, {"common", "coordinator", "worker"});
   const std::map<std::string, std::string> laws = law_files(tree);
   ASSERT_GE(laws.size(), 18u);
   std::vector<std::string> named_elsewhere;
@@ -58,8 +58,8 @@ TEST(EffectKinds, AreNamedByTheirLawAndTheirTruthAlone) {
 }
 
 TEST(EffectKinds, HaveALineOfTheCatalogueEach) {
-  const std::vector<Source> tree = read_tree(kRoot, {"common"});
-  const std::string catalogue = read_file(kRoot + '/' + kCatalogue);
+  const std::vector<Source> tree = read_tree(kSourceTree, {"common"});
+  const std::string catalogue = read_file(kSourceTree + '/' + kCatalogue);
   std::set<std::string> kinds, lines;
   for (const auto& [kind, law] : law_files(tree)) kinds.insert(kind);
   const std::regex line("\\{&(\\w+)_law\\(\\), ");
@@ -70,7 +70,7 @@ TEST(EffectKinds, HaveALineOfTheCatalogueEach) {
 }
 
 TEST(EffectKinds, OfJointsAreReadAndMadeByTheListOfTrueErrors) {
-  const std::string truth = read_file(kRoot + '/' + kTruth);
+  const std::string truth = read_file(kSourceTree + '/' + kTruth);
   std::set<std::string> listed;
   const std::regex line("visit\\(\"(\\w+)\", errors\\.");
   for (std::sregex_iterator match(truth.begin(), truth.end(), line), end; match != end; ++match) {
