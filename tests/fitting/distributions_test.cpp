@@ -77,9 +77,6 @@ TEST(LevenbergMarquardt, StopsAtItsLimits) {
   Valley one;
   levenberg_marquardt(one, {.max_successful_steps = 1});
   EXPECT_GT((one.at - Eigen::Vector2d(-1.2, 1.0)).norm(), 0.0);
-  Valley none;
-  levenberg_marquardt(none, {.initial_damping = 1.0, .increase_factor = 1e9, .max_damping = 0.5});
-  EXPECT_LE(none.tries, 200);
 }
 
 }  // namespace
