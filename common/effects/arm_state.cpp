@@ -7,7 +7,7 @@ namespace demecal {
 namespace {
 
 /// Sets places and links: the frames met on the way from base to flange.
-void walk(const Chain& chain, ArmState& state) {
+void set_frames(const Chain& chain, ArmState& state) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   for (int i = 0; i < chain.size(); ++i) {
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
@@ -22,7 +22,7 @@ void walk(const Chain& chain, ArmState& state) {
 }
 
 /// Sets loads, from the payload inwards: a place bears what the next one bears, and its own link.
-void weigh(const Robot& robot, ArmState& state) {
+void set_loads(const Robot& robot, ArmState& state) {
   const std::size_t n = state.links.size();
   double mass_kg = state.stop.payload_kg;
   Eigen::Vector3d moment_kg_m = mass_kg * state.payload_point_m;  // of mass, about the base's origin
@@ -70,9 +70,9 @@ ArmState arm_state(const Robot& robot, const Stop& stop) {
                  .gravity_mps2 = robot.gravity_mps2,
                  .payload_point_m = robot.chain.tool_m,
                  .tool_in_sensor_m = Eigen::Vector3d::Zero()};
-  walk(robot.chain, state);
+  set_frames(robot.chain, state);
   state.payload_point_m = state.places.back() * robot.chain.tool_m;
-  weigh(robot, state);
+  set_loads(robot, state);
   return state;
 }
 

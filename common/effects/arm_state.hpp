@@ -11,6 +11,7 @@
 
 namespace demecal {
 
+/// One stop of the robot: where it was commanded, and the circumstances that its errors depend on.
 struct Stop {
   JointVector joints;                           ///< commanded, rad or m
   ApproachSigns approach;                       ///< -1, 0 or +1 per joint; empty: unknown, taken as 0

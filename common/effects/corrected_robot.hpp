@@ -17,8 +17,9 @@
 
 namespace demecal {
 
-/// The correction of one joint. Outside its calibrated range it keeps the value it has at the nearer end, so that it
-/// never extrapolates. Of a prismatic joint theta, g and the range are in m, and the branch does not wrap.
+/// The correction g(theta) of one joint: h(theta) = theta + g(theta) is where it really goes (thesis eq. 4.1). Outside
+/// its calibrated range it keeps the value it has at the nearer end, so that it never extrapolates. Of a prismatic
+/// joint theta, g and the range are in m, and the branch does not wrap.
 class JointCorrection {
  public:
   JointCorrection() = default;  ///< neutral: corrects nothing, anywhere

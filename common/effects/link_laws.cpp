@@ -14,12 +14,10 @@ namespace {
 SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter parameter) {
   const Chain& chain = writer.robot().chain;
   const Joint& link = chain.joints[static_cast<std::size_t>(writer.effect.joint)];
-  const LinkParameter variable = moving_parameter(link);
   SymbolicFrame frame(writer.state.algebra());
   for (const Elementary& transform : elementary_transforms(chain.convention)) {
     if (transform.parameter == parameter) break;
-    const Expression fixed = writer.constant(link.parameter(transform.parameter));
-    advance(frame, transform, transform.parameter == variable ? writer.own_joint() + fixed : fixed);
+    advance(frame, transform, elementary_value(link, transform.parameter, writer.own_joint()));
   }
   return frame;
 }

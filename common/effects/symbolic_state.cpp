@@ -121,6 +121,11 @@ SymbolicFrame seen_from(const SymbolicFrame& from, const SymbolicFrame& frame) {
   return result;
 }
 
+Expression elementary_value(const Joint& joint, LinkParameter parameter, Expression q) {
+  const Expression fixed = q.algebra().constant(joint.parameter(parameter));
+  return parameter == moving_parameter(joint) ? q + fixed : fixed;
+}
+
 void advance(SymbolicFrame& frame, const Elementary& transform, Expression value) {
   if (transform.rotates) return turn(frame, transform.axis, value);
   frame.origin = plus(frame.origin, scaled(value, frame.axes[static_cast<std::size_t>(transform.axis)]));
@@ -145,11 +150,9 @@ SymbolicState symbolic_state(Algebra& algebra, const Robot& robot, const std::ve
   SymbolicFrame frame(algebra);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& link = robot.chain.joints[i];
-    const LinkParameter variable = moving_parameter(link);
     for (const Elementary& transform : elementary_transforms(robot.chain.convention)) {
       if (transform.parameter == LinkParameter::theta) state.places.push_back(frame);
-      const Expression fixed = algebra.constant(link.parameter(transform.parameter));
-      advance(frame, transform, transform.parameter == variable ? joints[i] + fixed : fixed);
+      advance(frame, transform, elementary_value(link, transform.parameter, joints[i]));
     }
     state.links.push_back(frame);
   }

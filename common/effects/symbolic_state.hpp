@@ -42,6 +42,8 @@ SymbolicFrame operator*(const SymbolicFrame& frame, const SymbolicFrame& next);
 /// `frame` seen from `from`; both stand in the same frame.
 SymbolicFrame seen_from(const SymbolicFrame& from, const SymbolicFrame& frame);
 
+/// As elementary_value() of numbers.
+Expression elementary_value(const Joint& joint, LinkParameter parameter, Expression q);
 /// `frame` moved by an elementary transform of the given value; an angle of exactly 0 or a right angle is exact.
 void advance(SymbolicFrame& frame, const Elementary& transform, Expression value);
 

@@ -50,11 +50,9 @@ SymbolicFrame flange(Algebra& algebra, const Chain& chain, const std::vector<Exp
   SymbolicFrame frame(algebra);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& link = chain.joints[i];
-    const LinkParameter variable = moving_parameter(link);
     for (const Elementary& transform : elementary_transforms(chain.convention)) {
       if (transform.parameter == LinkParameter::theta) frame = moved(frame, places[i]);
-      const Expression fixed = algebra.constant(link.parameter(transform.parameter));
-      advance(frame, transform, transform.parameter == variable ? joints[i] + fixed : fixed);
+      advance(frame, transform, elementary_value(link, transform.parameter, joints[i]));
     }
   }
   return moved(frame, places.back());
