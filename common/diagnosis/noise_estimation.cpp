@@ -72,6 +72,14 @@ Eigen::VectorXd at_rest(const RowMatrix& columns, const std::vector<Eigen::Index
   return columns * numbers;
 }
 
+/// Whether anything could be told of heat: then drift explains as much where it warms while it is measured.
+bool heat_varies(const ResidualField& field) {
+  const auto celsius = [](const ArmState& state) { return state.stop.temperature_celsius; };
+  return std::ranges::any_of(field.states, [&](const ArmState& state) {
+    return celsius(state).has_value() && celsius(state) != celsius(field.states.front());
+  });
+}
+
 /// Whether an arm and an instrument may be as noisy: else what the model lacks is taken for noise.
 bool is_noise(const NoiseEstimate& noise, const RowScales& scales) {
   constexpr double kWorstJoint_rad = 1e-3, kWorstShared_m = 5e-3;
@@ -93,7 +101,8 @@ DiagnosedModel with_noise_estimated(const DiagnosisData& of, DiagnosedModel mode
                  .joint_motions = taken.of(at.fitted.motions(Eigen::all, at.fitted.scattering)),
                  .first_row = {0},
                  .group = {},
-                 .order = {}};
+                 .order = {},
+                 .drift_is_rival = heat_varies(at.fitted)};
   for (const std::size_t pose : taken.poses) {
     rows.first_row.push_back(rows.first_row.back() + at.fitted.rows_of_pose(pose));
     rows.group.push_back(at.fitted.group[pose]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "diagnosis/restricted_likelihood.hpp"
@@ -17,6 +18,7 @@ constexpr std::size_t kRuns = 3;         ///< of poses, where not all take part
 constexpr double kLikelier = 0.5;        ///< nats that a component must make the residuals likelier by
 constexpr double kLikelierInOrder = 2.0;
 constexpr std::array kCorrelations{0.5, 0.8, 0.9, 0.95, 0.98, 0.995};
+constexpr std::size_t kSlow = 2;  ///< of these, the last: those of what heat does
 constexpr std::array kVariances{0.01, 0.1, 1.0, 10.0, 100.0};
 
 /// The poses of a field that take part: all, or as many as kMostRows allow, in kRuns runs.
@@ -80,10 +82,10 @@ class Components {
     variances[component] = without - with > 2.0 * nats ? trial[component] : 0.0;
     least_ = value();
   }
-  void estimate_order() {
+  void estimate_order(std::span<const double> correlations, double nats) {
     const double before = least_;
     double best = least_;
-    for (const double candidate : kCorrelations) {
+    for (const double candidate : correlations) {
       likelihood_.set_correlation(candidate);
       for (const double variance : {0.3, 3.0, 30.0}) {
         std::array<double, 3> trial = variances;
@@ -94,9 +96,9 @@ class Components {
         correlation = candidate;
       }
     }
-    if (before - best <= 2.0 * kLikelierInOrder) return void(correlation = 0.0);
+    if (before - best <= 2.0 * nats) return void(correlation = 0.0);
     likelihood_.set_correlation(correlation);
-    estimate(RestrictedLikelihood::order, kLikelierInOrder);
+    estimate(RestrictedLikelihood::order, nats);
   }
 
   /// How the joints' variances differ, which are believed to be alike within a factor of e or so (one standard
@@ -147,12 +149,17 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
   Components components(likelihood);
   components.estimate(RestrictedLikelihood::joints, kLikelier);
   if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
-  if (likelihood.neighbourhood() > kInOrder) components.estimate_order();
+  double order_nats = kLikelierInOrder;
+  if (likelihood.neighbourhood() > kInOrder) components.estimate_order(kCorrelations, order_nats);
+  if (rows.drift_is_rival && components.correlation == 0.0) {
+    order_nats = 0.0;
+    components.estimate_order(std::span(kCorrelations).last(kSlow), order_nats);
+  }
   constexpr int kSweeps = 2;  // components take from one another
   for (int sweep = 0; sweep < kSweeps && components.others_than_joints(); ++sweep) {
     components.estimate(RestrictedLikelihood::joints, kLikelier);
     if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
-    if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, kLikelierInOrder);
+    if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, order_nats);
   }
   components.estimate_joints_apart();
   const double scale = std::sqrt(likelihood.variance_left(components.variances));

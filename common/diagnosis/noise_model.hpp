@@ -15,6 +15,7 @@ struct NoiseRows {
   std::vector<Eigen::Index> first_row;  ///< of each pose, and one past the last
   std::vector<std::size_t> group;       ///< per pose: repeats of one pose have the same
   std::vector<double> order;            ///< per pose: its place in the order of measuring
+  bool drift_is_rival = false;          ///< of what is asked: what neighbours share counts however little shows it
 };
 
 struct NoiseEstimate {

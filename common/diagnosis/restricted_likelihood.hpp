@@ -47,7 +47,7 @@ class RestrictedLikelihood {
   Eigen::Index rows_ = 0, rank_ = 0, freedom_ = 0;
   Eigen::VectorXd left_;
   std::array<Eigen::MatrixXd, 3> covariance_;
-  Eigen::MatrixXd turns_;  ///< of each joint in turn: one column a pose
+  Eigen::MatrixXd turns_;                  ///< of each joint in turn: one column a pose
   std::vector<Eigen::MatrixXd> of_joint_;  ///< covariances that each joint alone gives, freedom x freedom
   Eigen::VectorXd joint_shares_;
   std::vector<Eigen::Index> first_row_;

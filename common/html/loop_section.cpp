@@ -18,7 +18,7 @@ std::string paragraph(const std::string& markup) {
 std::string search_sentence(const Report& report) {
   if (report.candidates == 0) return {};
   const std::string against =
-      report.permutations > 0 ? " against " + grouped(report.permutations) + " permutations of the poses" : "";
+      report.permutations > 0 ? " against " + grouped(report.permutations) + " draws of the noise" : "";
   const auto added = std::ranges::count_if(report.rounds, &RoundEntry::added);
   return fmt::format("{} effects were tried in every round{}; {} {} added. ", grouped(report.candidates), against,
                      added == 0 ? std::string("none") : std::to_string(added), added == 1 ? "was" : "were");
@@ -27,7 +27,8 @@ std::string search_sentence(const Report& report) {
 std::string summary(const Report& report) {
   const std::string stopped = stop_sentence(report.stopped);
   if (stopped.empty()) return {};
-  return paragraph(search_sentence(report) + escaped(stopped)) + paragraph(escaped(statistics_sentences(report)));
+  return paragraph(search_sentence(report) + escaped(stopped)) + paragraph(escaped(statistics_sentences(report))) +
+         (report.noise ? paragraph(escaped("Noise: " + noise_sentence(*report.noise) + ".")) : "");
 }
 
 std::string dropped(const Report& report) {

@@ -107,7 +107,7 @@ std::string evidence_row(const RoundEntry& round) {
       percent_of(round.confirmed) + " (" + percent_of(round.confirmed_lower) + ")", percent_of(round.sign_stability));
 }
 
-std::string titled(const char* title, const char* note, const std::string& table) {
+std::string titled(const char* title, const std::string& note, const std::string& table) {
   return fmt::format("<h3>{}</h3>\n<p class=\"note\">{}</p>\n", title, note) + table;
 }
 
@@ -203,7 +203,8 @@ std::string decoys_table(const Report& report) {
   if (rows.empty()) return {};
   return titled(
       "Controls",
-      "Candidates that cannot be true, entered beside the others in every round: one that wins stops the loop.",
+      "Candidates that cannot be true, entered beside the others in every round: one that wins stops the loop. Here: " +
+          escaped(decoys_sentence(report.decoys)) + ".",
       table_panel("decoys", "<th scope=\"row\">control</th><th>best gain, nats</th><th></th>", rows,
                   report.decoys.size()));
 }

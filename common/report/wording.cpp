@@ -175,4 +175,43 @@ std::string statistics_sentences(const Report& report) {
   return text;
 }
 
+std::string noise_sentence(const NoiseEntry& noise) {
+  const std::string independent = fmt::format("{:.3f} mm an axis", noise.independent_mm.value_or(0.0));
+  if (!noise.estimated)
+    return independent + ", taken to be independent from pose to pose: what poses share was not estimated";
+  std::vector<std::string> parts;
+  if (noise.joint_repeatability_mrad > 0.0)
+    parts.push_back(fmt::format("joints repeat to {:.3f} mrad", *noise.joint_repeatability_mrad));
+  if (noise.shared_by_repeats_mm > 0.0)
+    parts.push_back(fmt::format("repeats of a pose share {:.3f} mm", *noise.shared_by_repeats_mm));
+  if (noise.shared_in_order_mm > 0.0) {
+    parts.push_back(
+        fmt::format("poses measured one after another share {:.3f} mm (correlation {:.2f}): errors of "
+                    "poses measured between others look smaller than they are",
+                    *noise.shared_in_order_mm, noise.correlation_in_order.value_or(0.0)));
+  }
+  if (parts.empty()) return independent + ", independent from pose to pose";
+  return fmt::format("{}, independent; {}", independent, fmt::join(parts, "; "));
+}
+
+std::string decoys_sentence(const std::vector<DecoyEntry>& decoys) {
+  constexpr double kRare = 0.05;
+  if (decoys.empty()) return {};
+  std::string winners;
+  for (const DecoyEntry& decoy : decoys) {
+    if (decoy.won) winners += (winners.empty() ? "" : "; ") + decoy.name;
+  }
+  if (!winners.empty()) return "WON by what cannot be true: " + winners;
+  const DecoyEntry& rarest =
+      *std::ranges::min_element(decoys, {}, [](const DecoyEntry& decoy) { return decoy.p_left.value_or(1.0); });
+  if (rarest.p_left.value_or(1.0) <= kRare) {
+    return fmt::format(
+        "{}, which cannot exist, explains more than noise should (p = {:.3f}): the noise is not what it "
+        "was taken for, and none of the effects is sure",
+        rarest.name, *rarest.p_left);
+  }
+  const DecoyEntry& best = *std::ranges::max_element(decoys, {}, &DecoyEntry::best_fall_nats);
+  return fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name);
+}
+
 }  // namespace demecal

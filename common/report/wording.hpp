@@ -29,6 +29,12 @@ std::string class_sentence(const std::vector<ClassMember>& members);
 /// Why the loop stopped, from the report's word, in one sentence; empty where it did not run.
 std::string stop_sentence(const std::string& stopped);
 
+/// How measurements scatter, each by itself and together: "0.050 mm an axis, independent; joints repeat to 0.120 mrad".
+std::string noise_sentence(const NoiseEntry& noise);
+
+/// Whether a decoy won, or explains more than noise should; empty without decoys.
+std::string decoys_sentence(const std::vector<DecoyEntry>& decoys);
+
 /// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
 std::string statistics_sentences(const Report& report);
 

@@ -112,62 +112,16 @@ std::string unseen_line(const Report& report) {
   return text.empty() ? text : wrapped("  not testable with these data:", text, 4);
 }
 
-/// How measurements scatter together; nothing where all poses are independent.
-std::string noise_line(const NoiseEntry& noise) {
-  const double independent_mm = noise.independent_mm.value_or(0.0);
-  if (!noise.estimated) {
-    return wrapped("  noise:",
-                   fmt::format("{:.3f} mm an axis, taken to be independent from pose to pose: what poses share was not "
-                               "estimated",
-                               independent_mm),
-                   4);
-  }
-  std::vector<std::string> parts;
-  if (noise.joint_repeatability_mrad > 0.0)
-    parts.push_back(fmt::format("joints repeat to {:.3f} mrad", *noise.joint_repeatability_mrad));
-  if (noise.shared_by_repeats_mm > 0.0)
-    parts.push_back(fmt::format("repeats of a pose share {:.3f} mm", *noise.shared_by_repeats_mm));
-  if (noise.shared_in_order_mm > 0.0) {
-    parts.push_back(
-        fmt::format("poses measured one after another share {:.3f} mm (correlation {:.2f}): errors of poses measured "
-                    "between others "
-                    "look smaller than they are",
-                    *noise.shared_in_order_mm, noise.correlation_in_order.value_or(0.0)));
-  }
-  if (parts.empty()) return {};
-  return wrapped("  noise:", fmt::format("{:.3f} mm an axis, independent; {}", independent_mm, fmt::join(parts, "; ")),
-                 4);
-}
-
-/// Whether a decoy won, or explains more than noise should.
 std::string decoys_line(const Report& report) {
-  const std::vector<DecoyEntry>& decoys = report.decoys;
-  if (decoys.empty()) return {};
-  std::string winners;
-  for (const DecoyEntry& decoy : decoys) {
-    if (decoy.won) winners += (winners.empty() ? "" : "; ") + decoy.name;
-  }
-  if (!winners.empty()) return wrapped("  controls: WON by what cannot be true:", winners, 4);
-  constexpr double kRare = 0.05;
-  const DecoyEntry& rarest =
-      *std::ranges::min_element(decoys, {}, [](const DecoyEntry& decoy) { return decoy.p_left.value_or(1.0); });
-  if (rarest.p_left.value_or(1.0) <= kRare) {
-    return wrapped(
-        "  controls:",
-        fmt::format("{}, which cannot exist, explains more than noise should (p = {:.3f}): the noise is not what "
-                    "it was taken for, and none of the effects is sure",
-                    rarest.name, *rarest.p_left),
-        4);
-  }
-  const DecoyEntry& best = *std::ranges::max_element(decoys, {}, &DecoyEntry::best_fall_nats);
-  return wrapped("  controls:", fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name), 4);
+  const std::string sentence = decoys_sentence(report.decoys);
+  return sentence.empty() ? "" : wrapped("  controls:", sentence, 4);
 }
 
 }  // namespace
 
 std::string limits_to_terminal(const Report& report) {
   return not_found_lines(report) + untestable_line(report) + unseen_line(report) +
-         (report.noise ? noise_line(*report.noise) : "") + decoys_line(report);
+         (report.noise ? wrapped("  noise:", noise_sentence(*report.noise), 4) : "") + decoys_line(report);
 }
 
 }  // namespace demecal

@@ -64,7 +64,11 @@ class DisturbedRun : public RunObserver {
 
  private:
   struct CoordinatorDied {};
+#ifdef DEMECAL_SANITIZED
+  static constexpr int kMostTicks = 3000;
+#else
   static constexpr int kMostTicks = 300;
+#endif
 
   /// A worker, and its end of the network, which outlives its thread.
   struct Host {
@@ -173,7 +177,9 @@ class DisturbedRun : public RunObserver {
     std::filesystem::resize_file(path, size - std::min<std::uintmax_t>(size, random_.index(3000)));
   }
 
-  void tell(const std::string& what) { happened_.told += what + '\n'; }
+  void tell(const std::string& what) {
+    happened_.told += what + '\n';
+  }
 
   CalibrationData data_;
   std::string folder_;

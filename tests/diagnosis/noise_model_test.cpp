@@ -116,6 +116,22 @@ TEST(NoiseModel, DriftInOrderIsFound) {
   EXPECT_NEAR(correlation, 0.9, 0.06);
 }
 
+TEST(NoiseModel, ASlowDriftThatHardlyShowsCountsWhereItIsARival) {
+  RandomStream stream{91, 6};
+  NoisyArm at = noisy_arm(stream, 60);
+  constexpr int kDraws = 12;
+  int found = 0, found_as_rival = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    draw(at, {.order = 0.5, .correlation = 0.99}, 1.0, stream);
+    at.rows.drift_is_rival = false;
+    found += estimate_noise(at.rows).model.order > 0.0;
+    at.rows.drift_is_rival = true;
+    found_as_rival += estimate_noise(at.rows).model.order > 0.0;
+  }
+  EXPECT_GT(found_as_rival, found + 2);
+  EXPECT_GE(found_as_rival, kDraws / 2);
+}
+
 TEST(NoiseModel, IndependentNoiseHasNoOtherComponentsWorthTheName) {
   RandomStream stream{91, 3};
   NoisyArm at = noisy_arm(stream, 60);

@@ -111,7 +111,7 @@ TEST(LoopPage, ShowsWhatWasNotFoundNotSeenAndNotTrue) {
   const std::string words = words_of(page);
   EXPECT_THAT(words, HasSubstr("Round 1, backlash, joint 2: " + report.rounds[0].further->sentence));
   EXPECT_THAT(words, HasSubstr("gear_harmonic (ratio 77), joint 5"));
-  EXPECT_THAT(words, HasSubstr("1\u202F312 effects were tried in every round against 999 permutations"));
+  EXPECT_THAT(words, HasSubstr("1\u202F312 effects were tried in every round against 999 draws of the noise"));
   EXPECT_THAT(words, HasSubstr("6 were added"));
 }
 
@@ -195,6 +195,16 @@ TEST(HarmonicsChart, HasAStemForEveryHarmonicOnOneScale) {
   }
   for (const double ratio : ratios) EXPECT_NEAR(ratio, ratios[0], 0.02 * ratios[0]);
   EXPECT_THAT(all_between(loop_page_of(made_up_looped_report(0)), "class=\"stem\"", ">"), IsEmpty());
+}
+
+TEST(LoopPage, SaysHowMeasurementsScatterAndWhatControlsMean) {
+  Report report = made_up_looped_report(5);
+  ASSERT_TRUE(report.noise.has_value());
+  report.noise->shared_in_order_mm = 0.031;
+  report.decoys.at(0).p_left = 0.004;
+  const std::string page = loop_page_of(report);
+  EXPECT_THAT(page, HasSubstr("poses measured one after another share 0.031 mm"));
+  EXPECT_THAT(page, HasSubstr("none of the effects is sure"));
 }
 
 TEST(LoopWords, HaveASentenceForEveryReason) {

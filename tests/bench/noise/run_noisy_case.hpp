@@ -21,7 +21,7 @@ struct DiagnosisFigures {
   std::vector<Effect> effects{};  ///< of the model
   std::vector<NotFound> not_found{};
   int accept = 0, within = 0;  ///< accept poses, and those whose error is within the radius that is to hold 95 %
-  double seconds = 0.0;  ///< of processor time
+  double seconds = 0.0;        ///< of processor time
 };
 
 /// An effect that was put in, and what became of it.
