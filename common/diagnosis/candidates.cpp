@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
-
-#include "diagnosis/formula_library.hpp"
+#include <optional>
 
 namespace demecal {
 namespace {
@@ -33,17 +33,53 @@ std::vector<Candidate> decoys_of(const std::vector<Candidate>& candidates, const
     if (!decoy) continue;
     decoys.push_back(candidate);
     decoys.back().effect = decoy->effect;
-    decoys.back().disguise = decoy->disguise;
+    decoys.back().decoy_kind = decoy->kind;
   }
   return decoys;
 }
 
+constexpr double kVaried = 1e-9;
+
+struct RecordedRange {
+  bool everywhere = true;
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = -std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+
+  void take(const std::optional<double>& value) {
+    if (!value) {
+      everywhere = false;
+      return;
+    }
+    lower = std::min(lower, *value);
+    upper = std::max(upper, *value);
+    sum += *value;
+  }
+  bool varied() const { return everywhere && upper - lower > kVaried; }
+};
+
+bool came_from_both_sides(const DataSet& data, std::span<const std::size_t> poses) {
+  std::vector<bool> up(data.robot.chain.joints.size()), down(up.size());
+  for (const std::size_t pose : poses) {
+    if (!data.poses[pose].approach) continue;
+    for (std::size_t i = 0; i < up.size(); ++i) {
+      const double sign = (*data.poses[pose].approach)[static_cast<Eigen::Index>(i)];
+      up[i] = up[i] || sign > 0;
+      down[i] = down[i] || sign < 0;
+    }
+  }
+  for (std::size_t i = 0; i < up.size(); ++i) {
+    if (up[i] && down[i]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-double price_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
+double naming_cost_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
   const auto same = std::find_if(candidates.begin(), candidates.end(),
                                  [&](const Candidate& candidate) { return candidate.effect.same_law_as(effect); });
-  return same == candidates.end() ? 0.0 : same->name_nats;
+  return same == candidates.end() ? 0.0 : same->naming_cost_nats;
 }
 
 void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence) {
@@ -66,7 +102,7 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
       const double nats = std::log(alike[effect.form]) + (symbolic ? kOutsideCatalogue_nats : 0.0);
       if (is_in_correction(effect, robot, declared)) continue;
       set_measured_ranges(effect, robot, evidence);
-      candidates.push_back({std::move(effect), Disguise::none, nats});
+      candidates.push_back({std::move(effect), DecoyKind::none, nats});
     }
   }
   if (!options.decoys) return candidates;
@@ -75,38 +111,79 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
   return candidates;
 }
 
-std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise disguise, RandomStream random) {
+std::vector<ArmState> with_shuffled(const std::vector<ArmState>& states, DecoyKind decoy_kind, RandomStream random) {
   std::vector<ArmState> changed = states;
   std::vector<std::size_t> from(states.size());
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = i;
   for (std::size_t i = from.size(); i > 1; --i) std::swap(from[i - 1], from[random.index(i)]);
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Stop& other = states[from[i]].stop;
-    if (disguise == Disguise::shuffled_approach) changed[i].stop.approach = other.approach;
-    if (disguise == Disguise::shuffled_temperature) changed[i].stop.temperature_celsius = other.temperature_celsius;
+    if (decoy_kind == DecoyKind::shuffled_approach) changed[i].stop.approach = other.approach;
+    if (decoy_kind == DecoyKind::shuffled_temperature) changed[i].stop.temperature_celsius = other.temperature_celsius;
   }
   return changed;
 }
 
 std::string decoy_name(const Candidate& candidate) {
   std::string name = candidate.effect.kind + " of joint " + std::to_string(candidate.effect.joint + 1);
-  switch (candidate.disguise) {
-    case Disguise::wrong_ratio:
+  switch (candidate.decoy_kind) {
+    case DecoyKind::wrong_ratio:
       return name + " at a ratio no gear has (" + std::to_string(candidate.effect.setting("ratio")) + ")";
-    case Disguise::shuffled_approach:
+    case DecoyKind::shuffled_approach:
       return name + " by shuffled approach signs";
-    case Disguise::shuffled_temperature:
+    case DecoyKind::shuffled_temperature:
       return name + " by shuffled temperatures";
-    case Disguise::none:
+    case DecoyKind::none:
       break;
   }
   return name;
 }
 
-std::vector<double> prices_nats(const std::vector<Candidate>& candidates) {
+std::vector<double> naming_costs_nats(const std::vector<Candidate>& candidates) {
   std::vector<double> nats;
-  for (const Candidate& candidate : candidates) nats.push_back(candidate.name_nats);
+  for (const Candidate& candidate : candidates) nats.push_back(candidate.naming_cost_nats);
   return nats;
+}
+
+Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses) {
+  Evidence evidence;
+  RecordedRange payload, temperature, time;
+  std::vector<RecordedRange> joints(data.robot.chain.joints.size());
+  for (const std::size_t index : poses) {
+    const MeasuredPose& pose = data.poses[index];
+    payload.take(pose.payload_kg);
+    temperature.take(pose.temperature_celsius);
+    time.take(pose.time_s);
+    evidence.orientation = evidence.orientation || pose.orientation.has_value();
+    for (std::size_t i = 0; i < joints.size(); ++i) joints[i].take(pose.joints[static_cast<Eigen::Index>(i)]);
+  }
+  evidence.approach = came_from_both_sides(data, poses);
+  evidence.payload = payload.varied();
+  evidence.temperature = temperature.varied();
+  evidence.time = time.varied();
+  evidence.masses = !data.robot.masses.empty();
+  for (const RecordedRange& joint : joints) evidence.joint_ranges.push_back({joint.lower, joint.upper});
+  const auto count = static_cast<double>(poses.size());
+  if (evidence.temperature) evidence.mean_temperature_celsius = temperature.sum / count;
+  if (evidence.time) evidence.mean_time_s = time.sum / count;
+  return evidence;
+}
+
+std::vector<UntestableKind> untestable_kinds(const Evidence& evidence, const std::vector<std::string>& kinds) {
+  std::vector<UntestableKind> untestable;
+  const auto add_lacking = [&](Circumstance circumstance, bool recorded, const char* reason) {
+    if (recorded) return;
+    for (const EffectLaw* law : catalogue()) {
+      const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), law->kind()) != kinds.end();
+      if (wanted && law->prerequisite() == circumstance) untestable.push_back({std::string(law->kind()), reason});
+    }
+  };
+  add_lacking(Circumstance::approach, evidence.approach,
+              "no approach columns, or every joint always came from one side");
+  add_lacking(Circumstance::temperature, evidence.temperature, "no temperature column, or one temperature only");
+  add_lacking(Circumstance::time, evidence.time, "no time column");
+  add_lacking(Circumstance::masses, evidence.masses, "no link masses in the robot's file");
+  return untestable;
 }
 
 }  // namespace demecal

@@ -72,7 +72,7 @@ enum class Subject { joint, tool, instrument };
 enum class Circumstance { none, approach, temperature, time, masses };
 
 /// What makes a decoy impossible: a ratio that no gear has, or a circumstance dealt out anew over the poses.
-enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
+enum class DecoyKind { none, wrong_ratio, shuffled_approach, shuffled_temperature };
 
 struct DecoyEffect;     ///< an effect that cannot be true, tried among those that may be
 struct SymbolicWriter;  ///< see effects/symbolic_state.hpp
@@ -132,7 +132,7 @@ class EffectLaw {
 
 struct DecoyEffect {
   Effect effect;
-  Disguise disguise = Disguise::none;
+  DecoyKind kind = DecoyKind::none;
 };
 
 /// Over which a ripple fades out beyond the joints it was measured at, rad or m.

@@ -38,7 +38,7 @@ class BacklashLaw final : public EffectLaw {
   Circumstance prerequisite() const override { return Circumstance::approach; }
   std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
     if (seated(effect) || coupled(effect)) return std::nullopt;
-    return DecoyEffect{effect, Disguise::shuffled_approach};
+    return DecoyEffect{effect, DecoyKind::shuffled_approach};
   }
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     const Effect& effect = writer.effect;

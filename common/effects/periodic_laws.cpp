@@ -95,7 +95,7 @@ class GearHarmonicLaw final : public JointWaveLaw {
   std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& evidence) const override {
     Effect impossible = effect;
     impossible.settings["ratio"] = kImpossibleRatio * evidence.highest_ratio;
-    return DecoyEffect{std::move(impossible), Disguise::wrong_ratio};
+    return DecoyEffect{std::move(impossible), DecoyKind::wrong_ratio};
   }
 
  private:

@@ -86,7 +86,7 @@ class ThermalOffsetLaw final : public EffectLaw {
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
   Circumstance prerequisite() const override { return Circumstance::temperature; }
   std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
-    return DecoyEffect{effect, Disguise::shuffled_temperature};
+    return DecoyEffect{effect, DecoyKind::shuffled_temperature};
   }
 };
 
