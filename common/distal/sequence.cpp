@@ -95,7 +95,7 @@ bool DistalSequence::take_fittest(const Breeder& breeder, SharedPopulation& popu
     const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
     if (is_bounded(correction, training)) {
       best = population.fitness[i];
-      return take_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
+      return accept_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
     }
     exclude(population, population.roots[i]);
   }
@@ -126,8 +126,8 @@ void DistalSequence::evolve(std::size_t i, std::span<const LinearisedPose> poses
 void DistalSequence::fit_amplitudes() {
   std::vector<JointCandidates> none;
   for (const JointTraining& training : trainings_) none.push_back({training, {}});
-  take_candidates(index_, none, Amplitudes::fitted, outcome_.generations, outcome_.learnt);
-  follow_amplitudes(outcome_.learnt.robot, trainings_);
+  accept_candidates(index_, none, Amplitudes::fitted, outcome_.generations, outcome_.learnt);
+  rescale_trainings(outcome_.learnt.robot, trainings_);
 }
 
 SequenceOutcome DistalSequence::run() {
@@ -136,7 +136,7 @@ SequenceOutcome DistalSequence::run() {
     evolve(select(poses), poses);
     if (job_.distal.amplitudes == Amplitudes::fitted) fit_amplitudes();
   }
-  offer_for_choice(index_, trainings_, trees_, outcome_.learnt);
+  gather_candidates(index_, trainings_, trees_, outcome_.learnt);
   return std::move(outcome_);
 }
 

@@ -207,7 +207,7 @@ JointTraining distal_training(const JointTraining& previous, std::span<const Lin
   return training;
 }
 
-void follow_amplitudes(const CorrectedRobot& robot, std::span<JointTraining> trainings) {
+void rescale_trainings(const CorrectedRobot& robot, std::span<JointTraining> trainings) {
   for (JointTraining& training : trainings) {
     const JointCorrection& correction = robot.corrections[training.joint];
     if (correction.is_neutral()) continue;
@@ -218,8 +218,8 @@ void follow_amplitudes(const CorrectedRobot& robot, std::span<JointTraining> tra
   }
 }
 
-bool take_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
-                     std::uint32_t generation, DistalOutcome& outcome) {
+bool accept_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
+                       std::uint32_t generation, DistalOutcome& outcome) {
   JointCorrection& present = outcome.robot.corrections[training.joint];
   JointCorrection before = std::exchange(present, correction);
   const double index_mm2 = index(outcome.robot);
@@ -232,8 +232,8 @@ bool take_correction(const DistalIndex& index, const JointTraining& training, co
   return true;
 }
 
-bool take_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
-                     std::uint32_t generation, DistalOutcome& outcome) {
+bool accept_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
+                       std::uint32_t generation, DistalOutcome& outcome) {
   const std::vector<LinearisedPose> poses = index.linearised(outcome.robot);
   CorrectedRobot robot = CandidateChoice(candidates, poses, amplitudes, outcome).robot();
   const double index_mm2 = index(robot);

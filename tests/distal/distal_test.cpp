@@ -221,11 +221,11 @@ TEST(DistalStep, IsNotTakenWhereTheExactIndexWouldRise) {
   const double before = outcome.index_mm2;
   const JointTraining& training = preparation.training.front();
   const JointCorrection wrong(parse("-0.002 * SIN(theta)"), training.branch, training.range_rad);
-  EXPECT_FALSE(take_correction(index, training, wrong, 1, outcome));
+  EXPECT_FALSE(accept_correction(index, training, wrong, 1, outcome));
   EXPECT_TRUE(outcome.robot.corrections[0].is_neutral());
   EXPECT_EQ(outcome.index_mm2, before);
   const JointCorrection right(parse(kDistalErrors[0]), training.branch, training.range_rad);
-  EXPECT_TRUE(take_correction(index, training, right, 2, outcome));
+  EXPECT_TRUE(accept_correction(index, training, right, 2, outcome));
   EXPECT_LT(outcome.index_mm2, before);
   ASSERT_EQ(outcome.steps.size(), 1U);
   EXPECT_EQ(outcome.steps.front().joint, 0);
