@@ -20,7 +20,7 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
                              const KnownFunctions& functions = std::nullopt);
 
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
-/// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
+/// evolve for their share of job.gp's generations against the linearized index, from populations that hold the fronts
 /// of the round before; then the model takes candidates (see accept_candidates), so that its exact index never rises.
 /// Ends with the rounds, or where evolution is cut off. Where the job has joints share functions, these are the known
 /// ones or, without any such list, found anew after every round. A function of data, job and what `evolver` finds.
@@ -41,7 +41,7 @@ struct SequenceOutcome {
 /// The calibration poses' index of the preparation's declared robot, lowered by the thesis's algorithm with one
 /// population a joint: the joint of the greatest compensation potential (eq. 4.11) is bred until the exact index falls;
 /// the model takes its fittest formula, and the joint is selected anew. A population that does not gain for 40
-/// generations begins anew around its fittest (as in the thesis's program). Formulas are ranked by the index linearised
+/// generations begins anew around its fittest (as in the thesis's program). Formulas are ranked by the index linearized
 /// about the present model, which differs from the exact one by parts in a thousand of what a correction changes. What
 /// would be the fittest but is not bounded (see is_bounded) loses its fitness. Ends after job.gp.number_generations in
 /// all, or when `may_go_on`, asked before every generation, says no. Where the job has amplitudes fitted (the thesis

@@ -62,7 +62,7 @@ std::vector<Tree> DistalRounds::seeds_of(std::size_t i) const {
 }
 
 void DistalRounds::prepare() {
-  const std::vector<LinearisedPose> poses = index_.linearised(outcome_.robot);
+  const std::vector<LinearizedPose> poses = index_.linearized(outcome_.robot);
   for (std::size_t i = 0; i < trainings_.size(); ++i) {
     JointTraining& training = trainings_[i];
     training = distal_training(training, poses, first_ ? std::nullopt : std::optional(training.scale_rad));
@@ -106,7 +106,7 @@ DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& prepa
 
 void gather_candidates(const DistalIndex& index, const std::vector<JointTraining>& trainings,
                        const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome) {
-  const std::vector<LinearisedPose> poses = index.linearised(outcome.robot);
+  const std::vector<LinearizedPose> poses = index.linearized(outcome.robot);
   outcome.candidates.clear();
   for (std::size_t i = 0; i < trainings.size(); ++i) {
     JointCandidates joint{distal_training(trainings[i], poses, trainings[i].scale_rad), {}};

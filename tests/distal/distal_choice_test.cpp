@@ -16,7 +16,7 @@ class DistalChoice : public testing::TestWithParam<Measured> {
   CorrectedRobot declared() const { return without_corrections(preparation.declared.robot); }
   /// What every joint learns from where nothing is corrected yet.
   std::vector<JointTraining> trainings() const {
-    const std::vector<LinearisedPose> poses = index.linearised(declared());
+    const std::vector<LinearizedPose> poses = index.linearized(declared());
     std::vector<JointTraining> trainings;
     for (const JointTraining& like : preparation.training) trainings.push_back(distal_training(like, poses));
     return trainings;
