@@ -6,7 +6,6 @@
 
 #include "config/files.hpp"
 #include "config/model_text.hpp"
-#include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"

@@ -12,16 +12,14 @@
 #include "config/model_text.hpp"
 #include "config/proposed_poses.hpp"
 #include "config/read_declared.hpp"
-#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/diagnose.hpp"
-#include "coordinator/interrupt.hpp"
-#include "coordinator/loop_display.hpp"
+#include "coordinator/displays.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/nearest_name.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
 #include "terminal/report_text.hpp"
+#include "workflows/diagnose.hpp"
 
 namespace demecal {
 namespace {
@@ -53,15 +51,6 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
   return declared;
 }
 
-std::string to_string(const DeclaredModel& declared) {
-  std::string words = "registration";
-  if (declared.tool) words += ", tool";
-  if (declared.joint_offset) words += ", joint_offset";
-  if (declared.geometry) words += ", geometry";
-  if (declared.joint_corrections) words += ", joint_corrections";
-  return words;
-}
-
 Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   Job job;
   job.name = std::filesystem::path(request.data_file).stem().string();
@@ -73,12 +62,12 @@ Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   return job;
 }
 
-/// The poses that would tell most, in a file beside the results.
+/// The poses that would teach most, in a file beside the results.
 void write_proposed(const DiagnoseRequest& request, const DataSet& data, const Diagnosis& diagnosis) {
-  const DiagnosisProblem of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
-                            poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem problem{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
+                                 poses_of(data, PoseSet::validation)};
   const std::vector<Stop> stops =
-      propose_poses(of, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
+      propose_poses(problem, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
                     RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
   write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_file, data, stops));
 }
@@ -100,10 +89,10 @@ ExitCode run(const DiagnoseRequest& request) {
   LoopDisplay display(stderr, data.robot, request.quiet);
   if (request.declared.empty() && !known && !job.declared.geometry) {
     fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",
-               to_string(job.declared));
+               fmt::join(job.declared.words(), ", "));
   }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
-                          to_string(job.declared)));
+                          fmt::join(job.declared.words(), ", ")));
   Diagnosis diagnosis = fit_or_report(request.out, job.name, checked, [&] {
     return diagnose(data, job, known, [&](const Round& round) {
       display.on_round(round);
