@@ -12,7 +12,7 @@
 
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
-#include "protocol/printable.hpp"
+#include "protocol/message_bytes.hpp"
 #include "worker/worker.hpp"
 
 namespace {

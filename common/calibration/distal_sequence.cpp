@@ -6,7 +6,7 @@
 #include "calibration/distal_choice.hpp"
 #include "calibration/distal_rounds.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/selection.hpp"
+#include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
 #include "random/random_purpose.hpp"
 

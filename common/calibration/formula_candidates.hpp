@@ -6,7 +6,7 @@
 #include "calibration/formula_misfit.hpp"
 #include "calibration/formula_tables.hpp"
 #include "diagnosis/candidates.hpp"
-#include "evolution/individual.hpp"
+#include "evolution/population.hpp"
 
 namespace demecal {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "evolution/brief_forms.hpp"
-#include "evolution/function_search.hpp"
+#include "evolution/model_archive.hpp"
+#include "evolution/building_blocks.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {

@@ -5,8 +5,8 @@
 
 #include "calibration/correction_limit.hpp"
 #include "calibration/jury.hpp"
-#include "evolution/brief_forms.hpp"
-#include "expression/limit.hpp"
+#include "evolution/model_archive.hpp"
+#include "expression/bound.hpp"
 
 namespace demecal {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibration/training.hpp"
-#include "evolution/individual.hpp"
+#include "evolution/population.hpp"
 #include "evolution/parameters.hpp"
 
 namespace demecal {

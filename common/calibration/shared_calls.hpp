@@ -6,7 +6,7 @@
 
 #include "calibration/evolver.hpp"
 #include "effects/corrected_robot.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
 
 namespace demecal {
 

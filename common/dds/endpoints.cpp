@@ -1,4 +1,4 @@
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 
 #include <fastrtps/utils/md5.h>
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/participants.hpp"
 
 namespace demecal {

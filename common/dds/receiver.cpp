@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "protocol/message_bytes.hpp"
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "errors/check.hpp"
 #include "protocol/message_bytes.hpp"

@@ -13,7 +13,7 @@
 
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 

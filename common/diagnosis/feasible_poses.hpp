@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

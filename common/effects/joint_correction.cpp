@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "expression/differentiate.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/simplify.hpp"
 
 namespace demecal {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/argument_order.hpp"
 #include "expression/simplify.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {

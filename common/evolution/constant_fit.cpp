@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {

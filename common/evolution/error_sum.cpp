@@ -1,10 +1,10 @@
-#include "evolution/error_sum.hpp"
+#include "evolution/fitness.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include "errors/check.hpp"
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {

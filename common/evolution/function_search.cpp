@@ -1,4 +1,4 @@
-#include "evolution/function_search.hpp"
+#include "evolution/building_blocks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "evolution/building_blocks.hpp"
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {

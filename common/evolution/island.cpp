@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "errors/check.hpp"
-#include "evolution/island_parameters.hpp"
-#include "evolution/selection.hpp"
+#include "evolution/archipelago.hpp"
+#include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
-#include "evolution/tree_index.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

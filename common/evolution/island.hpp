@@ -7,8 +7,8 @@
 
 #include "evolution/archipelago.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/individual.hpp"
 #include "evolution/parameters.hpp"
+#include "evolution/population.hpp"
 
 namespace demecal {
 

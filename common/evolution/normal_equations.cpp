@@ -1,9 +1,9 @@
-#include "evolution/normal_equations.hpp"
+#include "evolution/constant_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {

@@ -1,4 +1,4 @@
-#include "evolution/simplex_search.hpp"
+#include "evolution/constant_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

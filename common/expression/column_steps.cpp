@@ -1,7 +1,7 @@
-#include "expression/column_steps.hpp"
+#include "expression/columns.hpp"
 
 #include "errors/check.hpp"
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {

@@ -11,7 +11,6 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kRowsOfModel = 128;  // the columns of a formula's parts and their slopes stay in the near caches
-constexpr NodeId kExpanded = NodeId{1} << 31;
 
 bool is_number(const SharedNode& node) {
   return node.is_constant && std::isfinite(node.value);
@@ -97,7 +96,7 @@ void ConstantModel::take_apart(const NodeStore& store, NodeId root) {
   ++formula_;
   stack_.assign(1, root);
   while (!stack_.empty()) {
-    const NodeId id = stack_.back() & ~kExpanded;
+    const NodeId id = stack_.back() & ~kArgumentsPushed;
     const bool expanded = stack_.back() != id;
     stack_.pop_back();
     const SharedNode& node = store[id];
@@ -110,7 +109,7 @@ void ConstantModel::take_apart(const NodeStore& store, NodeId root) {
       known_[id] = {formula_, static_cast<std::uint32_t>(parts_.size())};
       add_leaf(node, id);
     } else {
-      stack_.push_back(id | kExpanded);
+      stack_.push_back(id | kArgumentsPushed);
       if (node.right != 0) stack_.push_back(node.right);
       stack_.push_back(node.left);
     }

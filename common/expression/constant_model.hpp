@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "expression/column_pool.hpp"
+#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/node_store.hpp"
 

@@ -1,11 +1,12 @@
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "expression/argument_order.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "expression/exponential.hpp"
-#include "expression/sine.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "kinematics/elementary.hpp"
-#include "symbolic/matrix.hpp"
+#include "symbolic/parse_expression.hpp"
 
 namespace demecal {
 

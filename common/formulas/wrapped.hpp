@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 #include "symbolic/algebra.hpp"
 
 namespace demecal {

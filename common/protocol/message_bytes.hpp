@@ -44,4 +44,9 @@ SampleKey key_bytes(const Plain& message);
 /// About how much memory a message takes.
 std::size_t weight_bytes(const Message& message);
 
+/// `text` with a question mark for every control character, every character that turns the direction of writing, and
+/// every byte that is not UTF-8.
+std::string printable(std::string_view text);
+bool is_printable(std::string_view text);
+
 }  // namespace demecal

@@ -4,8 +4,7 @@
 #include <bit>
 
 #include "errors/check.hpp"
-#include "symbolic/fold_constants.hpp"
-#include "symbolic/trigonometry.hpp"
+#include "symbolic/rules.hpp"
 
 namespace demecal {
 namespace {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "symbolic/differentiate.hpp"
-#include "symbolic/shared_terms.hpp"
-#include "symbolic/values.hpp"
+#include "symbolic/calculus.hpp"
+#include "symbolic/spelling.hpp"
 
 namespace demecal {
 namespace {

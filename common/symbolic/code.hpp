@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/matrix.hpp"
+#include "symbolic/parse_expression.hpp"
 #include "symbolic/spelling.hpp"
 
 namespace demecal {

@@ -1,30 +1,25 @@
 #include "symbolic/spelling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include "errors/check.hpp"
-#include "expression/fold.hpp"
-#include "symbolic/values.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "symbolic/calculus.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr int kLongestPower = 3;  // written as repeated factors where a language has no operator for it
 
-enum class Precedence { sum, product, whole };  // whole: a name, a number that is not negative, a call
-
-struct Written {
-  std::string text;
-  Precedence precedence = Precedence::whole;
-};
-
-std::string within(const Written& written, Precedence least) {
-  return written.precedence < least ? '(' + written.text + ')' : written.text;
+std::string in_parentheses_below(Precedence least, const InfixText& part) {
+  return part.precedence < least ? '(' + part.text + ')' : part.text;
 }
 
-std::string joined(const std::vector<std::string>& texts, const std::string& between) {
+std::string join(const std::vector<std::string>& texts, const std::string& between) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
   return all;
@@ -77,16 +72,16 @@ bool is_called(Primitive primitive) {
 }
 
 /// Writes one expression; calls itself for its parts.
-class Writer {
+class ExpressionWriter {
  public:
-  Writer(const Spelling& spelling, const NamedTerms& named) : spelling_(spelling), named_(named) {}
+  ExpressionWriter(const Spelling& spelling, const NamedTerms& named) : spelling_(spelling), named_(named) {}
 
-  Written part(Expression expression) const {
+  InfixText part(Expression expression) const {
     const auto name = named_.find(expression->id);
-    return name == named_.end() ? whole(expression) : Written{name->second};
+    return name == named_.end() ? whole(expression) : InfixText{name->second};
   }
 
-  Written whole(Expression expression) const {
+  InfixText whole(Expression expression) const {
     switch (expression->kind) {
       case Kind::constant:
         return {spelling_.number(expression->value), expression->value < 0.0 ? Precedence::sum : Precedence::whole};
@@ -102,12 +97,12 @@ class Writer {
     const bool formula = expression->function == Function::formula;
     std::vector<std::string> arguments;
     for (const Part& argument : expression->parts) arguments.push_back(part(argument.first).text);
-    return {(formula ? expression->name : spelling_.name(expression->function)) + '(' + joined(arguments, ", ") + ')'};
+    return {(formula ? expression->name : spelling_.name(expression->function)) + '(' + join(arguments, ", ") + ')'};
   }
 
  private:
   /// Terms that are added stand before those that are subtracted.
-  Written sum(Expression expression) const {
+  InfixText sum(Expression expression) const {
     std::string text;
     int terms = 0;
     for (const bool negative : {false, true}) {
@@ -125,25 +120,25 @@ class Writer {
     text += term;
   }
   std::string scaled(Expression expression, double coefficient) const {
-    const std::string text = within(part(expression), Precedence::product);
+    const std::string text = in_parentheses_below(Precedence::product, part(expression));
     return coefficient == 1.0 ? text : spelling_.number(coefficient) + '*' + text;
   }
 
-  Written product(const std::vector<Part>& parts) const {
+  InfixText product(const std::vector<Part>& parts) const {
     std::vector<std::string> above, below;
     for (const auto& [base, exponent] : parts) {
       (exponent > 0.0 ? above : below).push_back(power(base, static_cast<int>(std::abs(exponent))));
     }
-    std::string text = above.empty() ? spelling_.number(1.0) : joined(above, "*");
+    std::string text = above.empty() ? spelling_.number(1.0) : join(above, "*");
     if (!below.empty())
-      text += '/' + (below.size() == 1 && !has_operator(below[0]) ? below[0] : '(' + joined(below, "*") + ')');
+      text += '/' + (below.size() == 1 && !has_operator(below[0]) ? below[0] : '(' + join(below, "*") + ')');
     return {text,
             above.size() == 1 && below.empty() && !has_operator(above[0]) ? Precedence::whole : Precedence::product};
   }
   static bool has_operator(const std::string& power) { return power.find_first_of("*^") != std::string::npos; }
 
   std::string power(Expression base, int exponent) const {
-    const std::string text = within(part(base), Precedence::whole);
+    const std::string text = in_parentheses_below(Precedence::whole, part(base));
     if (exponent == 1) return text;
     const std::string digits = std::to_string(exponent);
     switch (spelling_.language()) {
@@ -151,7 +146,7 @@ class Writer {
         return text + "**" + digits;
       case CodeLanguage::c:
         if (exponent > kLongestPower) return "pow(" + part(base).text + ", " + digits + ')';
-        return joined(std::vector<std::string>(static_cast<std::size_t>(exponent), text), "*");
+        return join(std::vector<std::string>(static_cast<std::size_t>(exponent), text), "*");
       default:
         return text + '^' + digits;
     }
@@ -164,7 +159,7 @@ class Writer {
 }  // namespace
 
 std::string Spelling::operator()(Expression expression, const NamedTerms& named) const {
-  return Writer(*this, named).whole(expression).text;
+  return ExpressionWriter(*this, named).whole(expression).text;
 }
 
 std::string Spelling::number(double value) const {
@@ -223,23 +218,23 @@ std::string Spelling::name(Function function) const {
 }
 
 std::string Spelling::formula(const Tree& tree, const std::vector<std::string>& variables) const {
-  const auto binary = [&](Primitive primitive, const Written& left, const Written& right) -> Written {
+  const auto binary = [&](Primitive primitive, const InfixText& left, const InfixText& right) -> InfixText {
     if (is_called(primitive)) return {name(function_of(primitive)) + '(' + left.text + ", " + right.text + ')'};
     const Precedence own = primitive == Primitive::multiply ? Precedence::product : Precedence::sum;
     // The order of steps counts: what stands to the right is done first.
     const std::string last = right.precedence <= own ? '(' + right.text + ')' : right.text;
-    return {within(left, own) + ' ' + std::string(traits(primitive).symbol) + ' ' + last, own};
+    return {in_parentheses_below(own, left) + ' ' + std::string(traits(primitive).symbol) + ' ' + last, own};
   };
-  const auto unary = [&](Primitive primitive, const Written& argument) -> Written {
+  const auto unary = [&](Primitive primitive, const InfixText& argument) -> InfixText {
     const bool root = primitive == Primitive::square_root;
     const std::string inside = root ? name(Function::absolute) + '(' + argument.text + ')' : argument.text;
     return {name(function_of(primitive)) + '(' + inside + ')'};
   };
-  const auto leaf = [&](const Node& node) -> Written {
+  const auto leaf = [&](const Node& node) -> InfixText {
     if (node.primitive == Primitive::variable) return {variables[node.variable]};
     return {number(node.value), std::signbit(node.value) ? Precedence::sum : Precedence::whole};
   };
-  return fold<Written>(tree, leaf, unary, binary).text;
+  return fold<InfixText>(tree, leaf, unary, binary).text;
 }
 
 std::set<Function> functions_in(const std::vector<Expression>& expressions) {
@@ -255,6 +250,45 @@ std::set<Function> functions_in(const std::vector<Expression>& expressions) {
     }
   }
   return found;
+}
+
+namespace {
+
+/// Whether writing the expression again costs nothing: a name, a number, or one of them with its sign changed.
+bool is_free(const ExpressionNode& term) {
+  if (term.kind == Kind::constant || term.kind == Kind::symbol) return true;
+  return term.kind == Kind::sum && term.value == 0.0 && term.parts.size() == 1 && term.parts[0].second == -1.0;
+}
+
+}  // namespace
+
+Steps steps_to(const std::vector<Expression>& expressions, const Spelling& spelling, const std::string& stem) {
+  std::map<std::uint32_t, int> written;
+  for (const Expression expression : expressions) ++written[expression->id];
+  const std::vector<Expression> terms = terms_of(expressions);
+  Steps steps;
+  std::vector<Expression> shared;
+  for (std::size_t i = terms.size(); i-- > 0;) {  // from the whole to its parts
+    const ExpressionNode& term = *terms[i];
+    const int times = written[term.id];
+    const bool named = times > 1 && !is_free(term);
+    if (named) shared.push_back(terms[i]);
+    for (const auto& [part, amount] : term.parts) {
+      const int repeats = term.kind == Kind::product ? static_cast<int>(std::abs(amount)) : 1;
+      written[part->id] += (named ? 1 : times) * repeats;
+    }
+  }
+  std::ranges::reverse(shared);
+  for (const Expression term : shared) {
+    const std::string name = stem + std::to_string(steps.assignments.size() + 1);
+    steps.assignments.emplace_back(name, spelling(term, steps.names));
+    steps.names.emplace(term->id, name);
+  }
+  for (const Expression expression : expressions) {
+    const auto name = steps.names.find(expression->id);
+    steps.results.push_back(name == steps.names.end() ? spelling(expression, steps.names) : name->second);
+  }
+  return steps;
 }
 
 }  // namespace demecal

@@ -1,9 +1,11 @@
-// How expressions are spelt in the languages that they are handed on in.
+// How expressions are spelt in the languages that they are handed on in, what they share computed once.
 #pragma once
 
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "symbolic/algebra.hpp"
 
@@ -34,5 +36,14 @@ class Spelling {
 
 /// Functions that the expressions call, those within evolved formulas included.
 std::set<Function> functions_in(const std::vector<Expression>& expressions);
+
+/// Steps towards the expressions: the names t1, t2 ... (with `stem` t) of parts they share, in the order to compute
+/// them.
+struct Steps {
+  NamedTerms names;
+  std::vector<std::pair<std::string, std::string>> assignments;  ///< name and what it is
+  std::vector<std::string> results;                              ///< one per expression
+};
+Steps steps_to(const std::vector<Expression>& expressions, const Spelling& spelling, const std::string& stem = "t");
 
 }  // namespace demecal

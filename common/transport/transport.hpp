@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 

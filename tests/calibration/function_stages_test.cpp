@@ -9,8 +9,8 @@
 #include <cmath>
 #include <set>
 
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 #include "island_evolution.hpp"
 
 namespace demecal {

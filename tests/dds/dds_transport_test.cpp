@@ -14,7 +14,6 @@
 #include <optional>
 #include <thread>
 
-#include "dds/endpoints.hpp"
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "errors/input_error.hpp"

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "../expression/random_function.hpp"
+#include "../expression/random_formulas.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {

@@ -1,11 +1,11 @@
 // Damped steps of least squares: they solve what they state, in a fixed order of sums.
-#include "evolution/normal_equations.hpp"
+#include "evolution/constant_fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "expression/aligned_column.hpp"
+#include "expression/columns.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

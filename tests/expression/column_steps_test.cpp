@@ -1,12 +1,11 @@
 // The vector kernels against the primitives one value at a time.
-#include "expression/column_steps.hpp"
+#include "expression/columns.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "expression/aligned_column.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

@@ -1,5 +1,5 @@
 // Derivatives against central differences.
-#include "expression/differentiate.hpp"
+#include "expression/simplify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "expression/evaluate.hpp"
 #include "expression/text.hpp"
-#include "random_tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {

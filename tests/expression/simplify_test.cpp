@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "expression/evaluate.hpp"
-#include "expression/fold.hpp"
 #include "expression/text.hpp"
-#include "random_tree.hpp"
+#include "expression/tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {

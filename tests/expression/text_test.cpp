@@ -8,7 +8,7 @@
 
 #include "errors/input_error.hpp"
 #include "expression/evaluate.hpp"
-#include "random_tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "effects/random_effects.hpp"
 #include "formulas/symbolic_laws.hpp"
-#include "symbolic/values.hpp"
+#include "symbolic/calculus.hpp"
 
 namespace demecal {
 namespace {

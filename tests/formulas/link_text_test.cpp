@@ -4,8 +4,8 @@
 #include "formulas/link_text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
+#include "symbolic/calculus.hpp"
 #include "symbolic/code.hpp"
-#include "symbolic/values.hpp"
 
 namespace demecal {
 namespace {

@@ -5,10 +5,9 @@
 
 #include "expression/text.hpp"
 #include "random/random_stream.hpp"
-#include "symbolic/differentiate.hpp"
+#include "symbolic/calculus.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/spelling.hpp"
-#include "symbolic/values.hpp"
 
 namespace demecal {
 namespace {

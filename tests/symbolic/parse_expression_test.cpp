@@ -4,7 +4,6 @@
 
 #include "errors/input_error.hpp"
 #include "random/random_stream.hpp"
-#include "symbolic/matrix.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/spelling.hpp"
 

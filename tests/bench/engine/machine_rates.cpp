@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "evolution/error_sum.hpp"
-#include "expression/column_steps.hpp"
-#include "expression/vector_units.hpp"
+#include "evolution/fitness.hpp"
+#include "expression/columns.hpp"
+#include "expression/elementary.hpp"
 #include "thread_seconds.hpp"
 
 namespace demecal::bench::engine {
