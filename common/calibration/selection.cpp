@@ -56,7 +56,7 @@ std::vector<Trial> try_all(const Jury& deciding, const CorrectedRobot& robot, co
 /// The trial of the briefest description; of equals the first. Null where there is none.
 const Trial* briefest(const std::vector<Trial>& trials, double rows) {
   const auto nats = [rows](const Trial& trial) {
-    return message_nats(trial.correction.formula(), std::max(trial.sum, 1e-300), rows);
+    return description_length_nats(trial.correction.formula(), std::max(trial.sum, 1e-300), rows);
   };
   const auto best = std::ranges::min_element(trials, {}, nats);
   return best == trials.end() ? nullptr : &*best;
@@ -163,7 +163,7 @@ std::vector<CorrectedRobot> starts_of(const CorrectedRobot& declared, std::span<
 }  // namespace
 
 void write_briefly(JointCandidates& candidates, const GpParameters& parameters) {
-  BriefForms forms(candidates.training.table, parameters);
+  FormulaRefiner forms(candidates.training.table, parameters);
   candidates.brief.clear();
   for (const Individual& individual : candidates.front) {
     candidates.brief.push_back(forms.simplified(individual.tree));

@@ -74,7 +74,7 @@ class Symbolic final : public EffectLaw {
 
  private:
   static std::string text_of(const Effect& effect, const Robot& robot) {
-    return to_text(effect.formula, symbolic_variables(robot.chain));
+    return to_string(effect.formula, symbolic_variables(robot.chain));
   }
 };
 

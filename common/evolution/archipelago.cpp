@@ -53,7 +53,7 @@ std::vector<IslandKey> consumers(const Archipelago& archipelago, IslandKey islan
   return keys;
 }
 
-GpParameters parameters_of(const GpParameters& parameters, const Archipelago& archipelago, std::uint32_t deme) {
+GpParameters island_parameters(const GpParameters& parameters, const Archipelago& archipelago, std::uint32_t deme) {
   if (archipelago.spread == 0.0 || archipelago.demes_per_joint < 2) return parameters;
   const double place = 2.0 * deme / (archipelago.demes_per_joint - 1.0) - 1.0;  // -1 to 1
   const double more = 1.0 + archipelago.spread * place, less = 1.0 - archipelago.spread * place;

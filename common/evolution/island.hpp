@@ -69,10 +69,10 @@ class Island {
  private:
   std::vector<Tree> first_trees(RandomStream& random) const;
   void enter_population(RandomStream& random);
-  void take_in(const Population& immigrants, RandomStream& random);
+  void accept_immigrants(const Population& immigrants, RandomStream& random);
   bool is_stagnant() const;
   void offer_all(ParetoFront& front);
-  void refuse_unsafe(std::size_t most);
+  void reject_unsafe(std::size_t most);
   void write_population();
   void forget_models();
   bool fits(const Tree& tree) const;

@@ -12,12 +12,12 @@ namespace demecal {
 
 /// Nats that it takes to write down the errors, normal and of unknown size, of a formula with mean square `square` over
 /// `rows` rows, and the formula: one for every node and log(rows) / 2 more for every constant (after Rissanen 1978).
-double message_nats(const Tree& tree, double square, double rows);
+double description_length_nats(const Tree& tree, double square, double rows);
 
 /// Rewrites formulas of one training table.
-class BriefForms {
+class FormulaRefiner {
  public:
-  BriefForms(const TrainingTable& training, const GpParameters& parameters)
+  FormulaRefiner(const TrainingTable& training, const GpParameters& parameters)
       : columns_(training.variables), fit_(training, parameters) {}
 
   /// With terms collected and without what changes no value on the training rows.
@@ -41,15 +41,15 @@ class ModelArchive {
   /// over.
   void offer(const Population& front);
 
-  /// The formula of least message_nats(), with its mean square as fitness; null where no formula was offered that
-  /// is finite on all rows.
+  /// The formula of least description_length_nats(), with its mean square as fitness; null where no formula was offered
+  /// that is finite on all rows.
   const Individual* chosen() const;
 
  private:
   double mean_square(const Tree& tree);
   double offer(const Tree& tree);
 
-  BriefForms brief_;
+  FormulaRefiner brief_;
   TrainingTable rows_;
   double weights_ = 0.0;
   ColumnEvaluator evaluate_;

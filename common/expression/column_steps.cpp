@@ -56,12 +56,12 @@ constexpr auto absolute = [](double x) { return std::abs(x); };
 
 }  // namespace
 
-Step step_of(Primitive function, const Operand& argument, double* out, bool out_whole) {
+Step make_step(Primitive function, const Operand& argument, double* out, bool out_whole) {
   DEMECAL_CHECK(arity(function) == 1 && argument.column != nullptr, "function=" << traits(function).symbol);
   return {argument.column, nullptr, out, 0.0, code_of(function, Form::column), argument.whole, false, out_whole};
 }
 
-Step step_of(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole) {
+Step make_step(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole) {
   DEMECAL_CHECK(arity(function) == 2 && (left.column != nullptr || right.column != nullptr),
                 "function=" << traits(function).symbol);
   if (right.column == nullptr)

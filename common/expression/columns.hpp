@@ -59,7 +59,7 @@ class ColumnPool {
 
   /// A column, or null where all are lent.
   double* take();
-  void give_back(double* column) { free_.push_back(column); }
+  void release(double* column) { free_.push_back(column); }
 
   std::size_t available() const { return most_ - made_ + free_.size(); }
   std::size_t most() const { return most_; }
@@ -93,9 +93,9 @@ struct Step {
 };
 
 /// A function of one column.
-Step step_of(Primitive function, const Operand& argument, double* out, bool out_whole);
+Step make_step(Primitive function, const Operand& argument, double* out, bool out_whole);
 /// A function of two arguments, of which one at least is a column.
-Step step_of(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole);
+Step make_step(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole);
 
 /// Runs the steps in turn over `rows` rows, a multiple of kLanes, from row `begin` of the whole columns. The bits of
 /// every row are those that value_of() gives. A step's `out` may be one of its arguments.

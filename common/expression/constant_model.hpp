@@ -67,24 +67,24 @@ class ConstantModel {
     std::uint32_t part = 0;
   };
 
-  void take_apart(const NodeStore& store, NodeId root);
+  void decompose(const NodeStore& store, NodeId root);
   void add_leaf(const SharedNode& node, NodeId id);
   std::uint32_t add_constant(NodeId id, double value);
   std::uint32_t add_function(Primitive primitive, std::uint32_t left, std::uint32_t right, NodeId id);
-  double* lend(double fill);
-  double* lend();
-  void sweep_back();
-  void sweep_back(const Part& part);
-  void send(std::uint32_t part, const double* slope);
+  double* take_column(double fill);
+  double* take_column();
+  void backpropagate();
+  void backpropagate(const Part& part);
+  void add_slope(std::uint32_t part, const double* slope);
   const double* emit(Primitive primitive, const Operand& argument);
   const double* emit(Primitive primitive, const Operand& left, const Operand& right);
   const double* negated(const double* column);
-  const double* share_of(const double* column);
+  const double* step_at(const double* column);
 
   PaddedColumns columns_;
   std::size_t strip_rows_;
   ColumnPool pool_;
-  std::vector<double*> lent_;
+  std::vector<double*> taken_;
   AlignedColumn ones_, zeros_;
   std::uint32_t formula_ = 0;
   std::vector<Known> known_;  ///< by node

@@ -45,8 +45,8 @@ Operand ColumnEvaluator::make_steps(std::span<const Node> tree) {
           taken == 1 ? value_of(node.primitive, last.constant) : value_of(node.primitive, left.constant, last.constant);
       continue;
     }
-    steps_.push_back(taken == 1 ? step_of(node.primitive, last, out, false)
-                                : step_of(node.primitive, left, last, out, false));
+    steps_.push_back(taken == 1 ? make_step(node.primitive, last, out, false)
+                                : make_step(node.primitive, left, last, out, false));
     last = {out, 0.0, false};
   }
   return operands_.front();
@@ -87,25 +87,27 @@ SharedEvaluator::SharedEvaluator(Columns columns, std::size_t budget_bytes)
       constant_strip_(strip_rows_) {}
 
 std::size_t SharedEvaluator::bytes() const {
-  return kept_.bytes() + strips_.bytes() + places_.capacity() * sizeof(Place) + steps_.capacity() * sizeof(Step);
+  return kept_.bytes() + strips_.bytes() + node_columns_.capacity() * sizeof(NodeColumn) +
+         steps_.capacity() * sizeof(Step);
 }
 
 void SharedEvaluator::bind(const NodeStore& store, std::span<const NodeId> roots) {
   store_ = &store;
   ++batch_;
-  if (places_.size() < store.end()) places_.resize(store.end());
+  if (node_columns_.size() < store.end()) node_columns_.resize(store.end());
   order_.clear();
   ends_.clear();
   for (const NodeId root : roots) {
     order_below(root);
     ends_.push_back(order_.size());
   }
-  make_room();
+  evict_columns();
   steps_.clear();
   values_.clear();
   std::size_t next = 0;
   for (std::size_t i = 0; i < roots.size(); ++i) {
-    for (; next < ends_[i]; ++next) bind_step(order_[next], order_[next] != roots[i] || places_[roots[i]].uses > 1);
+    for (; next < ends_[i]; ++next)
+      bind_step(order_[next], order_[next] != roots[i] || node_columns_[roots[i]].uses > 1);
     values_.push_back(use(roots[i]));
     ends_[i] = steps_.size();
   }
@@ -123,14 +125,14 @@ void SharedEvaluator::order_below(NodeId root) {
     }
     const SharedNode& node = (*store_)[id];
     if (node.left == 0 || node.is_constant) continue;
-    Place& place = places_[id];
-    if (place.batch == batch_) {
-      ++place.uses;
+    NodeColumn& cached = node_columns_[id];
+    if (cached.batch == batch_) {
+      ++cached.uses;
       continue;
     }
-    place.batch = batch_;
-    place.uses = 1;
-    if (place.kept != 0) continue;
+    cached.batch = batch_;
+    cached.uses = 1;
+    if (cached.kept != 0) continue;
     stack_.push_back(id | kArgumentsPushed);
     if (node.right != 0) stack_.push_back(node.right);
     stack_.push_back(node.left);
@@ -138,13 +140,13 @@ void SharedEvaluator::order_below(NodeId root) {
 }
 
 // Where not all new columns can be kept, those of nodes that this batch does not need make way for those used most.
-void SharedEvaluator::make_room() {
+void SharedEvaluator::evict_columns() {
   fewest_uses_ = 1;
   if (kept_.available() >= order_.size() || kept_.most() == 0) return;
-  std::erase_if(keepers_, [&](NodeId id) {
-    Place& place = places_[id];
-    if (place.batch == batch_) return false;
-    drop(place);
+  std::erase_if(cached_nodes_, [&](NodeId id) {
+    NodeColumn& cached = node_columns_[id];
+    if (cached.batch == batch_) return false;
+    drop(cached);
     return true;
   });
   fewest_uses_ = fewest_uses_for(kept_.available());
@@ -153,7 +155,7 @@ void SharedEvaluator::make_room() {
 // The least number of uses that no more than `columns` of the nodes to be computed reach.
 std::uint32_t SharedEvaluator::fewest_uses_for(std::size_t columns) const {
   std::array<std::size_t, 256> with_uses{};
-  for (const NodeId id : order_) ++with_uses[std::min<std::size_t>(places_[id].uses, with_uses.size() - 1)];
+  for (const NodeId id : order_) ++with_uses[std::min<std::size_t>(node_columns_[id].uses, with_uses.size() - 1)];
   std::size_t least = with_uses.size();
   for (std::size_t nodes = 0; least > 1; --least) {
     nodes += with_uses[least - 1];
@@ -167,10 +169,10 @@ Operand SharedEvaluator::use(NodeId id) {
   const SharedNode& node = (*store_)[id];
   if (node.is_constant) return {nullptr, node.value, false};
   if (node.left == 0) return {columns_.column(node.variable), 0.0, true};
-  Place& place = places_[id];
-  --place.uses;
-  if (place.uses == 0 && place.kept == 0) strips_.give_back(place.column);
-  return {place.column, 0.0, place.kept != 0};
+  NodeColumn& cached = node_columns_[id];
+  --cached.uses;
+  if (cached.uses == 0 && cached.kept == 0) strips_.release(cached.column);
+  return {cached.column, 0.0, cached.kept != 0};
 }
 
 // An argument's strip may be lent again at once: a step may write to what it reads.
@@ -178,21 +180,21 @@ void SharedEvaluator::bind_step(NodeId id, bool is_wanted_again) {
   const SharedNode& node = (*store_)[id];
   const Operand left = use(node.left);
   const Operand right = node.right != 0 ? use(node.right) : Operand{};
-  Place& place = places_[id];
-  place.column = is_wanted_again && place.uses >= fewest_uses_ ? kept_.take() : nullptr;
-  place.kept = place.column != nullptr ? 1 : 0;
-  if (place.kept != 0)
-    keepers_.push_back(id);
+  NodeColumn& cached = node_columns_[id];
+  cached.column = is_wanted_again && cached.uses >= fewest_uses_ ? kept_.take() : nullptr;
+  cached.kept = cached.column != nullptr ? 1 : 0;
+  if (cached.kept != 0)
+    cached_nodes_.push_back(id);
   else
-    place.column = strips_.take();
-  steps_.push_back(node.right != 0 ? step_of(node.primitive, left, right, place.column, place.kept != 0)
-                                   : step_of(node.primitive, left, place.column, place.kept != 0));
+    cached.column = strips_.take();
+  steps_.push_back(node.right != 0 ? make_step(node.primitive, left, right, cached.column, cached.kept != 0)
+                                   : make_step(node.primitive, left, cached.column, cached.kept != 0));
 }
 
-void SharedEvaluator::drop(Place& place) {
-  kept_.give_back(place.column);
-  place.column = nullptr;
-  place.kept = 0;
+void SharedEvaluator::drop(NodeColumn& cached) {
+  kept_.release(cached.column);
+  cached.column = nullptr;
+  cached.kept = 0;
 }
 
 void SharedEvaluator::run(const Receive& receive) {
@@ -213,11 +215,11 @@ void SharedEvaluator::run(const Receive& receive) {
 
 void SharedEvaluator::forget(std::span<const NodeId> dropped) {
   for (const NodeId id : dropped) {
-    if (id >= places_.size()) continue;
-    if (places_[id].kept != 0) drop(places_[id]);
-    places_[id] = {};
+    if (id >= node_columns_.size()) continue;
+    if (node_columns_[id].kept != 0) drop(node_columns_[id]);
+    node_columns_[id] = {};
   }
-  std::erase_if(keepers_, [&](NodeId id) { return places_[id].kept == 0; });
+  std::erase_if(cached_nodes_, [&](NodeId id) { return node_columns_[id].kept == 0; });
 }
 
 }  // namespace demecal

@@ -65,7 +65,7 @@ class SharedEvaluator {
   std::size_t kept_bytes() const { return kept_.bytes(); }
 
  private:
-  struct Place {
+  struct NodeColumn {
     double* column = nullptr;     ///< its own where it is kept, else a strip while it is bound
     std::uint32_t batch = 0;      ///< the last that needed the node
     std::uint32_t uses : 31 = 0;  ///< in that batch; while it is bound, those to come
@@ -73,18 +73,18 @@ class SharedEvaluator {
   };
 
   void order_below(NodeId root);
-  void make_room();
+  void evict_columns();
   std::uint32_t fewest_uses_for(std::size_t columns) const;
   void bind_step(NodeId id, bool is_wanted_again);
   Operand use(NodeId id);
-  void drop(Place& place);
+  void drop(NodeColumn& cached);
 
   PaddedColumns columns_;
   std::size_t strip_rows_;
   ColumnPool kept_, strips_;
   const NodeStore* store_ = nullptr;
-  std::vector<Place> places_;    ///< by node
-  std::vector<NodeId> keepers_;  ///< nodes that have a column, each once
+  std::vector<NodeColumn> node_columns_;  ///< by node
+  std::vector<NodeId> cached_nodes_;      ///< nodes that have a column, each once
   std::uint32_t batch_ = 0;
   std::uint32_t fewest_uses_ = 1;  ///< that a node needs to get a column of its own
   std::vector<NodeId> stack_, order_;

@@ -22,13 +22,13 @@ ArgumentPair arguments_of(Span tree) {
 }
 
 // The constant among a product's factors, and the others in their order.
-void take_apart(Span tree, double& constant, std::vector<Span>& factors) {
+void split_factors(Span tree, double& constant, std::vector<Span>& factors) {
   if (is_constant(tree)) {
     constant *= tree.front().value;
   } else if (tree.front().primitive == Primitive::multiply) {
     const auto [left, right] = arguments_of(tree);
-    take_apart(left, constant, factors);
-    take_apart(right, constant, factors);
+    split_factors(left, constant, factors);
+    split_factors(right, constant, factors);
   } else {
     factors.push_back(tree);
   }
@@ -105,7 +105,7 @@ void LinearForm::add(Span tree, double factor) {
 
 void LinearForm::add_product(Span tree, double factor) {
   std::vector<Span> factors;
-  take_apart(tree, factor, factors);
+  split_factors(tree, factor, factors);
   if (factors.empty()) {
     constant_ += factor;
   } else if (factors.size() == 1) {

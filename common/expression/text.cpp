@@ -55,7 +55,7 @@ class FormulaParser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& expected) const { refuse_at(text_, at_, expected); }
+  [[noreturn]] void fail(const std::string& expected) const { throw_syntax_error(text_, at_, expected); }
 
   void skip_spaces() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
@@ -202,7 +202,7 @@ VariableNames theta_only() {
   return {"theta"};
 }
 
-std::string to_text(std::span<const Node> tree, const VariableNames& names) {
+std::string to_string(std::span<const Node> tree, const VariableNames& names) {
   return fold<InfixText>(
              tree,
              [&](const Node& node) {
@@ -221,11 +221,11 @@ Tree parse(std::string_view text, const VariableNames& names, std::span<const Sh
   return FormulaParser(text, names, functions).whole();
 }
 
-void refuse_at(std::string_view text, std::size_t at, const std::string& expected) {
+void throw_syntax_error(std::string_view text, std::size_t position, const std::string& expected) {
   constexpr std::size_t kShown = 80;
   std::string shown(text.substr(0, kShown));
   if (text.size() > kShown) shown += "...";
-  throw InputError({}, shown, "column " + std::to_string(at + 1) + ": expected " + expected);
+  throw InputError({}, shown, "column " + std::to_string(position + 1) + ": expected " + expected);
 }
 
 }  // namespace demecal

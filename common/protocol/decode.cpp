@@ -170,13 +170,13 @@ class Decoder {
 }  // namespace
 
 template <class Plain>
-std::optional<Plain> message_of(std::string_view bytes) {
+std::optional<Plain> from_bytes(std::string_view bytes) {
   if (bytes.size() > kMostSample_bytes) return std::nullopt;
   return Decoder(bytes, std::endian::little).read<Plain>(0);
 }
 
 template <class Plain>
-std::optional<Plain> sample_of(std::string_view bytes) {
+std::optional<Plain> from_sample(std::string_view bytes) {
   if (bytes.size() < kEncapsulation_bytes || bytes.size() > kMostSample_bytes) return std::nullopt;
   if (bytes[0] != 0 || (bytes[1] != 0 && bytes[1] != 1)) return std::nullopt;
   const std::endian order = bytes[1] == 1 ? std::endian::little : std::endian::big;
@@ -184,8 +184,8 @@ std::optional<Plain> sample_of(std::string_view bytes) {
 }
 
 #define DEMECAL_DECODE(Plain)                                 \
-  template std::optional<Plain> message_of(std::string_view); \
-  template std::optional<Plain> sample_of(std::string_view)
+  template std::optional<Plain> from_bytes(std::string_view); \
+  template std::optional<Plain> from_sample(std::string_view)
 DEMECAL_DECODE(CalibrationData);
 DEMECAL_DECODE(IslandTask);
 DEMECAL_DECODE(Migrants);

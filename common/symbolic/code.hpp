@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "symbolic/parse_expression.hpp"
-#include "symbolic/spelling.hpp"
+#include "symbolic/printing.hpp"
 
 namespace demecal {
 

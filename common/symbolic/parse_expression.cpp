@@ -34,7 +34,7 @@ class ExpressionParser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& expected) const { refuse_at(text_, at_, expected); }
+  [[noreturn]] void fail(const std::string& expected) const { throw_syntax_error(text_, at_, expected); }
 
   /// Numbers that no double holds, and powers of powers that no code can be written for.
   void refuse_excess(Expression expression) const {

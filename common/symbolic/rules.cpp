@@ -138,7 +138,7 @@ SplitFactors split_factors(Expression first, Expression second) {
   return split;
 }
 
-bool is(const Part& factor, Function function, double exponent) {
+bool is_power_of(const Part& factor, Function function, double exponent) {
   return factor.first->kind == Kind::function && factor.first->function == function && factor.second == exponent;
 }
 Expression angle_of(const Part& factor) {
@@ -149,14 +149,16 @@ Expression angle_of(const Part& factor) {
 std::optional<Expression> joined_squares(const std::vector<Part>& first, const std::vector<Part>& second, double ratio,
                                          Algebra& algebra) {
   if (second.size() != 1) return std::nullopt;
-  const bool sine_second = is(second[0], Function::sine, 2.0), cosine_second = is(second[0], Function::cosine, 2.0);
+  const bool sine_second = is_power_of(second[0], Function::sine, 2.0),
+             cosine_second = is_power_of(second[0], Function::cosine, 2.0);
   if (!sine_second && !cosine_second) return std::nullopt;
   const Expression angle = angle_of(second[0]);
   if (first.empty() && ratio < 0.0) {
     const Expression other = sine_second ? cosine(angle) : sine(angle);
     return other * other;
   }
-  if (first.size() != 1 || !is(first[0], sine_second ? Function::cosine : Function::sine, 2.0)) return std::nullopt;
+  if (first.size() != 1 || !is_power_of(first[0], sine_second ? Function::cosine : Function::sine, 2.0))
+    return std::nullopt;
   if (angle_of(first[0]) != angle) return std::nullopt;
   if (ratio > 0.0) return algebra.constant(1.0);
   return sine_second ? cosine(2.0 * angle) : -cosine(2.0 * angle);
@@ -166,10 +168,11 @@ std::optional<Expression> joined_squares(const std::vector<Part>& first, const s
 std::optional<std::array<Part, 2>> pair_of(const std::vector<Part>& factors) {
   if (factors.size() != 2) return std::nullopt;
   for (const Part& factor : factors) {
-    if (!is(factor, Function::sine, 1.0) && !is(factor, Function::cosine, 1.0)) return std::nullopt;
+    if (!is_power_of(factor, Function::sine, 1.0) && !is_power_of(factor, Function::cosine, 1.0)) return std::nullopt;
   }
   std::array<Part, 2> pair{factors[0], factors[1]};
-  if (is(pair[0], Function::cosine, 1.0) && is(pair[1], Function::sine, 1.0)) std::swap(pair[0], pair[1]);
+  if (is_power_of(pair[0], Function::cosine, 1.0) && is_power_of(pair[1], Function::sine, 1.0))
+    std::swap(pair[0], pair[1]);
   return pair;
 }
 
@@ -200,7 +203,7 @@ std::vector<Part> factors_of(Expression expression) {
   return {{expression, 1.0}};
 }
 
-std::optional<Expression> turned(Function function, Expression angle) {
+std::optional<Expression> simplified_trigonometricFunction function, Expression angle) {
   Algebra& algebra = angle.algebra();
   if (angle.is_constant()) {
     const auto count = right_angles(angle->value);
@@ -230,7 +233,7 @@ std::optional<Expression> joined(Expression first, Expression second, double rat
   return algebra.product(factors);
 }
 
-std::optional<Expression> joined_with_one(Expression term, double ratio) {
+std::optional<Expression> combined_with_one(Expression term, double ratio) {
   return joined_squares({}, factors_of(term), ratio, term.algebra());
 }
 

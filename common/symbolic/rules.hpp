@@ -16,13 +16,13 @@ std::optional<Expression> folded(Function function, const std::vector<Expression
 
 /// The sine or cosine of an angle: exact at right angles, right angles within a sum taken out of it, and its first term
 /// not negative. Where nothing of that applies, nothing.
-std::optional<Expression> turned(Function function, Expression angle);
+std::optional<Expression> simplified_trigonometricFunction function, Expression angle);
 
 /// first + ratio * second, ratio +1 or -1, where a theorem of sines and cosines makes one term of it.
 std::optional<Expression> joined(Expression first, Expression second, double ratio);
 
 /// 1 + ratio * term likewise.
-std::optional<Expression> joined_with_one(Expression term, double ratio);
+std::optional<Expression> combined_with_one(Expression term, double ratio);
 
 /// Bases and exponents of a product; of anything else, itself once.
 std::vector<Part> factors_of(Expression expression);

@@ -10,7 +10,7 @@ namespace {
 
 std::string rewrite(const char* text, const TrainingTable& table) {
   FormulaMisfit misfit(table);
-  return to_text(rewritten(parse(text, kNames), misfit), kNames);
+  return to_string(rewritten(parse(text, kNames), misfit), kNames);
 }
 
 TEST(Rewritten, LeavesOutWhatEarnsNothing) {

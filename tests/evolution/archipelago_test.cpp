@@ -86,10 +86,11 @@ TEST(Archipelago, EveryIslandConsumesWhatItsSourcesSend) {
 TEST(IslandParameters, AreTheSameWithoutASpreadOrNeighbours) {
   const GpParameters parameters;
   Archipelago archipelago;
-  for (std::uint32_t deme = 0; deme < 2; ++deme) EXPECT_EQ(parameters_of(parameters, archipelago, deme), parameters);
+  for (std::uint32_t deme = 0; deme < 2; ++deme)
+    EXPECT_EQ(island_parameters(parameters, archipelago, deme), parameters);
   archipelago.spread = 1.0;
   archipelago.demes_per_joint = 1;
-  EXPECT_EQ(parameters_of(parameters, archipelago, 0), parameters);
+  EXPECT_EQ(island_parameters(parameters, archipelago, 0), parameters);
 }
 
 TEST(IslandParameters, GoFromExploringToExploitingWithinTheRules) {
@@ -100,12 +101,12 @@ TEST(IslandParameters, GoFromExploringToExploitingWithinTheRules) {
       Archipelago archipelago;
       archipelago.spread = spread;
       archipelago.demes_per_joint = 5;
-      EXPECT_EQ(parameters_of(parameters, archipelago, 2), parameters);
+      EXPECT_EQ(island_parameters(parameters, archipelago, 2), parameters);
       for (std::uint32_t deme = 0; deme < 5; ++deme) {
-        const GpParameters own = parameters_of(parameters, archipelago, deme);
+        const GpParameters own = island_parameters(parameters, archipelago, deme);
         EXPECT_FALSE(find_fault(own));
         if (deme == 0) continue;
-        const GpParameters before = parameters_of(parameters, archipelago, deme - 1);
+        const GpParameters before = island_parameters(parameters, archipelago, deme - 1);
         EXPECT_LT(own.mutation_rate, before.mutation_rate);
         EXPECT_GE(own.tournament_size, before.tournament_size);
         EXPECT_GT(own.shrink_mutation_rate, before.shrink_mutation_rate);

@@ -42,7 +42,7 @@ TEST(BlockForm, IsOneWhateverTheOrderOfArgumentsAndTheConstants) {
       if (node.primitive == Primitive::constant) node.value *= random.real(0.5, 2.0);
     }
     if (simplified(tree) != tree || simplified(other) != other) continue;  // what falls away depends on the constants
-    EXPECT_EQ(block_form(tree), block_form(other)) << to_text(tree) << " and " << to_text(other);
+    EXPECT_EQ(block_form(tree), block_form(other)) << to_string(tree) << " and " << to_string(other);
     tried += tree.size() > 3 ? 1 : 0;
   }
   EXPECT_GT(tried, 200);

@@ -131,7 +131,7 @@ TEST(Calls, HaveNumbersInTheRangeOfConstantsAsCoefficients) {
     const FoldedFormula formula = folded(tree, parameters.shared_functions);
     EXPECT_TRUE(std::ranges::all_of(formula.outline, [](const Node& node) {
       return arity(node.primitive) == 0 || node.primitive == Primitive::sine;
-    })) << to_text(formula);
+    })) << to_string(formula);
     calls += static_cast<int>(formula.calls.size());
     for (const Node& node : tree) {
       if (node.primitive != Primitive::constant) continue;

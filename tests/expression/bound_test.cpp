@@ -42,7 +42,7 @@ TEST(Bound, HoldsEverySampledValueOfRandomTrees) {
     for (int i = 0; i < 100; ++i) {
       const double theta = sample(random, range);
       const double value = evaluate(tree, {&theta, 1});
-      EXPECT_TRUE(!std::isfinite(value) || holds(values, value)) << to_text(tree) << " at " << theta;
+      EXPECT_TRUE(!std::isfinite(value) || holds(values, value)) << to_string(tree) << " at " << theta;
     }
   }
   EXPECT_GT(finite, 1000);
@@ -132,7 +132,7 @@ TEST(StaysWithin, SaysWhatTheBoundOnAllPiecesSays) {
     const double size = magnitude_bound(tree, range);
     const double largest = random.real(0.0, 3.0);
     if (std::abs(size - largest) <= 1e-9 * largest) continue;
-    ASSERT_EQ(stays_within(tree, range, largest), size < largest) << to_text(tree);
+    ASSERT_EQ(stays_within(tree, range, largest), size < largest) << to_string(tree);
     (size < largest ? inside : outside) += 1;
   }
   EXPECT_GT(inside, 200);

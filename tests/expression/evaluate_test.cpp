@@ -23,7 +23,8 @@ void expect_rows_like_points(RandomStream& random, const std::vector<std::vector
     for (std::size_t row = 0; row < values.size(); ++row) {
       std::vector<double> point;
       for (const std::vector<double>& column : columns) point.push_back(column[row]);
-      EXPECT_TRUE(same_bits(values[row], evaluate(tree, point))) << to_text(tree, {"a", "b", "c"}) << " in row " << row;
+      EXPECT_TRUE(same_bits(values[row], evaluate(tree, point)))
+          << to_string(tree, {"a", "b", "c"}) << " in row " << row;
     }
   }
 }

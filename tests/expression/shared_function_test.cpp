@@ -109,8 +109,8 @@ TEST(Folded, WrittenOutIsTheFormulaButForTheOrderOfArguments) {
     const std::vector<SharedFunction> functions = random_functions(random);
     const Tree tree = swapped(random, random_calling_tree(random, functions, 3));
     const FoldedFormula formula = folded(tree, functions);
-    ASSERT_EQ(in_order(expanded(formula, functions)), in_order(tree)) << to_text(formula);
-    ASSERT_EQ(size(formula), folded_size(tree, functions)) << to_text(formula);
+    ASSERT_EQ(in_order(expanded(formula, functions)), in_order(tree)) << to_string(formula);
+    ASSERT_EQ(size(formula), folded_size(tree, functions)) << to_string(formula);
     EXPECT_LE(size(formula), tree.size());
     calls += formula.calls.empty() ? 0 : 1;
   }
@@ -122,7 +122,7 @@ TEST(Folded, ComesBackFromItsTextToTheBit) {
   for (int i = 0; i < 2000; ++i) {
     const std::vector<SharedFunction> functions = random_functions(random);
     const FoldedFormula formula = folded(random_calling_tree(random, functions, 3), functions);
-    const std::string text = to_text(formula);
+    const std::string text = to_string(formula);
     ASSERT_EQ(parse(text, theta_only(), functions), expanded(formula, functions)) << text;
   }
 }
@@ -135,8 +135,8 @@ TEST(Folded, FindsACallWhateverTheOrderOfItsArguments) {
     const Tree call = expanded(functions[0], places);
     const FoldedFormula formula = folded(swapped(random, call), functions);
     const std::size_t as_call = 1 + places.size();
-    EXPECT_LE(size(formula), std::min(as_call, call.size())) << to_text(call);
-    EXPECT_EQ(formula.calls.empty(), as_call >= call.size()) << to_text(call);
+    EXPECT_LE(size(formula), std::min(as_call, call.size())) << to_string(call);
+    EXPECT_EQ(formula.calls.empty(), as_call >= call.size()) << to_string(call);
   }
 }
 
@@ -146,7 +146,7 @@ TEST(Folded, WithoutFunctionsIsTheFormulaItself) {
     const Tree tree = random_tree(random, 5);
     const FoldedFormula formula = folded(tree, {});
     EXPECT_EQ(expanded(formula, {}), tree);
-    EXPECT_EQ(to_text(formula), to_text(tree));
+    EXPECT_EQ(to_string(formula), to_string(tree));
     EXPECT_THAT(functions_called(formula), IsEmpty());
   }
 }
@@ -155,14 +155,14 @@ TEST(Folded, CallsInsideCalls) {
   const std::vector<SharedFunction> functions{parse_definition("F1(c1, a1) = SIN(c1 * a1)", 0),
                                               parse_definition("F2(a1) = a1 * COS(a1)", 1)};
   const FoldedFormula formula = folded(parse("2 + SIN(COS(SIN(theta * 3)) * SIN(3 * theta) * 0.5)"), functions);
-  EXPECT_EQ(to_text(formula), "2 + F1(0.5, F2(F1(3, theta)))");
+  EXPECT_EQ(to_string(formula), "2 + F1(0.5, F2(F1(3, theta)))");
   EXPECT_THAT(functions_called(formula), ElementsAre(0, 1));
   EXPECT_EQ(size(formula), 8U);
 }
 
 TEST(Folded, TakesTheNegativeOfAConstantThatIsSubtracted) {
   const std::vector<SharedFunction> functions{parse_definition("F1(c1, c2, a1) = c1 * SIN(a1 + c2)", 0)};
-  EXPECT_EQ(to_text(folded(parse("0.0037 * SIN(2 * theta - 1.2)"), functions)), "F1(0.0037, -1.2, 2 * theta)");
+  EXPECT_EQ(to_string(folded(parse("0.0037 * SIN(2 * theta - 1.2)"), functions)), "F1(0.0037, -1.2, 2 * theta)");
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(InOrder, IsTheSameForFormulasThatDifferInTheOrderOfArguments) {
   int different = 0;
   for (int i = 0; i < 3000; ++i) {
     const Tree tree = random_tree(random, 6, 2), other = swapped(random, tree);
-    ASSERT_EQ(in_order(tree), in_order(other)) << to_text(tree, {"x", "y"});
+    ASSERT_EQ(in_order(tree), in_order(other)) << to_string(tree, {"x", "y"});
     different += tree != other ? 1 : 0;
   }
   EXPECT_GT(different, 1000);
@@ -108,7 +108,7 @@ TEST(InOrder, KeepsValuesToTheBitAndChangesNothingTwice) {
     for (int k = 0; k < 5; ++k) {
       const double theta[] = {random.real(-3.0, 3.0)};
       const double before = evaluate(tree, theta), after = evaluate(ordered, theta);
-      ASSERT_TRUE(before == after || (std::isnan(before) && std::isnan(after))) << to_text(tree);
+      ASSERT_TRUE(before == after || (std::isnan(before) && std::isnan(after))) << to_string(tree);
     }
   }
 }

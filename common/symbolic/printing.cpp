@@ -1,4 +1,4 @@
-#include "symbolic/spelling.hpp"
+#include "symbolic/printing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,7 +74,7 @@ bool is_called(Primitive primitive) {
 /// Writes one expression; calls itself for its parts.
 class ExpressionWriter {
  public:
-  ExpressionWriter(const Spelling& spelling, const NamedTerms& named) : spelling_(spelling), named_(named) {}
+  ExpressionWriter(const ExpressionPrinter& printer, const NamedTerms& named) : printer_(printer), named_(named) {}
 
   InfixText part(Expression expression) const {
     const auto name = named_.find(expression->id);
@@ -84,7 +84,7 @@ class ExpressionWriter {
   InfixText whole(Expression expression) const {
     switch (expression->kind) {
       case Kind::constant:
-        return {spelling_.number(expression->value), expression->value < 0.0 ? Precedence::sum : Precedence::whole};
+        return {printer_.number(expression->value), expression->value < 0.0 ? Precedence::sum : Precedence::whole};
       case Kind::symbol:
         return {expression->name};
       case Kind::sum:
@@ -97,7 +97,7 @@ class ExpressionWriter {
     const bool formula = expression->function == Function::formula;
     std::vector<std::string> arguments;
     for (const Part& argument : expression->parts) arguments.push_back(part(argument.first).text);
-    return {(formula ? expression->name : spelling_.name(expression->function)) + '(' + join(arguments, ", ") + ')'};
+    return {(formula ? expression->name : printer_.name(expression->function)) + '(' + join(arguments, ", ") + ')'};
   }
 
  private:
@@ -110,7 +110,7 @@ class ExpressionWriter {
         if ((coefficient < 0.0) == negative) append(text, negative, scaled(part, std::abs(coefficient))), ++terms;
       }
       if (expression->value != 0.0 && (expression->value < 0.0) == negative) {
-        append(text, negative, spelling_.number(std::abs(expression->value))), ++terms;
+        append(text, negative, printer_.number(std::abs(expression->value))), ++terms;
       }
     }
     return {text, terms == 1 && text[0] != '-' ? Precedence::product : Precedence::sum};
@@ -121,7 +121,7 @@ class ExpressionWriter {
   }
   std::string scaled(Expression expression, double coefficient) const {
     const std::string text = in_parentheses_below(Precedence::product, part(expression));
-    return coefficient == 1.0 ? text : spelling_.number(coefficient) + '*' + text;
+    return coefficient == 1.0 ? text : printer_.number(coefficient) + '*' + text;
   }
 
   InfixText product(const std::vector<Part>& parts) const {
@@ -129,7 +129,7 @@ class ExpressionWriter {
     for (const auto& [base, exponent] : parts) {
       (exponent > 0.0 ? above : below).push_back(power(base, static_cast<int>(std::abs(exponent))));
     }
-    std::string text = above.empty() ? spelling_.number(1.0) : join(above, "*");
+    std::string text = above.empty() ? printer_.number(1.0) : join(above, "*");
     if (!below.empty())
       text += '/' + (below.size() == 1 && !has_operator(below[0]) ? below[0] : '(' + join(below, "*") + ')');
     return {text,
@@ -141,7 +141,7 @@ class ExpressionWriter {
     const std::string text = in_parentheses_below(Precedence::whole, part(base));
     if (exponent == 1) return text;
     const std::string digits = std::to_string(exponent);
-    switch (spelling_.language()) {
+    switch (printer_.language()) {
       case CodeLanguage::python:
         return text + "**" + digits;
       case CodeLanguage::c:
@@ -152,17 +152,17 @@ class ExpressionWriter {
     }
   }
 
-  const Spelling& spelling_;
+  const ExpressionPrinter& printer_;
   const NamedTerms& named_;
 };
 
 }  // namespace
 
-std::string Spelling::operator()(Expression expression, const NamedTerms& named) const {
+std::string ExpressionPrinter::operator()(Expression expression, const NamedTerms& named) const {
   return ExpressionWriter(*this, named).whole(expression).text;
 }
 
-std::string Spelling::number(double value) const {
+std::string ExpressionPrinter::number(double value) const {
   std::array<char, 32> digits;
   std::string text(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
   const bool code = language_ == CodeLanguage::c || language_ == CodeLanguage::python;
@@ -170,7 +170,7 @@ std::string Spelling::number(double value) const {
   return text;
 }
 
-std::string Spelling::name(Function function) const {
+std::string ExpressionPrinter::name(Function function) const {
   const auto of = [&](const char* c, const char* python, const char* other) -> std::string {
     return language_ == CodeLanguage::c ? c : language_ == CodeLanguage::python ? python : other;
   };
@@ -217,7 +217,7 @@ std::string Spelling::name(Function function) const {
   DEMECAL_CHECK(false, "an evolved formula has its own name");
 }
 
-std::string Spelling::formula(const Tree& tree, const std::vector<std::string>& variables) const {
+std::string ExpressionPrinter::formula(const Tree& tree, const std::vector<std::string>& variables) const {
   const auto binary = [&](Primitive primitive, const InfixText& left, const InfixText& right) -> InfixText {
     if (is_called(primitive)) return {name(function_of(primitive)) + '(' + left.text + ", " + right.text + ')'};
     const Precedence own = primitive == Primitive::multiply ? Precedence::product : Precedence::sum;
@@ -262,7 +262,8 @@ bool is_free(const ExpressionNode& term) {
 
 }  // namespace
 
-Steps steps_to(const std::vector<Expression>& expressions, const Spelling& spelling, const std::string& stem) {
+Steps plan_steps(const std::vector<Expression>& expressions, const ExpressionPrinter& printer,
+                 const std::string& stem) {
   std::map<std::uint32_t, int> written;
   for (const Expression expression : expressions) ++written[expression->id];
   const std::vector<Expression> terms = terms_of(expressions);
@@ -281,12 +282,12 @@ Steps steps_to(const std::vector<Expression>& expressions, const Spelling& spell
   std::ranges::reverse(shared);
   for (const Expression term : shared) {
     const std::string name = stem + std::to_string(steps.assignments.size() + 1);
-    steps.assignments.emplace_back(name, spelling(term, steps.names));
+    steps.assignments.emplace_back(name, printer(term, steps.names));
     steps.names.emplace(term->id, name);
   }
   for (const Expression expression : expressions) {
     const auto name = steps.names.find(expression->id);
-    steps.results.push_back(name == steps.names.end() ? spelling(expression, steps.names) : name->second);
+    steps.results.push_back(name == steps.names.end() ? printer(expression, steps.names) : name->second);
   }
   return steps;
 }

@@ -1,4 +1,4 @@
-// How expressions are spelt in the languages that they are handed on in, what they share computed once.
+// Expressions as code and text: how each language writes them, and the steps that compute once what they share.
 #pragma once
 
 #include <map>
@@ -16,9 +16,9 @@ enum class CodeLanguage { text, c, python, matlab };
 /// Expressions that have got a name of their own, by id.
 using NamedTerms = std::map<std::uint32_t, std::string>;
 
-class Spelling {
+class ExpressionPrinter {
  public:
-  explicit Spelling(CodeLanguage language) : language_(language) {}
+  explicit ExpressionPrinter(CodeLanguage language) : language_(language) {}
 
   /// The expression in infix; what has a name is written by its name.
   std::string operator()(Expression expression, const NamedTerms& named = {}) const;
@@ -44,6 +44,7 @@ struct Steps {
   std::vector<std::pair<std::string, std::string>> assignments;  ///< name and what it is
   std::vector<std::string> results;                              ///< one per expression
 };
-Steps steps_to(const std::vector<Expression>& expressions, const Spelling& spelling, const std::string& stem = "t");
+Steps plan_steps(const std::vector<Expression>& expressions, const ExpressionPrinter& printer,
+                 const std::string& stem = "t");
 
 }  // namespace demecal
