@@ -93,7 +93,7 @@ SharedPopulation Breeder::enter(const std::vector<Tree>& trees) {
   return population;
 }
 
-void Breeder::replaceNodeId root, SharedPopulation& population, std::size_t i) {
+void Breeder::replace(NodeId root, SharedPopulation& population, std::size_t i) {
   population.roots[i] = population.models[i] = root;
   population.fitness[i] = fitness(root);
   if (learning_.is_on() && std::isfinite(population.fitness[i])) learning_.learn(store_, population, i);

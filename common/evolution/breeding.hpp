@@ -75,7 +75,7 @@ class Breeder {
   NodeId enter(const Tree& tree) { return store_.enter(tree); }
   double fitness(NodeId root);
   /// Has a formula of the store take place i, and learn what constants it is fitted with, whatever the share.
-  void replaceNodeId root, SharedPopulation& population, std::size_t i);
+  void replace(NodeId root, SharedPopulation& population, std::size_t i);
   /// Whether a formula of the store surely keeps to the table's limit.
   bool limits() const { return is_safe_.is_on(); }  ///< whether there is one
   bool is_safe(NodeId root) { return is_safe_(store_, root); }

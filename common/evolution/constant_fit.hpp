@@ -95,7 +95,6 @@ class ConstantFit {
   bool step(double& damping);
   void search_jumps();
 
-  std::size_t rows_;
   AlignedColumn target_, weight_;  ///< padded, without weight
   double weights_ = 0.0;
   ErrorSum errors_;

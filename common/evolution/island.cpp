@@ -127,7 +127,7 @@ void Island::offer_all(ParetoFront& front) {
   for (std::size_t i = 0; i < residents_.roots.size(); ++i) {
     const NodeId model = residents_.models[i];
     double& fitness = residents_.fitness[i];
-    if (model == 0 || !front.would_enterbreeder_.store()[model].whole.nodes, fitness)) continue;
+    if (model == 0 || !front.would_enter(breeder_.store()[model].whole.nodes, fitness)) continue;
     if (breeder_.is_safe(model))
       front.offer({breeder_.store().tree(model), fitness});
     else
@@ -184,7 +184,7 @@ void Island::accept_immigrants(const Population& immigrants, RandomStream& rando
     if (std::find(roots.begin(), roots.end(), root) != roots.end()) continue;
     if (archipelago_.replacement == Replacement::random)
       std::swap(places[taken], places[taken + random.index(places.size() - taken)]);
-    breeder_.replaceroot, residents_, places[taken++]);
+    breeder_.replace(root, residents_, places[taken++]);
   }
   state_.evaluations += taken;
   state_.migrants_taken += taken;

@@ -12,7 +12,7 @@ Population::const_iterator ParetoFront::first_as_long(std::size_t length) const 
   return std::lower_bound(members_.begin(), members_.end(), length, shorter);
 }
 
-bool ParetoFront::would_enterstd::size_t length, double fitness) const {
+bool ParetoFront::would_enter(std::size_t length, double fitness) const {
   if (!std::isfinite(fitness)) return false;
   const auto place = first_as_long(length);
   if (place != members_.begin() && (place - 1)->fitness <= fitness) return false;
@@ -20,7 +20,7 @@ bool ParetoFront::would_enterstd::size_t length, double fitness) const {
 }
 
 void ParetoFront::offer(const Individual& individual) {
-  if (!would_enterindividual.tree.size(), individual.fitness)) return;
+  if (!would_enter(individual.tree.size(), individual.fitness)) return;
   const auto place = first_as_long(individual.tree.size());
   const auto better = [&](const Individual& member) { return member.fitness < individual.fitness; };
   const auto undominated = std::find_if(place, members_.cend(), better);

@@ -31,7 +31,7 @@ class ParetoFront {
   explicit ParetoFront(Population members) : members_(std::move(members)) {}
 
   /// Whether offer() would enter an individual of `length` nodes.
-  bool would_enterstd::size_t length, double fitness) const;
+  bool would_enter(std::size_t length, double fitness) const;
   /// Enters the individual where it belongs and drops what it dominates; at equal fitness the earlier one stays. Not
   /// entered where its fitness is not finite.
   void offer(const Individual& individual);

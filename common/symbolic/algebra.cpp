@@ -154,7 +154,7 @@ Expression Algebra::function(Function function, const std::vector<Expression>& a
   DEMECAL_CHECK(function != Function::formula && !arguments.empty(), arguments.size() << " arguments");
   if (const auto value = folded(function, arguments)) return *value;
   if (function == Function::sine || function == Function::cosine) {
-    if (const auto shorter = simplified_trigonometricfunction, arguments[0])) return *shorter;
+    if (const auto shorter = simplified_trigonometric(function, arguments[0])) return *shorter;
   }
   std::vector<Part> parts;
   for (const Expression argument : arguments) parts.emplace_back(argument, 1.0);

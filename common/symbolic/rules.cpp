@@ -203,7 +203,7 @@ std::vector<Part> factors_of(Expression expression) {
   return {{expression, 1.0}};
 }
 
-std::optional<Expression> simplified_trigonometricFunction function, Expression angle) {
+std::optional<Expression> simplified_trigonometric(Function function, Expression angle) {
   Algebra& algebra = angle.algebra();
   if (angle.is_constant()) {
     const auto count = right_angles(angle->value);

@@ -16,7 +16,7 @@ std::optional<Expression> folded(Function function, const std::vector<Expression
 
 /// The sine or cosine of an angle: exact at right angles, right angles within a sum taken out of it, and its first term
 /// not negative. Where nothing of that applies, nothing.
-std::optional<Expression> simplified_trigonometricFunction function, Expression angle);
+std::optional<Expression> simplified_trigonometric(Function function, Expression angle);
 
 /// first + ratio * second, ratio +1 or -1, where a theorem of sines and cosines makes one term of it.
 std::optional<Expression> joined(Expression first, Expression second, double ratio);
