@@ -11,6 +11,7 @@
 #include "evolution/parameters.hpp"
 #include "evolution/variation.hpp"
 #include "expression/node_store.hpp"
+#include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "errors/check.hpp"
+#include "expression/primitive.hpp"
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
 

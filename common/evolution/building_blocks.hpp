@@ -10,6 +10,7 @@
 #include "evolution/population.hpp"
 #include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 

@@ -12,12 +12,13 @@
 #include "evolution/parameters.hpp"
 #include "expression/columns.hpp"
 #include "expression/constant_model.hpp"
+#include "expression/node_store.hpp"
 
 namespace demecal {
 
 /// (J' W J + damping diag(J' W J)) x = J' W e, where column i of J is the slope of the values by unknown i and e are
 /// the errors left (Marquardt 1963). Keeps its memory.
-class NormalEquations {
+class DampedNormalEquations {
  public:
   static constexpr std::size_t kMostRowsAtOnce = 256;
 
@@ -100,7 +101,7 @@ class ConstantFit {
   ErrorSum errors_;
   GpParameters parameters_;
   ConstantModel model_;
-  NormalEquations equations_;
+  DampedNormalEquations equations_;
   SimplexSearch simplex_;
   Loss own_loss_, loss_kind_;  ///< the table's, and that of the present fit
   std::vector<double> constants_, trial_, step_;

@@ -1,7 +1,10 @@
 #include "evolution/fitness.hpp"
+#include "expression/columns.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "errors/check.hpp"
 #include "expression/elementary.hpp"

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "expression/bound.hpp"
+#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/node_store.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 

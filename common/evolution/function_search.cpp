@@ -1,11 +1,17 @@
 #include "evolution/building_blocks.hpp"
+#include "expression/primitive.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "expression/shared_function.hpp"
 #include "expression/tree.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "evolution/archipelago.hpp"
 #include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
+#include "expression/node_store.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

@@ -1,14 +1,18 @@
 // One island: a population of correction models that breeds epoch by epoch and exchanges elites with its neighbours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "evolution/archipelago.hpp"
 #include "evolution/breeding.hpp"
+#include "evolution/fitness.hpp"
 #include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
+#include "expression/tree.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal {
 

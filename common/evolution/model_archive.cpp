@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "errors/check.hpp"
+#include "expression/columns.hpp"
+#include "expression/node_store.hpp"
+#include "expression/primitive.hpp"
 
 namespace demecal {
 

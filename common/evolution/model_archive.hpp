@@ -1,12 +1,17 @@
 // Which of the formulas that islands found is reported: the one that describes measured and unseen rows most briefly.
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "evolution/constant_fit.hpp"
+#include "evolution/fitness.hpp"
+#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
+#include "expression/evaluate.hpp"
 #include "expression/simplify.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 

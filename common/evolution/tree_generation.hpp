@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "evolution/parameters.hpp"
+#include "expression/primitive.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 

@@ -8,6 +8,8 @@
 #include "evolution/parameters.hpp"
 #include "evolution/tree_generation.hpp"
 #include "expression/node_store.hpp"
+#include "expression/tree.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal {
 

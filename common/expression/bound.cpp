@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "errors/check.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {

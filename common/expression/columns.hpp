@@ -83,7 +83,7 @@ struct Operand {
 };
 
 /// A function of columns, ready to run.
-struct Step {
+struct ColumnStep {
   const double* left = nullptr;   ///< the one argument, or the column among the two
   const double* right = nullptr;  ///< the second where both are columns
   double* out = nullptr;
@@ -93,12 +93,12 @@ struct Step {
 };
 
 /// A function of one column.
-Step make_step(Primitive function, const Operand& argument, double* out, bool out_whole);
+ColumnStep make_step(Primitive function, const Operand& argument, double* out, bool out_whole);
 /// A function of two arguments, of which one at least is a column.
-Step make_step(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole);
+ColumnStep make_step(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole);
 
 /// Runs the steps in turn over `rows` rows, a multiple of kLanes, from row `begin` of the whole columns. The bits of
 /// every row are those that value_of() gives. A step's `out` may be one of its arguments.
-void run(std::span<const Step> steps, std::size_t begin, std::size_t rows);
+void run(std::span<const ColumnStep> steps, std::size_t begin, std::size_t rows);
 
 }  // namespace demecal

@@ -1,7 +1,6 @@
 #include "expression/constant_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -33,7 +32,7 @@ NodeId core_of(const NodeStore& store, NodeId root) {
   }
 }
 
-Step step_for(Primitive primitive, const Operand& left, const Operand& right, double* out) {
+ColumnStep step_for(Primitive primitive, const Operand& left, const Operand& right, double* out) {
   return arity(primitive) == 1 ? make_step(primitive, left, out, false) : make_step(primitive, left, right, out, false);
 }
 

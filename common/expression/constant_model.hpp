@@ -9,6 +9,7 @@
 #include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/node_store.hpp"
+#include "expression/primitive.hpp"
 
 namespace demecal {
 
@@ -94,7 +95,7 @@ class ConstantModel {
   std::vector<double*> constant_columns_;
   std::vector<const double*> slopes_;
   std::vector<NodeId> rebuilt_;
-  std::vector<Step> fixed_steps_, varying_steps_, slope_steps_;
+  std::vector<ColumnStep> fixed_steps_, varying_steps_, slope_steps_;
   std::size_t begin_ = 0;
   bool fixed_known_ = false;    ///< whether what varies with no constant is computed for these rows
   bool varying_known_ = false;  ///< the same of the rest, at the present constants

@@ -1,4 +1,12 @@
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "expression/columns.hpp"
 #include "expression/constant_model.hpp"
+#include "expression/elementary.hpp"
+#include "expression/primitive.hpp"
 
 namespace demecal {
 

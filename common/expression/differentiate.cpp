@@ -1,3 +1,9 @@
+
+#include <cstdint>
+#include <vector>
+
+#include "expression/elementary.hpp"
+#include "expression/primitive.hpp"
 #include "expression/simplify.hpp"
 
 #include "expression/tree.hpp"

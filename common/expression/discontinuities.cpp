@@ -1,14 +1,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <vector>
 
 #include "errors/check.hpp"
 #include "expression/bound.hpp"
+#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/primitive.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {

@@ -1,6 +1,7 @@
 #include "expression/elementary.hpp"
 
 #include <array>
+#include <cstddef>
 #include <limits>
 
 namespace demecal {

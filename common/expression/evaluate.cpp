@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "errors/check.hpp"
+#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
 namespace demecal {
@@ -88,7 +88,7 @@ SharedEvaluator::SharedEvaluator(Columns columns, std::size_t budget_bytes)
 
 std::size_t SharedEvaluator::bytes() const {
   return kept_.bytes() + strips_.bytes() + node_columns_.capacity() * sizeof(NodeColumn) +
-         steps_.capacity() * sizeof(Step);
+         steps_.capacity() * sizeof(ColumnStep);
 }
 
 void SharedEvaluator::bind(const NodeStore& store, std::span<const NodeId> roots) {
@@ -198,7 +198,7 @@ void SharedEvaluator::drop(NodeColumn& cached) {
 }
 
 void SharedEvaluator::run(const Receive& receive) {
-  const std::span<const Step> steps(steps_);
+  const std::span<const ColumnStep> steps(steps_);
   for (std::size_t begin = 0; begin < columns_.padded_rows(); begin += strip_rows_) {
     const std::size_t rows = std::min(strip_rows_, columns_.padded_rows() - begin);
     std::size_t done = 0;

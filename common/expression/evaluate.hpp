@@ -34,7 +34,7 @@ class ColumnEvaluator {
   PaddedColumns columns_;
   AlignedColumn result_;
   std::vector<Operand> operands_;  ///< a stack, deep enough for the largest tree so far
-  std::vector<Step> steps_;
+  std::vector<ColumnStep> steps_;
   AlignedColumn scratch_;  ///< a strip of rows for each operand
 };
 
@@ -90,7 +90,7 @@ class SharedEvaluator {
   std::vector<NodeId> stack_, order_;
   std::vector<std::size_t> ends_;  ///< of each formula's nodes in order_, later of its steps
   std::vector<Operand> values_;    ///< of each formula
-  std::vector<Step> steps_;
+  std::vector<ColumnStep> steps_;
   AlignedColumn constant_strip_;
 };
 

@@ -1,9 +1,15 @@
+#include "expression/primitive.hpp"
 #include "expression/shared_function.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "expression/text.hpp"
 #include "expression/tree.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "expression/columns.hpp"
+#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
 namespace demecal {

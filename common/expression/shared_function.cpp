@@ -4,6 +4,7 @@
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
+#include "expression/primitive.hpp"
 #include "expression/text.hpp"
 
 namespace demecal {

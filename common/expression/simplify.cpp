@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <utility>
 
+#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
 namespace demecal {

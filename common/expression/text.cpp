@@ -4,12 +4,14 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
+#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
 namespace demecal {

@@ -2,6 +2,7 @@
 // to the bit.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>

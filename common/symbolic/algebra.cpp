@@ -29,16 +29,16 @@ class TermCollector {
 };
 
 bool is_scaled(const ExpressionNode& term) {
-  return term.kind == Kind::sum && term.value == 0.0 && term.parts.size() == 1;
+  return term.kind == ExpressionKind::sum && term.value == 0.0 && term.parts.size() == 1;
 }
 
 /// Adds coefficient * expression to a sum that is being collector. Sums within are opened only where that multiplies
 /// nothing out.
 void collect_term(TermCollector& collector, double& constant, Expression expression, double coefficient) {
   const ExpressionNode& term = *expression;
-  if (term.kind == Kind::constant) {
+  if (term.kind == ExpressionKind::constant) {
     constant += coefficient * term.value;
-  } else if (term.kind == Kind::sum && (std::abs(coefficient) == 1.0 || is_scaled(term))) {
+  } else if (term.kind == ExpressionKind::sum && (std::abs(coefficient) == 1.0 || is_scaled(term))) {
     constant += coefficient * term.value;
     for (const auto& [part, inner] : term.parts) collect_term(collector, constant, part, coefficient * inner);
   } else {
@@ -80,12 +80,12 @@ bool join_with_constant(std::vector<Part>& parts, double& constant) {
 /// base ^ exponent into a product that is being collector.
 void collect_factor(TermCollector& collector, double& coefficient, Expression base, double exponent) {
   const ExpressionNode& term = *base;
-  if (term.kind == Kind::constant) {
+  if (term.kind == ExpressionKind::constant) {
     coefficient *= std::pow(term.value, exponent);
   } else if (is_scaled(term)) {
     coefficient *= std::pow(term.parts[0].second, exponent);
     collect_factor(collector, coefficient, term.parts[0].first, exponent);
-  } else if (term.kind == Kind::product) {
+  } else if (term.kind == ExpressionKind::product) {
     for (const auto& [inner, power] : term.parts) collector.add(inner, power * exponent);
   } else {
     collector.add(base, exponent);
@@ -95,7 +95,7 @@ void collect_factor(TermCollector& collector, double& coefficient, Expression ba
 }  // namespace
 
 bool Expression::is_constant() const {
-  return term_->kind == Kind::constant;
+  return term_->kind == ExpressionKind::constant;
 }
 bool Expression::is(double constant) const {
   return is_constant() && term_->value == constant;
@@ -104,7 +104,7 @@ Algebra& Expression::algebra() const {
   return *term_->algebra;
 }
 
-Expression Algebra::interned(Kind kind, Function function, double value, const std::string& name,
+Expression Algebra::interned(ExpressionKind kind, Function function, double value, const std::string& name,
                              std::vector<Part> parts) {
   value += 0.0;  // no -0
   Key key{kind, function, std::bit_cast<std::uint64_t>(value), name, {}};
@@ -119,11 +119,11 @@ Expression Algebra::interned(Kind kind, Function function, double value, const s
 }
 
 Expression Algebra::constant(double value) {
-  return interned(Kind::constant, {}, value, "", {});
+  return interned(ExpressionKind::constant, {}, value, "", {});
 }
 
 Expression Algebra::symbol(const std::string& name) {
-  return interned(Kind::symbol, {}, 0.0, name, {});
+  return interned(ExpressionKind::symbol, {}, 0.0, name, {});
 }
 
 Expression Algebra::sum(std::vector<Part> parts, double constant) {
@@ -135,7 +135,7 @@ Expression Algebra::sum(std::vector<Part> parts, double constant) {
   }
   if (parts.empty()) return this->constant(constant);
   if (parts.size() == 1 && constant == 0.0 && parts[0].second == 1.0) return parts[0].first;
-  return interned(Kind::sum, {}, constant, "", std::move(parts));
+  return interned(ExpressionKind::sum, {}, constant, "", std::move(parts));
 }
 
 Expression Algebra::product(const std::vector<Part>& parts) {
@@ -146,7 +146,8 @@ Expression Algebra::product(const std::vector<Part>& parts) {
   std::vector<Part> factors = collector.parts();
   if (factors.empty()) return constant(coefficient);
   const bool single = factors.size() == 1 && factors[0].second == 1.0;
-  const Expression whole = single ? factors[0].first : interned(Kind::product, {}, 0.0, "", std::move(factors));
+  const Expression whole =
+      single ? factors[0].first : interned(ExpressionKind::product, {}, 0.0, "", std::move(factors));
   return coefficient == 1.0 ? whole : sum({{whole, coefficient}});
 }
 
@@ -158,7 +159,7 @@ Expression Algebra::function(Function function, const std::vector<Expression>& a
   }
   std::vector<Part> parts;
   for (const Expression argument : arguments) parts.emplace_back(argument, 1.0);
-  return interned(Kind::function, function, 0.0, "", std::move(parts));
+  return interned(ExpressionKind::function, function, 0.0, "", std::move(parts));
 }
 
 Expression Algebra::formula(const std::string& name, const Tree& tree, const std::vector<Expression>& arguments) {
@@ -167,7 +168,7 @@ Expression Algebra::formula(const std::string& name, const Tree& tree, const std
   DEMECAL_CHECK(known->second == tree, "two formulas are called " << name);
   std::vector<Part> parts;
   for (const Expression argument : arguments) parts.emplace_back(argument, 1.0);
-  return interned(Kind::function, Function::formula, 0.0, name, std::move(parts));
+  return interned(ExpressionKind::function, Function::formula, 0.0, name, std::move(parts));
 }
 
 const Tree& Algebra::tree_of(const std::string& name) const {

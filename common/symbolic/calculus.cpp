@@ -14,8 +14,8 @@ namespace {
 
 double term_value(const ExpressionNode& term, const SymbolValues& symbols,
                   const std::map<std::uint32_t, double>& known) {
-  if (term.kind == Kind::constant) return term.value;
-  if (term.kind == Kind::symbol) {
+  if (term.kind == ExpressionKind::constant) return term.value;
+  if (term.kind == ExpressionKind::symbol) {
     const auto found = symbols.find(term.name);
     DEMECAL_CHECK(found != symbols.end(), "no value of " << term.name);
     return found->second;
@@ -28,8 +28,8 @@ double term_value(const ExpressionNode& term, const SymbolValues& symbols,
     sum += amount * value;
     product *= amount == 1.0 ? value : std::pow(value, amount);
   }
-  if (term.kind == Kind::sum) return sum;
-  if (term.kind == Kind::product) return product;
+  if (term.kind == ExpressionKind::sum) return sum;
+  if (term.kind == ExpressionKind::product) return product;
   if (term.function == Function::formula) return evaluate(term.algebra->tree_of(term.name), arguments);
   return value_of(term.function, arguments);
 }
@@ -83,18 +83,18 @@ class Differentiation {
  private:
   Expression derived(Expression expression) {
     switch (expression->kind) {
-      case Kind::constant:
+      case ExpressionKind::constant:
         return algebra_.constant(0.0);
-      case Kind::symbol:
+      case ExpressionKind::symbol:
         return algebra_.constant(expression == symbol_ ? 1.0 : 0.0);
-      case Kind::sum: {
+      case ExpressionKind::sum: {
         std::vector<Part> parts;
         for (const auto& [part, coefficient] : expression->parts) parts.emplace_back((*this)(part), coefficient);
         return algebra_.sum(parts);
       }
-      case Kind::product:
+      case ExpressionKind::product:
         return derived_product(expression->parts);
-      case Kind::function:
+      case ExpressionKind::function:
         break;
     }
     return expression->function == Function::formula ? derived_formula(expression) : derived_function(expression);

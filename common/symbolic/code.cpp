@@ -101,7 +101,7 @@ class CodeFile {
     std::set<std::string> names;
     std::vector<Expression> found;
     for (const Expression term : terms_of(everything_)) {
-      const bool formula = term->kind == Kind::function && term->function == Function::formula;
+      const bool formula = term->kind == ExpressionKind::function && term->function == Function::formula;
       if (formula && names.insert(term->name).second) found.push_back(term);
     }
     return found;
@@ -110,8 +110,8 @@ class CodeFile {
     return printer_.formula(formula.algebra().tree_of(formula->name), variables_of(*formula));
   }
   bool speaks_of(const std::string& symbol) const {
-    return std::ranges::any_of(terms_of(pose_),
-                               [&](Expression term) { return term->kind == Kind::symbol && term->name == symbol; });
+    return std::ranges::any_of(
+        terms_of(pose_), [&](Expression term) { return term->kind == ExpressionKind::symbol && term->name == symbol; });
   }
   /// Assignments of steps, each with what stands before and after it.
   static std::string assignments(const Steps& steps, const std::string& before, const std::string& after) {

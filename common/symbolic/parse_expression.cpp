@@ -42,7 +42,7 @@ class ExpressionParser {
       bool fits = std::isfinite(term->value);
       for (const Part& part : term->parts) {
         fits = fits && std::isfinite(part.second);
-        fits = fits && (term->kind != Kind::product || std::abs(part.second) <= kLargestPower);
+        fits = fits && (term->kind != ExpressionKind::product || std::abs(part.second) <= kLargestPower);
       }
       if (!fits) fail("numbers that a double can hold, and powers of at most 4096, before this");
     }

@@ -83,15 +83,15 @@ class ExpressionWriter {
 
   InfixText whole(Expression expression) const {
     switch (expression->kind) {
-      case Kind::constant:
+      case ExpressionKind::constant:
         return {printer_.number(expression->value), expression->value < 0.0 ? Precedence::sum : Precedence::whole};
-      case Kind::symbol:
+      case ExpressionKind::symbol:
         return {expression->name};
-      case Kind::sum:
+      case ExpressionKind::sum:
         return sum(expression);
-      case Kind::product:
+      case ExpressionKind::product:
         return product(expression->parts);
-      case Kind::function:
+      case ExpressionKind::function:
         break;
     }
     const bool formula = expression->function == Function::formula;
@@ -240,7 +240,7 @@ std::string ExpressionPrinter::formula(const Tree& tree, const std::vector<std::
 std::set<Function> functions_in(const std::vector<Expression>& expressions) {
   std::set<Function> found;
   for (const Expression term : terms_of(expressions)) {
-    if (term->kind != Kind::function) continue;
+    if (term->kind != ExpressionKind::function) continue;
     if (term->function != Function::formula) {
       found.insert(term->function);
       continue;
@@ -256,8 +256,9 @@ namespace {
 
 /// Whether writing the expression again costs nothing: a name, a number, or one of them with its sign changed.
 bool is_free(const ExpressionNode& term) {
-  if (term.kind == Kind::constant || term.kind == Kind::symbol) return true;
-  return term.kind == Kind::sum && term.value == 0.0 && term.parts.size() == 1 && term.parts[0].second == -1.0;
+  if (term.kind == ExpressionKind::constant || term.kind == ExpressionKind::symbol) return true;
+  return term.kind == ExpressionKind::sum && term.value == 0.0 && term.parts.size() == 1 &&
+         term.parts[0].second == -1.0;
 }
 
 }  // namespace
@@ -275,7 +276,7 @@ Steps plan_steps(const std::vector<Expression>& expressions, const ExpressionPri
     const bool named = times > 1 && !is_free(term);
     if (named) shared.push_back(terms[i]);
     for (const auto& [part, amount] : term.parts) {
-      const int repeats = term.kind == Kind::product ? static_cast<int>(std::abs(amount)) : 1;
+      const int repeats = term.kind == ExpressionKind::product ? static_cast<int>(std::abs(amount)) : 1;
       written[part->id] += (named ? 1 : times) * repeats;
     }
   }

@@ -139,7 +139,8 @@ SplitFactors split_factors(Expression first, Expression second) {
 }
 
 bool is_power_of(const Part& factor, Function function, double exponent) {
-  return factor.first->kind == Kind::function && factor.first->function == function && factor.second == exponent;
+  return factor.first->kind == ExpressionKind::function && factor.first->function == function &&
+         factor.second == exponent;
 }
 Expression angle_of(const Part& factor) {
   return factor.first->parts[0].first;
@@ -198,7 +199,7 @@ std::optional<Expression> joined_angles(const std::vector<Part>& first, const st
 }  // namespace
 
 std::vector<Part> factors_of(Expression expression) {
-  if (expression->kind == Kind::product) return expression->parts;
+  if (expression->kind == ExpressionKind::product) return expression->parts;
   if (expression.is(1.0)) return {};
   return {{expression, 1.0}};
 }
@@ -210,7 +211,7 @@ std::optional<Expression> simplified_trigonometric(Function function, Expression
     if (count) return less_right_angles(function, algebra.constant(0.0), *count);
     return algebra.constant(function == Function::sine ? std::sin(angle->value) : std::cos(angle->value));
   }
-  if (angle->kind != Kind::sum) return std::nullopt;
+  if (angle->kind != ExpressionKind::sum) return std::nullopt;
   const auto count = right_angles(angle->value);
   if (angle->value != 0.0 && count) return less_right_angles(function, angle - angle->value, *count);
   if (angle->parts[0].second > 0.0) return std::nullopt;

@@ -27,7 +27,7 @@ class ColumnSteps : public testing::Test {
   }
   /// What a step made of the rows from kBegin on; `expected` gives each row's value.
   template <class Expected>
-  void expect(const Step& made, Expected expected, const std::string& what) {
+  void expect(const ColumnStep& made, Expected expected, const std::string& what) {
     run({&made, 1}, kBegin, kStepRows - kBegin);
     for (std::size_t row = kBegin; row < kStepRows; ++row) {
       const double value = made.out[made.out_whole ? row : row - kBegin];
@@ -84,7 +84,7 @@ TEST(Kernels, GiveTheSameBitsOnEveryMachine) {
     for (double& x : in) x = random.real(-largest, largest);
     for (const Primitive function : {Primitive::sine, Primitive::cosine, Primitive::square_root, Primitive::logarithm,
                                      Primitive::exponential, Primitive::hyperbolic_tangent, Primitive::arc_tangent}) {
-      const Step step = make_step(function, {in.data(), 0.0, true}, out.data(), true);
+      const ColumnStep step = make_step(function, {in.data(), 0.0, true}, out.data(), true);
       run({&step, 1}, 0, in.size());
       for (const double value : out) add(value);
       for (const double x : in) add(value_of(function, x));

@@ -64,7 +64,7 @@ double measured_sin_per_s() {
     return AlignedColumn(column.begin(), column.end());
   }();
   AlignedColumn out(kRows);
-  const std::array<Step, 1> step{make_step(Primitive::sine, {in.data(), 0.0, true}, out.data(), true)};
+  const std::array<ColumnStep, 1> step{make_step(Primitive::sine, {in.data(), 0.0, true}, out.data(), true)};
   return best_per_s(static_cast<double>(kRows) * kRepeats, [&] {
     for (int i = 0; i < kRepeats; ++i) run(step, 0, kRows);
     sink = out[0];
