@@ -1,3 +1,6 @@
+#include "expression/primitive.hpp"
+#include "expression/tree.hpp"
+#include "protocol/field_kinds.hpp"
 #include "protocol/message_bytes.hpp"
 
 #include <algorithm>
@@ -6,7 +9,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "protocol/fields.hpp"
 

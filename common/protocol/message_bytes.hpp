@@ -1,6 +1,7 @@
 // Messages as bytes: as a file keeps them, and as a DDS sample holds them (idl/calibration.idl).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>

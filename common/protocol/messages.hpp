@@ -4,6 +4,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -14,6 +15,7 @@
 #include "evolution/fitness.hpp"
 #include "evolution/island.hpp"
 #include "evolution/parameters.hpp"
+#include "evolution/population.hpp"
 
 namespace demecal {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <optional>
 
 #include "errors/check.hpp"
 #include "symbolic/rules.hpp"

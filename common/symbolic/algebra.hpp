@@ -1,6 +1,7 @@
 // Algebra with names: expressions of symbols whose equal parts are one, kept in a short form as they are made.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>

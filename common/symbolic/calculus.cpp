@@ -1,12 +1,16 @@
 #include "symbolic/calculus.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <utility>
 
 #include "errors/check.hpp"
 #include "expression/elementary.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/simplify.hpp"
+#include "expression/tree.hpp"
 #include "symbolic/rules.hpp"
 
 namespace demecal {

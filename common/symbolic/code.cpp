@@ -1,7 +1,10 @@
 #include "symbolic/code.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "symbolic/calculus.hpp"
 #include "symbolic/printing.hpp"
@@ -109,7 +112,7 @@ class CodeFile {
   std::string formula_text(Expression formula) const {
     return printer_.formula(formula.algebra().tree_of(formula->name), variables_of(*formula));
   }
-  bool speaks_of(const std::string& symbol) const {
+  bool pose_uses(const std::string& symbol) const {
     return std::ranges::any_of(
         terms_of(pose_), [&](Expression term) { return term->kind == ExpressionKind::symbol && term->name == symbol; });
   }
@@ -160,8 +163,8 @@ std::string CodeFile::c() {
   out << "void forward(const double q[" << joints() << "], double pose[16]) {\n";
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i), index = std::to_string(i);
-    if (speaks_of('q' + number)) out << "  const double q" << number << " = q[" << index << "];\n";
-    if (speaks_of("actual" + number))
+    if (pose_uses('q' + number)) out << "  const double q" << number << " = q[" << index << "];\n";
+    if (pose_uses("actual" + number))
       out << "  const double actual" << number << " = h" << number << "(q[" << index << "]);\n";
   }
   const Steps steps = plan_steps(pose_, printer_);
@@ -190,8 +193,8 @@ std::string CodeFile::python() {
   out << "def forward(q):\n";
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i), index = std::to_string(i);
-    if (speaks_of('q' + number)) out << "    q" << number << " = q[" << index << "]\n";
-    if (speaks_of("actual" + number)) out << "    actual" << number << " = h" << number << "(q[" << index << "])\n";
+    if (pose_uses('q' + number)) out << "    q" << number << " = q[" << index << "]\n";
+    if (pose_uses("actual" + number)) out << "    actual" << number << " = h" << number << "(q[" << index << "])\n";
   }
   const Steps steps = plan_steps(pose_, printer_);
   out << assignments(steps, "    ", "\n") << "    return [\n";
@@ -209,7 +212,7 @@ std::string CodeFile::matlab() {
   std::vector<std::string> actual;
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i);
-    if (speaks_of('q' + number)) out << "  q" << number << " = q(" << number << ");\n";
+    if (pose_uses('q' + number)) out << "  q" << number << " = q(" << number << ");\n";
     out << "  actual" << number << " = h" << number << "(q(" << number << "));\n";
     actual.push_back("actual" + number);
   }

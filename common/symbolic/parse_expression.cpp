@@ -4,7 +4,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <system_error>
+#include <utility>
 
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"

@@ -4,8 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 
 #include "errors/check.hpp"
+#include "expression/primitive.hpp"
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
 #include "symbolic/calculus.hpp"

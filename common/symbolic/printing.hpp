@@ -1,12 +1,14 @@
 // Expressions as code and text: how each language writes them, and the steps that compute once what they share.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "expression/tree.hpp"
 #include "symbolic/algebra.hpp"
 
 namespace demecal {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "errors/check.hpp"
+#include "expression/elementary.hpp"
 #include "expression/primitive.hpp"
 
 namespace demecal {

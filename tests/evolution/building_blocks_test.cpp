@@ -1,4 +1,5 @@
-// Expressions that were planted in the fronts of several joints are found again, counted, and told from what luck made.
+// Expressions that were planted in the fronts of several joints are found again, counted, and distinguished from what
+// chance made.
 #include "evolution/building_blocks.hpp"
 
 #include <gmock/gmock.h>

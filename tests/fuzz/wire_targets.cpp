@@ -21,7 +21,7 @@ const CalibrationData& the_run() {
   return data;
 }
 
-// What is done with a message that is believed: nothing of it may break a promise further in.
+// What is done with a message that is accepted: nothing of it may break a precondition further in.
 
 void use(const CalibrationData& data) {
   std::size_t cells = 0;
@@ -45,7 +45,7 @@ void use(const IslandTask& task) {
     tenancy.run_epoch({}, [] {});
     demand(!find_fault(tenancy.last_migrants(), the_run()), "what an island sends is sound");
     const auto progress = tenancy.due_progress("w", std::chrono::milliseconds(0));
-    demand(progress && !find_fault(*progress, the_run()), "what an island tells is sound");
+    demand(progress && !find_fault(*progress, the_run()), "what an island reports is sound");
   }
   demand(!find_fault(tenancy.outcome("w"), the_run()) || !tenancy.finished(), "what an island ends with is sound");
 }
