@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/loop_passes.hpp"
+#include "closed_calibration/loop_passes.hpp"
 #include "config/files.hpp"
 #include "config/model_text.hpp"
 #include "coordinator/argument_error.hpp"

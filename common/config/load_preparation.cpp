@@ -7,7 +7,7 @@
 #include "config/read_instrument.hpp"
 #include "config/read_yaml.hpp"
 #include "kinematics/units.hpp"
-#include "preparation/marked_names.hpp"
+#include "preparation/readings.hpp"
 #include "programs/read_program.hpp"
 
 namespace demecal {

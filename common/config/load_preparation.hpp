@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "preparation/raw_measurements.hpp"
+#include "preparation/prepared.hpp"
 
 namespace demecal {
 

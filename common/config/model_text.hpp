@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/calibrated_model.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 
 namespace demecal {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "calibration/calibrated_model.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/yaml_node.hpp"
 
 namespace demecal {

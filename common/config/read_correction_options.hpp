@@ -1,7 +1,7 @@
 // What the `gp` map of a job says of joint corrections as such: their largest size, and formulas to begin with.
 #pragma once
 
-#include "calibration/correction_options.hpp"
+#include "calibration/job.hpp"
 #include "config/yaml_node.hpp"
 
 namespace demecal {
