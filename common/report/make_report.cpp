@@ -5,11 +5,11 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/shared_functions.hpp"
-#include "diagnosis/structure.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
 #include "report/loop_entries.hpp"
+#include "residuals/structure.hpp"
 
 namespace demecal {
 namespace {
