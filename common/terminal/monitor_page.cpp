@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "monitor/events.hpp"
-#include "monitor/pace.hpp"
+#include "monitor/watched.hpp"
 #include "terminal/island_grid.hpp"
 #include "terminal/page_tables.hpp"
 #include "terminal/text.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "monitor/events.hpp"
-#include "monitor/pace.hpp"
+#include "monitor/watched.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {
@@ -112,7 +112,7 @@ std::vector<std::string> round_lines(const WatchedCalibration* calibration, cons
 }
 
 std::vector<std::string> happening_lines(const Watched& watched, double now_s, const TableOptions& options) {
-  const auto& happenings = watched.happenings();
+  const auto& happenings = watched.notices();
   if (happenings.empty()) return {};
   const std::size_t count = happenings.size();
   Lines lines;
