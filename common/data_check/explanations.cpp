@@ -19,10 +19,6 @@ constexpr double kEqual = 1.1;              ///< ratio of medians up to which ex
 constexpr double kToolDifference_m = 5e-3;  ///< by which the tool nearer to its description decides between equals
 constexpr int kMostTogether = 4;
 
-bool is_revolute(const Chain& chain, int joint) {
-  return chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
-}
-
 void scale_joint(Trial& trial, int joint, double factor) {
   for (TrialRow& row : trial.rows) row.joints[joint] *= factor;
 }

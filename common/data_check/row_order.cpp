@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "data_check/explanations.hpp"
-#include "fitting/base_candidates.hpp"
+#include "fitting/base_search.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/error_figures.hpp"
+#include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
