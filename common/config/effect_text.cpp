@@ -19,7 +19,7 @@ std::string by_name(const std::vector<CoefficientLabel>& labels, const std::vect
 std::string ranges_text(const MeasuredRanges& ranges, const Chain& chain) {
   std::string text = "{";
   for (const auto& [joint, range] : ranges) {
-    const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const bool revolute = is_revolute(chain, joint);
     const double ends[] = {range.lower, range.upper};
     text += (text.size() > 1 ? ", q" : "q") + std::to_string(joint + 1) + (revolute ? "_rad: " : "_m: ") +
             yaml_numbers(ends);

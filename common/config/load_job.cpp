@@ -9,6 +9,7 @@
 #include "config/read_declared.hpp"
 #include "config/read_gp.hpp"
 #include "config/read_yaml.hpp"
+#include "effects/effect.hpp"
 
 namespace demecal {
 namespace {
@@ -141,10 +142,11 @@ Job read_job(const YamlNode& root) {
 }
 
 std::span<const std::string> effect_kinds() {
-  static const std::vector<std::string> kinds{
-      "registration",  "tool",           "joint_offset",   "geometry", "gain",         "eccentricity",
-      "gear_harmonic", "compliance",     "link_bending",   "coupling", "backlash",     "hysteresis",
-      "axis_wobble",   "thermal_offset", "thermal_length", "drift",    "sensor_scale", "symbolic"};
+  static const std::vector<std::string> kinds = [] {
+    std::vector<std::string> words;
+    for (const EffectLaw* law : catalogue()) words.emplace_back(law->kind());
+    return words;
+  }();
   return kinds;
 }
 

@@ -37,7 +37,7 @@ Joint read_joint(const YamlNode& node) {
   joint.d_m = metres(node.at("d_mm").number());
   joint.theta_rad = optional_angle(node.find("theta_offset_deg"));
   joint.beta_rad = optional_angle(node.find("beta_deg"));
-  const bool revolute = joint.type == JointType::revolute;
+  const bool revolute = is_revolute(joint);
   if (const YamlNode* wrong = node.find(revolute ? "limits_mm" : "limits_deg")) {
     wrong->fail("", std::string("is of the wrong unit: ") +
                         (revolute ? "a revolute joint has limits_deg" : "a prismatic joint has limits_mm"));
@@ -52,7 +52,7 @@ void check_reach(const YamlNode& joints, const Chain& chain) {
   double reach_m = 0.0;
   for (const Joint& joint : chain.joints) {
     reach_m += std::abs(joint.a_m) + std::abs(joint.d_m);
-    if (joint.type == JointType::prismatic) reach_m += std::max(std::abs(joint.lower), std::abs(joint.upper));
+    if (!is_revolute(joint)) reach_m += std::max(std::abs(joint.lower), std::abs(joint.upper));
   }
   if (reach_m > 0.0 && reach_m < kShortestReach_m) {
     joints.fail("", "reach less than " + number_text(millimetres(kShortestReach_m)) +

@@ -31,7 +31,7 @@ struct JointColumn {
 std::vector<JointColumn> joint_columns(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {
   std::vector<JointColumn> joints;
   for (std::size_t i = 0; i < columns.joints.size(); ++i) {
-    const bool turns = chain.joints[i].type == JointType::revolute;
+    const bool turns = is_revolute(chain.joints[i]);
     const ColumnUnit unit = unit_of(columns.joints[i], turns ? Quantity::angle : Quantity::length, units);
     joints.push_back({columns.joints[i].name, unit.to_inside});
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "effects/stop.hpp"
+#include "effects/arm_state.hpp"
 
 namespace demecal {
 

@@ -8,7 +8,7 @@ namespace demecal {
 namespace {
 
 std::string joint_text(const Joint& joint) {
-  const bool revolute = joint.type == JointType::revolute;
+  const bool revolute = is_revolute(joint);
   const auto limit = revolute ? degrees_text : millimetres_text;
   std::ostringstream text;
   text << "{type: " << (revolute ? "revolute" : "prismatic") << ", alpha_deg: " << degrees_text(joint.alpha_rad)
@@ -22,7 +22,7 @@ std::string joint_text(const Joint& joint) {
 std::string home_text(const Robot& robot) {
   std::string values;
   for (Eigen::Index i = 0; i < robot.home.size(); ++i) {
-    const bool revolute = robot.chain.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
+    const bool revolute = is_revolute(robot.chain, i);
     values += (i == 0 ? "" : ", ") + (revolute ? degrees_text(robot.home[i]) : millimetres_text(robot.home[i]));
   }
   return "[" + values + "]";

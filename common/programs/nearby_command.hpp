@@ -1,7 +1,7 @@
 // What to command near singular joints: the correction without the large joint motions that a lost direction asks for.
 #pragma once
 
-#include "effects/command.hpp"
+#include "effects/corrected_robot.hpp"
 
 namespace demecal {
 

@@ -52,7 +52,7 @@ constexpr std::array<std::pair<std::string_view, Language>, 16> kSigns{{{".locat
 }  // namespace
 
 CellUnit degrees_or_mm(const Joint& joint) {
-  if (joint.type == JointType::prismatic) return kMillimetres;
+  if (!is_revolute(joint)) return kMillimetres;
   return {std::numbers::pi / 180.0, kDecimalsDeg};
 }
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "effects/effect.hpp"
-#include "effects/likely_causes.hpp"
+#include "effects/catalogue.hpp"
 
 namespace demecal {
 namespace {
