@@ -92,7 +92,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
   return result;
 }
 
-Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
+Preparation prepare_beside_effects(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
   Preparation again = first;
   again.declared.robot = without_corrections(model);
   again.targets = targets_about(data, first, model);

@@ -244,7 +244,7 @@ std::vector<Explanation> whole_set_explanations(const Chain& chain) {
   return all;
 }
 
-std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& placed, double good_m) {
+std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m) {
   std::vector<Tried> all;
   for (const Explanation& one : whole_set_explanations(trial.chain)) {
     all.push_back(attempt(trial, {one}));
@@ -264,7 +264,7 @@ std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& pl
     }
   }
   if (best.fit.median_m >= placed.median_m) return std::nullopt;
-  return Explained{std::move(best.explanations), std::move(best.fit), std::move(equals)};
+  return BestExplanation{std::move(best.explanations), std::move(best.fit), std::move(equals)};
 }
 
 }  // namespace demecal
