@@ -111,7 +111,7 @@ std::string CalibratedArm::correction(int joint) const {
   if (joint < 1 || joint > std::ssize(corrections))
     throw InputError({}, std::to_string(joint), "is no joint of this arm; joints count from 1");
   const JointCorrection& correction = corrections[static_cast<std::size_t>(joint) - 1];
-  return correction.is_neutral() ? "0" : to_text(correction.formula());
+  return correction.is_neutral() ? "0" : to_string(correction.formula());
 }
 
 }  // namespace demecal

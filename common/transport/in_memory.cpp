@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/mailbox.hpp"
 #include "transport/run_owners.hpp"
 
@@ -108,9 +108,9 @@ class Exchange {
   }
 
   /// Announces what a member does not publish itself.
-  void announce(const InMemoryMember& of, Topic topic, const Message& message) {
+  void announce(const InMemoryMember& source, Topic topic, const Message& message) {
     for (InMemoryMember* member : members_)
-      if (reads(member->role, topic)) member->mailbox.put(of.id, message);
+      if (reads(member->role, topic)) member->mailbox.put(source.id, message);
   }
 
   /// Those whose news it has published.
