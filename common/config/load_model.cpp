@@ -8,9 +8,9 @@
 #include "config/read_effects.hpp"
 #include "config/read_yaml.hpp"
 #include "errors/input_error.hpp"
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "expression/tree.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {

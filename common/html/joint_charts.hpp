@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 #include "expression/tree.hpp"
 #include "report/history.hpp"
 
