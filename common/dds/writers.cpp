@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <ranges>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
