@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/load_job.hpp"
+#include "config/job_file.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/dds_arguments.hpp"

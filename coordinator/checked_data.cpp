@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "config/load_data_set.hpp"
+#include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/coverage.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "monitor/watched.hpp"
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 namespace demecal {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "baselines/baseline.hpp"
-#include "config/load_job.hpp"
+#include "config/job_file.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/dds_arguments.hpp"
@@ -19,7 +19,6 @@
 #include "expression/simplify.hpp"
 #include "report/evaluation.hpp"
 #include "terminal/report_text.hpp"
-#include "terminal/tables.hpp"
 
 namespace demecal {
 namespace {

@@ -8,17 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "config/load_job.hpp"
-#include "config/model_text.hpp"
-#include "config/proposed_poses.hpp"
-#include "config/read_declared.hpp"
+#include "config/job_file.hpp"
+#include "config/model_file.hpp"
+#include "config/data_set_file.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/diagnose.hpp"
 #include "coordinator/interrupt.hpp"
 #include "coordinator/loop_display.hpp"
 #include "coordinator/result_folder.hpp"
-#include "data/nearest_name.hpp"
+#include "data/text.hpp"
 #include "diagnosis/proposal.hpp"
 #include "random/random_purpose.hpp"
 #include "terminal/report_text.hpp"

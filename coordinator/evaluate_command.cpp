@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/known_arm.hpp"

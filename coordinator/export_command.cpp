@@ -6,9 +6,9 @@
 
 #include "config/files.hpp"
 #include "config/load_matrices.hpp"
-#include "config/load_robot.hpp"
-#include "config/model_text.hpp"
-#include "config/read_yaml.hpp"
+#include "config/robot_file.hpp"
+#include "config/model_file.hpp"
+#include "config/yaml_node.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "formulas/corrected_arm.hpp"

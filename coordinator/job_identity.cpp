@@ -5,8 +5,7 @@
 #include <filesystem>
 
 #include "config/files.hpp"
-#include "config/robot_text.hpp"
-#include "config/sha256.hpp"
+#include "config/robot_file.hpp"
 
 namespace demecal {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 namespace demecal {
 namespace {

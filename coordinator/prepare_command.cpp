@@ -4,8 +4,8 @@
 #include <string>
 
 #include "config/files.hpp"
-#include "config/load_preparation.hpp"
-#include "config/write_data_set.hpp"
+#include "config/preparation_file.hpp"
+#include "config/data_set_file.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"

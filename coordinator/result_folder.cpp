@@ -9,7 +9,7 @@
 
 #include "calibration/loop_passes.hpp"
 #include "config/files.hpp"
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/argument_error.hpp"
 #include "coordinator/written_files.hpp"
 #include "data_check/check_data.hpp"

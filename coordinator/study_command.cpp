@@ -16,7 +16,6 @@
 #include "coordinator/study.hpp"
 #include "errors/input_error.hpp"
 #include "terminal/report_text.hpp"
-#include "terminal/tables.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "config/files.hpp"
-#include "config/sha256.hpp"
 
 namespace demecal {
 namespace {

@@ -1,8 +1,9 @@
-// Whole files as text, in and out.
+// Whole files as text, in and out, and the hash by which results name their bytes.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace demecal {
 
@@ -15,5 +16,8 @@ void write_file(const std::filesystem::path& path, const std::string& bytes);
 
 /// `named` as written in the file `by`: relative to that file's folder unless absolute.
 std::filesystem::path resolve(const std::filesystem::path& by, const std::string& named);
+
+/// SHA-256 (FIPS 180-4) of the bytes, 64 lower-case hexadecimal digits.
+std::string sha256(std::string_view bytes);
 
 }  // namespace demecal

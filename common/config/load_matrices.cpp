@@ -1,6 +1,6 @@
 #include "config/load_matrices.hpp"
 
-#include "config/read_yaml.hpp"
+#include "config/yaml_node.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 

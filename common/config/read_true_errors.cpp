@@ -1,6 +1,6 @@
-#include "config/read_true_errors.hpp"
+#include "config/scenario_file.hpp"
 
-#include "config/joint_keys.hpp"
+#include "config/yaml_node.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 

@@ -1,4 +1,4 @@
-#include "config/read_yaml.hpp"
+#include "config/yaml_node.hpp"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>

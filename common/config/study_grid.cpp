@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "config/load_job.hpp"
-#include "config/read_yaml.hpp"
+#include "config/job_file.hpp"
+#include "config/yaml_node.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal {

@@ -1,16 +1,20 @@
-// A value in a YAML file that knows where it stands, read strictly.
+// A YAML file as nodes that know where they stand, read strictly.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "config/files.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal {
 
@@ -87,5 +91,45 @@ struct YamlNode {
   /// Throws InputError that names the words allowed and the nearest of them.
   [[noreturn]] void fail_choice(std::span<const std::string> words) const;
 };
+
+/// The one document of the file. Throws InputError where the file cannot be read, is no YAML, is empty, holds several
+/// documents, or a map has a key twice.
+YamlNode read_yaml(const std::filesystem::path& path);
+
+/// The same for text already read; `file` names it in errors.
+YamlNode parse_yaml(const std::string& text, const std::string& file);
+
+/// What `read` makes of the path that the node names, relative to the node's file. Throws InputError at the node where
+/// there is no such file.
+template <typename Read>
+auto read_named(const YamlNode& node, const Read& read) {
+  const std::filesystem::path path = resolve(node.file, node.text());
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) node.fail(path.string(), "names a file that does not exist");
+  return read(path);
+}
+
+/// The joint, from 0, that the map's `key` names from 1.
+int joint_at(const YamlNode& map, std::string_view key, const Chain& chain);
+
+/// "STEM_deg", "STEM_rad", "STEM_mm" and "STEM_m" for every stem: what a map may hold for any joint.
+std::vector<std::string> keys_with_units(const std::vector<std::string>& stems);
+
+/// A value with its unit: where it stands, and how it becomes rad or m.
+struct MeasuredNode {
+  const YamlNode* node;
+  double (*to_inside)(double);
+
+  double number() const { return to_inside(node->number()); }
+};
+
+/// The value of `stem` in the map, in a unit that fits the joint; nothing where it is missing. Throws InputError where
+/// it is given in two units or in one that does not fit.
+std::optional<MeasuredNode> find_measured(const YamlNode& map, const std::string& stem, JointType joint);
+
+/// Its number, rad or m; throws InputError where it is missing.
+double measured_at(const YamlNode& map, const std::string& stem, JointType joint);
+/// The same, 0 where it is missing.
+double measured_or_zero(const YamlNode& map, const std::string& stem, JointType joint);
 
 }  // namespace demecal

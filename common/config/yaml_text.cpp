@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "data/lower_case.hpp"
+#include "data/text.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {

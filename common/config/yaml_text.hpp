@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 
 namespace demecal {
 

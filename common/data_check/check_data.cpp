@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "data/pose_rules.hpp"
+#include "data/read_poses.hpp"
 #include "data_check/contradictions.hpp"
 #include "data_check/coverage.hpp"
 #include "data_check/instrument.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {

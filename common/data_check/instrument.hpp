@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "data/pose.hpp"
+#include "data/data_set.hpp"
 #include "data_check/trial_fit.hpp"
 
 namespace demecal {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "data/pose.hpp"
+#include "data/data_set.hpp"
 
 namespace demecal {
 

@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "html/chart.hpp"
-#include "html/loop_tables.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {

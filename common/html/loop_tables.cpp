@@ -1,4 +1,4 @@
-#include "html/loop_tables.hpp"
+#include "html/sections.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "html/markup.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "preparation/readings.hpp"
-#include "programs/program.hpp"
+#include "languages/program.hpp"
 
 namespace demecal {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "data/table_column.hpp"
+#include "data/columns.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"

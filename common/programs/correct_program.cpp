@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 
+#include "errors/check.hpp"
 #include "kinematics/units.hpp"
-#include "programs/amounts.hpp"
-#include "programs/concerns.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/replace.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal {
 namespace {
@@ -172,7 +172,7 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
   Corrector corrector(model, circumstances);
-  for (std::string& sentence : concerns(result.program, model, circumstances.tool_given)) {
+  for (std::string& sentence : warnings_of(result.program, model, circumstances.tool_given)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
   result.warnings.insert(result.warnings.end(), result.program.left.begin(), result.program.left.end());
@@ -180,7 +180,7 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (const std::size_t i : visits(result.program)) {
     const Target& target = result.program.targets[i];
     result.targets[i] = corrector.correct(target);
-    for (std::string& sentence : concerns(target, result.targets[i], model)) {
+    for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }
@@ -189,6 +189,29 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                               : one.place.column < other.place.column;
   });
   result.text = replaced(text, result.program, result.targets);
+  return result;
+}
+
+std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets) {
+  std::map<std::size_t, std::pair<std::size_t, const std::string*>> changes;  // by first byte: size and new text
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    std::vector<Cell> cells = program.targets[i].is_pose() ? program.targets[i].position : program.targets[i].joints;
+    cells.insert(cells.end(), program.targets[i].orientation.begin(), program.targets[i].orientation.end());
+    for (std::size_t cell = 0; cell < targets[i].texts.size(); ++cell) {
+      const std::string& changed = targets[i].texts[cell];
+      if (!changed.empty()) changes[cells[cell].begin] = {cells[cell].size, &changed};
+    }
+  }
+  std::string result;
+  result.reserve(text.size() + 4 * changes.size());
+  std::size_t kept_from = 0;
+  for (const auto& [begin, change] : changes) {
+    DEMECAL_CHECK(begin >= kept_from, "numbers overlap at byte " << begin);
+    result += text.substr(kept_from, begin - kept_from);
+    result += *change.second;
+    kept_from = begin + change.first;
+  }
+  result += text.substr(kept_from);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
 constexpr double kNear = 1.0;       ///< rad or m: a solution this near to the last one is taken without looking further
-constexpr double kRounding = 1e-6;  ///< rad, of signs and quadrants
+constexpr double kSignRounding = 1e-6;  ///< rad, of signs and quadrants
 
 /// The `index`-th number of van der Corput's sequence, in (0, 1) for index >= 1.
 double radical_inverse(int index, int base) {
@@ -110,11 +110,11 @@ int contradictions(const ArmHint& hint, const JointVector& joints) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(joints.size()); ++i) {
     const double angle = joints[static_cast<Eigen::Index>(i)];
     if (i < hint.negative.size() && hint.negative[i]) {
-      count += (*hint.negative[i] ? angle > kRounding : angle < -kRounding) ? 1 : 0;
+      count += (*hint.negative[i] ? angle > kSignRounding : angle < -kSignRounding) ? 1 : 0;
     }
     if (i < hint.quadrants.size() && hint.quadrants[i]) {
       const double lower = *hint.quadrants[i] * std::numbers::pi / 2.0;
-      count += angle < lower - kRounding || angle > lower + std::numbers::pi / 2.0 + kRounding ? 1 : 0;
+      count += angle < lower - kSignRounding || angle > lower + std::numbers::pi / 2.0 + kSignRounding ? 1 : 0;
     }
   }
   return count;

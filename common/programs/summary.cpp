@@ -1,13 +1,12 @@
 #include "programs/summary.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "data/text.hpp"
+#include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
-#include "programs/read_program.hpp"
-#include "programs/target_figures.hpp"
 
 namespace demecal {
 namespace {
@@ -50,7 +49,7 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
             {"column", target.place.column},
             {"kind", target.is_pose() ? "pose" : "joints"},
             {"corrected_by_model", !corrected.is_left()},
-            {"joints_from", word_of(corrected.from)},
+            {"joints_from", to_string(corrected.from)},
             {"frame", target.frames.frame.empty() ? "base" : target.frames.frame},
             {"tool", target.frames.tool ? target.frames.tool_name : "of the model"}};
   if (corrected.is_left()) return json;
@@ -67,6 +66,34 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
 }
 
 }  // namespace
+
+TargetFigures figures_of(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
+  TargetFigures figures;
+  const auto add = [&](const std::string& name, const std::string& unit, double nominal, double command) {
+    figures.names.push_back(name);
+    figures.units.push_back(unit);
+    figures.nominal.push_back(nominal);
+    figures.corrected.push_back(command);
+    figures.difference.push_back(command - nominal);
+  };
+  for (int joint = 0; joint < arm.size() && !target.is_pose(); ++joint) {
+    const bool revolute = arm.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const UnitConversion to_border = revolute ? degrees : millimetres;
+    add("q" + std::to_string(joint + 1), revolute ? "deg" : "mm", to_border(corrected.nominal[joint]),
+        to_border(corrected.command[joint]));
+  }
+  const Eigen::Isometry3d frame_from_base = target.frames.base_from_frame.inverse();
+  const Eigen::Vector3d nominal_m = frame_from_base * corrected.nominal_tool.translation();
+  const Eigen::Vector3d command_m = frame_from_base * corrected.command_tool.translation();
+  for (int axis = 0; axis < 3 && target.is_pose(); ++axis) {
+    add(std::string(1, static_cast<char>('x' + axis)), "mm", millimetres(nominal_m[axis]),
+        millimetres(command_m[axis]));
+  }
+  const PoseError moved = pose_error(corrected.nominal_tool, corrected.command_tool);
+  figures.moved_mm = millimetres(moved.head<3>().norm());
+  figures.turned_deg = degrees(moved.tail<3>().norm());
+  return figures;
+}
 
 MovedFigures moved_figures(const CorrectedProgram& corrected) {
   MovedFigures figures;
@@ -100,7 +127,7 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
 std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
   const MovedFigures figures = moved_figures(corrected);
   Json json{{"program", corrected.program.file},
-            {"language", word_of(corrected.program.language)},
+            {"language", corrected.program.language},
             {"targets", Json::array()},
             {"moved_mm", {{"mean", figures.mean_mm}, {"max", figures.max_mm}}},
             {"left", static_cast<std::size_t>(figures.left) + corrected.program.left.size()},

@@ -1,14 +1,14 @@
 #include "programs/target_correction.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
-#include "programs/amounts.hpp"
-#include "programs/determined_part.hpp"
-#include "programs/nearby_command.hpp"
+#include "languages/orientation.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/orientation.hpp"
+#include "programs/partial_correction.hpp"
 
 namespace demecal {
 namespace {
@@ -16,18 +16,6 @@ namespace {
 constexpr double kExact = 1e-9;                ///< m
 constexpr double kPositionWorthSaying = 5e-5;  ///< m
 constexpr double kTurnWorthSaying = 3.5e-4;    ///< rad: 0.02 deg
-
-std::vector<double> inside(const std::vector<Cell>& cells) {
-  std::vector<double> values;
-  for (const Cell& cell : cells) values.push_back(cell.inside());
-  return values;
-}
-
-/// The tool's axes on the flange, as the program has them.
-Eigen::Matrix3d tool_axes(const Target& target) {
-  if (!target.frames.tool) return Eigen::Matrix3d::Identity();
-  return target.frames.tool->linear();
-}
 
 /// "z of the flange", or the direction's numbers where it is near to no axis.
 std::string axis_name(const Eigen::Vector3d& direction, const Eigen::Matrix3d& flange) {
@@ -101,20 +89,20 @@ void settle_position(const Target& target, const CommandModel& model, const Eige
 
 }  // namespace
 
-bool keeps_orientation(const Target& target) {
-  return target.form == OrientationForm::columns || target.form == OrientationForm::unknown;
+std::string fixed_text(double value, int decimals) {
+  std::array<char, 400> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  return {buffer.data(), end.ptr};
 }
 
-Eigen::Vector3d stated_point(const Target& target) {
-  return target.frames.base_from_frame *
-         Eigen::Vector3d(target.position[0].inside(), target.position[1].inside(), target.position[2].inside());
+std::string joint_amount(const Joint& joint, double value) {
+  if (joint.type == JointType::prismatic) return fixed_text(millimetres(value), 3) + " mm";
+  return fixed_text(degrees(value), 4) + " deg";
 }
 
-Eigen::Isometry3d stated_tool_pose(const Target& target) {
-  Eigen::Isometry3d tool(target.frames.base_from_frame.linear() *
-                         rotation_from(target.form, inside(target.orientation)) * tool_axes(target).transpose());
-  tool.translation() = stated_point(target);
-  return tool;
+std::string joint_label(int joint) {
+  return "joint " + std::to_string(joint + 1);
 }
 
 CorrectedTarget corrected_at(const Target& target, const CommandModel& model, const Stop& stop) {

@@ -1,15 +1,23 @@
-// The correction of one target whose joints are known.
+// The correction of one target whose joints are known, and numbers as sentences of this room write them.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
+#include "languages/program.hpp"
 #include "programs/command_model.hpp"
 #include "programs/configuration.hpp"
-#include "programs/program.hpp"
 
 namespace demecal {
+
+/// With so many decimals.
+std::string fixed_text(double value, int decimals);
+/// A joint's value or a change of it, from rad or m: "12.3456 deg", "7.890 mm".
+std::string joint_amount(const Joint& joint, double value);
+/// "joint 3", from 0.
+std::string joint_label(int joint);
 
 enum class Correctedness {
   corrected,  ///< or in no need of it
@@ -44,13 +52,5 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
 
 /// The texts of a corrected target's cells.
 std::vector<std::string> texts_of(const Target& target, const CorrectedTarget& corrected);
-
-/// Whether the file's orientation is kept as it is.
-bool keeps_orientation(const Target& target);
-
-/// Where a pose target, as written, has the tool point: base frame, axes of the flange. Its orientation must be known.
-Eigen::Isometry3d stated_tool_pose(const Target& target);
-/// Its tool point alone, base frame.
-Eigen::Vector3d stated_point(const Target& target);
 
 }  // namespace demecal

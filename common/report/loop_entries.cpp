@@ -1,11 +1,11 @@
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "effects/likely_causes.hpp"
 #include "kinematics/units.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {

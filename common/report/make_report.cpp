@@ -9,7 +9,6 @@
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
-#include "report/loop_entries.hpp"
 
 namespace demecal {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "data/csv.hpp"
-#include "data/number.hpp"
-#include "report/json_fields.hpp"
+#include "data/text.hpp"
+#include "report/json.hpp"
 
 namespace demecal {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "data/pose.hpp"
+#include "data/data_set.hpp"
 
 namespace demecal {
 

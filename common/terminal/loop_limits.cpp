@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "report/wording.hpp"
-#include "terminal/loop_text.hpp"
+#include "report/figures.hpp"
+#include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {

@@ -1,11 +1,10 @@
-#include "terminal/loop_text.hpp"
+#include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "report/figures.hpp"
-#include "report/wording.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "report/figures.hpp"
-#include "terminal/loop_text.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {

@@ -1,4 +1,4 @@
-#include "terminal/tables.hpp"
+#include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
 

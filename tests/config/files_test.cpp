@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/sha256.hpp"
 #include "temporary_folder.hpp"
 
 namespace demecal {

@@ -2,12 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/load_data_set.hpp"
-#include "config/load_job.hpp"
-#include "config/load_robot.hpp"
-#include "config/load_scenario.hpp"
-#include "config/read_declared.hpp"
-#include "config/sha256.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
+#include "config/files.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "config/files.hpp"
-#include "config/load_robot.hpp"
+#include "config/robot_file.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "config/read_yaml.hpp"
+#include "config/yaml_node.hpp"
 #include "config/yaml_text.hpp"
 #include "temporary_folder.hpp"
 

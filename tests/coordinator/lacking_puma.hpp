@@ -1,7 +1,7 @@
 // The demo's PUMA measured more often: smooth joint errors, and backlash that no job declares.
 #pragma once
 
-#include "config/load_scenario.hpp"
+#include "config/scenario_file.hpp"
 #include "coordinator/calibrate.hpp"
 #include "effects/measurement.hpp"
 #include "simulation/simulated_robot.hpp"

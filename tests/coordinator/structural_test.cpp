@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "in_memory_fleet.hpp"
 #include "lacking_puma.hpp"

@@ -1,5 +1,5 @@
 // Units from the names of columns.
-#include "data/column_unit.hpp"
+#include "data/columns.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The nearest name to a mistyped one.
-#include "data/nearest_name.hpp"
+#include "data/text.hpp"
 
 #include <gtest/gtest.h>
 

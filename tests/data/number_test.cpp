@@ -1,5 +1,5 @@
 // Numbers as text: strict reading, shortest writing.
-#include "data/number.hpp"
+#include "data/text.hpp"
 
 #include <gtest/gtest.h>
 

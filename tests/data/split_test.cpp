@@ -1,5 +1,5 @@
 // Dividing poses into sets at random, and choosing them by set.
-#include "data/split.hpp"
+#include "data/data_set.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "data/data_set.hpp"
 
 namespace demecal {
 namespace {

@@ -1,5 +1,5 @@
 // The plot of a correction shows the formula's values, and its jumps as gaps; that of an evolution every island.
-#include "html/joint_charts.hpp"
+#include "html/chart.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "html/page.hpp"
 #include "made_up_loop.hpp"
 #include "page_reading.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {

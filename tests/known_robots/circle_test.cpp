@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "config/load_scenario.hpp"
+#include "config/scenario_file.hpp"
 #include "coordinator/in_memory_fleet.hpp"
 #include "effects/measurement.hpp"
 #include "simulation/simulated_robot.hpp"

@@ -1,5 +1,5 @@
 // JSON that lacks keys is read; JSON of the wrong kind is refused by name.
-#include "report/json_value.hpp"
+#include "report/json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // An effect keeps its place and its numbers on the way through JSON, and people read sizes they can picture.
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "made_up_loop.hpp"
-#include "report/json_fields.hpp"
-#include "report/wording.hpp"
+#include "report/json.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {

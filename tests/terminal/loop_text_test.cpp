@@ -1,5 +1,5 @@
 // What a terminal shows of the closed loop.
-#include "terminal/loop_text.hpp"
+#include "terminal/report_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,6 @@
 #include "made_up_loop.hpp"
 #include "page_reading.hpp"
 #include "screen_reading.hpp"
-#include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {

@@ -1,0 +1,43 @@
+// Job files: what the user asks for.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibration/correction_options.hpp"
+#include "calibration/job.hpp"
+#include "config/yaml_node.hpp"
+#include "evolution/parameters.hpp"
+#include "fitting/declared_model.hpp"
+
+namespace demecal {
+
+struct YamlNode;
+
+/// The job of a JOB.yaml; its data set is named relative to it and not opened. What the file leaves out keeps the Job's
+/// defaults. Throws InputError with file, line, value and rule at the first fault.
+Job load_job(const std::filesystem::path& path);
+/// The same of a file already read.
+Job read_job(const YamlNode& root);
+
+/// The kinds of effects, by the words of reports.
+std::span<const std::string> effect_kinds();
+
+/// What may be declared.
+std::vector<std::string> declared_words();
+/// The model that declares what `words` say, each of them one of declared_words().
+DeclaredModel declared_of(std::span<const std::string> words);
+/// The same of a list in a file. Throws InputError where a word is unknown or there twice.
+DeclaredModel read_declared(const YamlNode& list);
+
+/// The parameters of the map; those it leaves out keep their defaults. Throws InputError at the first fault, also where
+/// together they break a rule of find_fault().
+GpParameters read_gp(const YamlNode& node);
+
+/// Reads `largest_correction_mrad`, `seed_formulas` (a text in rad for every joint, or {joint, expression}) and
+/// `seed_models` (model files, whose corrections begin where they belong). Throws InputError at the first fault.
+CorrectionOptions read_correction_options(const YamlNode& node);
+
+}  // namespace demecal
