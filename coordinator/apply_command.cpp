@@ -40,7 +40,7 @@ CommandModel command_model_of(const CalibratedModel& model, const ApplyRequest& 
   if (!request.tool_mm.empty()) tool_m = 1e-3 * Eigen::Map<const Eigen::Vector3d>(request.tool_mm.data());
   const bool registration = model.declared.registration;
   const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
-  CommandModel commands = with_certainty(command_model(model.nominal, robot, bounds_of(model), tool_m), robot,
+  CommandModel commands = with_posterior(command_model(model.nominal, robot, bounds_of(model), tool_m), robot,
                                          model.posterior, model.measured, registration);
   commands.interval = model.interval;
   if (!model.posterior || model.measured.empty()) {
@@ -132,7 +132,7 @@ ExitCode run(const ApplyRequest& request) {
                warnings, warnings == 1 ? "" : "s");
     return ExitCode::bad_input;
   }
-  const std::string mark = mark_of(calibrated.version, calibrated.job, calibrated.data_sha256);
+  const std::string mark = correction_mark(calibrated.version, calibrated.job, calibrated.data_sha256);
   const bool changed = corrected.text != text;
   write_file(request.out, changed ? with_mark(corrected.text, language, mark) : corrected.text);
   fmt::print("{}", request.json ? summary_json(corrected, model.nominal.chain)

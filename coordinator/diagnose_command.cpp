@@ -47,7 +47,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
 DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<CalibratedModel>& known,
                           const DataSet& data) {
   DeclaredModel declared = known ? known->declared : declared_by_default(data);
-  if (!request.declared.empty()) declared = declared_of(request.declared);
+  if (!request.declared.empty()) declared = declared_model(request.declared);
   declared.registration = true;
   return declared;
 }

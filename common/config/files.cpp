@@ -50,8 +50,8 @@ void write_file(const std::filesystem::path& path, const std::string& bytes) {
   if (renaming_fault) fail(path, "cannot be written", renaming_fault.message());
 }
 
-std::filesystem::path resolve(const std::filesystem::path& by, const std::string& named) {
-  return (by.parent_path() / named).lexically_normal();
+std::filesystem::path resolve(const std::filesystem::path& file, const std::string& name) {
+  return (file.parent_path() / name).lexically_normal();
 }
 
 std::string sha256(std::string_view bytes) {

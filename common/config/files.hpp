@@ -14,8 +14,8 @@ std::string read_file(const std::filesystem::path& path);
 /// file and the reason where it cannot.
 void write_file(const std::filesystem::path& path, const std::string& bytes);
 
-/// `named` as written in the file `by`: relative to that file's folder unless absolute.
-std::filesystem::path resolve(const std::filesystem::path& by, const std::string& named);
+/// `name` as written in `file`: relative to that file's folder unless absolute.
+std::filesystem::path resolve(const std::filesystem::path& file, const std::string& name);
 
 /// SHA-256 (FIPS 180-4) of the bytes, 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);

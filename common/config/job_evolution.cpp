@@ -138,8 +138,8 @@ GpParameters read_gp(const YamlNode& node) {
   if (const YamlNode* weights = node.find("function_weights")) parameters.function_weights = weights->numbers();
   if (const YamlNode* weight = node.find("shared_function_weight"))
     parameters.shared_function_weight = weight->number();
-  if (const YamlNode* none = node.find("no_duplicates")) parameters.no_duplicates = none->truth();
-  if (const YamlNode* scaling = node.find("linear_scaling")) parameters.linear_scaling = scaling->truth();
+  if (const YamlNode* none = node.find("no_duplicates")) parameters.no_duplicates = none->boolean();
+  if (const YamlNode* scaling = node.find("linear_scaling")) parameters.linear_scaling = scaling->boolean();
   check_together(parameters, node);
   return parameters;
 }

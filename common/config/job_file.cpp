@@ -35,7 +35,7 @@ IslandOptions read_islands(const YamlNode& node, int population_size) {
         replacement->one_of<Replacement>({{"worst", Replacement::worst}, {"random", Replacement::random}});
   }
   if (const YamlNode* spread = node.find("spread")) islands.spread = spread->number(0.0, 1.0);
-  if (const YamlNode* between = node.find("between_joints")) islands.between_joints = between->truth();
+  if (const YamlNode* between = node.find("between_joints")) islands.between_joints = between->boolean();
   return islands;
 }
 
@@ -117,8 +117,8 @@ Job load_job(const std::filesystem::path& path) {
 
 Job read_job(const YamlNode& root) {
   const std::filesystem::path path = root.file;
-  root.of_version("job", 1).with_keys({"demecal_job", "data", "method", "seed", "model", "gp", "islands", "closed_loop",
-                                       "distal", "targets", "joint_error_mrad"});
+  root.with_version("job", 1).with_keys({"demecal_job", "data", "method", "seed", "model", "gp", "islands",
+                                         "closed_loop", "distal", "targets", "joint_error_mrad"});
   Job job;
   job.name = path.stem().string();
   job.data_file = resolve(path, root.at("data").text()).string();
@@ -162,7 +162,7 @@ std::vector<std::string> declared_words() {
   return words;
 }
 
-DeclaredModel declared_of(std::span<const std::string> words) {
+DeclaredModel declared_model(std::span<const std::string> words) {
   DeclaredModel declared;
   for (const DeclaredWord& known : kDeclared) {
     declared.*known.flag = std::find(words.begin(), words.end(), known.word) != words.end();

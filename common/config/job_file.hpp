@@ -28,7 +28,7 @@ std::span<const std::string> effect_kinds();
 /// What may be declared.
 std::vector<std::string> declared_words();
 /// The model that declares what `words` say, each of them one of declared_words().
-DeclaredModel declared_of(std::span<const std::string> words);
+DeclaredModel declared_model(std::span<const std::string> words);
 /// The same of a list in a file. Throws InputError where a word is unknown or there twice.
 DeclaredModel read_declared(const YamlNode& list);
 

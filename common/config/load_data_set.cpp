@@ -38,13 +38,13 @@ std::map<std::string, Eigen::Vector3d> read_tools(const YamlNode* node) {
   return tools_m;
 }
 
-struct Split {
+struct SplitKeys {
   SplitFractions fractions;
   std::uint64_t seed = 1;
 };
 
-Split read_split(const YamlNode* node) {
-  Split split;
+SplitKeys read_split(const YamlNode* node) {
+  SplitKeys split;
   if (!node) return split;
   node->with_keys({"validation_fraction", "accept_fraction", "seed"});
   split.fractions.validation = node->at("validation_fraction").number(0.0, 1.0);
@@ -94,7 +94,7 @@ std::optional<ColumnName> read_single(const YamlNode* node) {
 
 DataSet load_data_set(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
-  root.of_version("dataset", 1)
+  root.with_version("dataset", 1)
       .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "units", "frame",
                   "split", "exclude"});
   DataSet data;
@@ -108,7 +108,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
   require_anchors(root, columns);
   read_anchors(root.find("anchors_mm"), columns.distances.size(), data);
   data.tools_m = read_tools(root.find("tools_mm"));
-  const Split split = read_split(root.find("split"));
+  const SplitKeys split = read_split(root.find("split"));
 
   const std::string bytes = read_named(root.at("poses"), read_file);
   data.file = resolve(path, root.at("poses").text()).string();

@@ -39,7 +39,7 @@ MatrixText read_matrix(const YamlNode& node) {
 }  // namespace
 
 Listing load_matrices(Algebra& algebra, const std::filesystem::path& path) {
-  const YamlNode file = read_yaml(path).of_version("matrices", 1);
+  const YamlNode file = read_yaml(path).with_version("matrices", 1);
   file.with_keys({"demecal_matrices", "name", "joints", "values", "matrices"});
   Listing listing{{file.at("name").text()}, {}, {}};
   const SymbolNames names = read_names(algebra, file, listing.actual);

@@ -202,7 +202,7 @@ std::string model_text(const CalibratedModel& model) {
 }
 
 CalibratedModel load_model(const std::filesystem::path& path) {
-  const YamlNode file = read_yaml(path).of_version("model", 1);
+  const YamlNode file = read_yaml(path).with_version("model", 1);
   file.with_keys({"demecal_model", "job", "version", "method", "seed", "data", "robot", "declared", "base", "tools",
                   "links", "estimates", "effects", "shared_functions", "corrections", "measured_ranges", "posterior",
                   "prediction_interval"});

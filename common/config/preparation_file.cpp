@@ -122,7 +122,7 @@ CordInstrument read_cords(const YamlNode& node) {
 
 RawMeasurements load_preparation(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
-  root.of_version("preparation", 1)
+  root.with_version("preparation", 1)
       .with_keys({"demecal_preparation", "name", "robot", "instrument", "local_frame", "repeats", "sets"});
   RawMeasurements raw;
   raw.name = root.find("name") ? root.at("name").text() : path.stem().string();

@@ -139,7 +139,7 @@ Robot robot_from(const YamlNode& node) {
 }
 
 Robot load_robot(const std::filesystem::path& path) {
-  return robot_from(read_yaml(path).of_version("robot", 1));
+  return robot_from(read_yaml(path).with_version("robot", 1));
 }
 
 std::string robot_text(const Robot& robot, int indent) {

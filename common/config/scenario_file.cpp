@@ -123,7 +123,7 @@ void read_measurement(const YamlNode& node, Scenario& scenario) {
     scenario.orientation_measured = true;
     scenario.orientation_noise_rad = radians(noise->non_negative());
   }
-  if (const YamlNode* recorded = node.find("approach_recorded")) scenario.approach_recorded = recorded->truth();
+  if (const YamlNode* recorded = node.find("approach_recorded")) scenario.approach_recorded = recorded->boolean();
   if (const YamlNode* payloads = node.find("payloads_kg")) {
     for (const YamlNode& payload : payloads->list()) scenario.payloads_kg.push_back(payload.non_negative());
   }
@@ -144,7 +144,7 @@ void check_scenario(const Scenario& scenario, const YamlNode& root) {
 
 Scenario load_scenario(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
-  root.of_version("scenario", 1)
+  root.with_version("scenario", 1)
       .with_keys({"demecal_scenario", "name", "robot", "seed", "poses", "cuboid", "joint_ranges", "home", "measurement",
                   "errors"});
   Scenario scenario;

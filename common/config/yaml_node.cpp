@@ -59,7 +59,7 @@ const YamlNode& YamlNode::with_keys(std::span<const std::string> allowed) const 
   return *this;
 }
 
-const YamlNode& YamlNode::of_version(const std::string& file_kind, int version) const {
+const YamlNode& YamlNode::with_version(const std::string& file_kind, int version) const {
   require_map(*this);
   const std::string expected = std::string(kVersionPrefix) + file_kind;
   if (const YamlNode* found = find(expected)) {
@@ -141,7 +141,7 @@ std::uint64_t YamlNode::seed() const {
   return value;
 }
 
-bool YamlNode::truth() const {
+bool YamlNode::boolean() const {
   return one_of<bool>({{"true", true}, {"false", false}});
 }
 

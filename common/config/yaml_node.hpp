@@ -53,7 +53,7 @@ struct YamlNode {
   const YamlNode& with_keys(std::initializer_list<std::string_view> allowed) const;
   const YamlNode& with_keys(std::span<const std::string> allowed) const;
   /// This node, a file of the kind that the key "demecal_KIND: VERSION" declares.
-  const YamlNode& of_version(const std::string& kind, int version) const;
+  const YamlNode& with_version(const std::string& kind, int version) const;
   const YamlNode* find(std::string_view child) const;
   const YamlNode& at(std::string_view child) const;
 
@@ -69,7 +69,7 @@ struct YamlNode {
   double non_negative() const;
   std::int64_t whole_number(std::int64_t lower, std::int64_t upper) const;
   std::uint64_t seed() const;  ///< any whole number from 0 to 2^64 - 1
-  bool truth() const;
+  bool boolean() const;
 
   // of a list of numbers
   std::vector<double> numbers() const;

@@ -228,7 +228,7 @@ LineChart line_chart(double x_lower, double x_upper, double y_lower, double y_up
           .label = {}};
 }
 
-std::string drawn(const LineChart& chart, const std::string& marks) {
+std::string chart_svg(const LineChart& chart, const std::string& marks) {
   // The inner picture has the coordinates of the outer one and is there to cut off what leaves the frame.
   const std::string frame = fmt::format("x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\"",
                                         kLeft, kTop, kRight - kLeft, kBottom - kTop);
@@ -255,7 +255,7 @@ std::string correction_chart(const Tree& formula, const Interval& range_rad, con
   std::string marks = zero_line(chart);
   for (const double jump_rad : jumps_rad) marks += jump_mark(chart, jump_rad);
   for (const Stretch& stretch : curve) marks += polyline(placed(chart, stretch), "curve", label);
-  return drawn(chart, marks);
+  return chart_svg(chart, marks);
 }
 
 std::string fitness_chart(const FitnessHistory& history, std::uint64_t joint) {
@@ -269,7 +269,7 @@ std::string fitness_chart(const FitnessHistory& history, std::uint64_t joint) {
   chart.label = fmt::format("Best fitness of the islands of joint {} over the generations", joint);
   std::string marks;
   for (const auto& [island, points] : curves) marks += island_marks(chart, island, points);
-  return marks.empty() ? marks : drawn(chart, marks);
+  return marks.empty() ? marks : chart_svg(chart, marks);
 }
 
 std::string fitness_caption(const FitnessHistory& history, std::uint64_t joint) {

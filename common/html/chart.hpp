@@ -43,7 +43,7 @@ struct LineChart {
 LineChart line_chart(double x_lower, double x_upper, double y_lower, double y_upper, bool y_logarithmic);
 
 /// The picture with `marks` (SVG) drawn over the grid and cut off at the frame.
-std::string drawn(const LineChart& chart, const std::string& marks);
+std::string chart_svg(const LineChart& chart, const std::string& marks);
 
 /// A line through the points, told apart by its CSS class; `title` (plain text) shows on pointing at it.
 std::string polyline(const std::vector<PicturePoint>& points, const std::string& css_class, const std::string& title);

@@ -154,12 +154,12 @@ std::string evidence_table(const Report& report) {
          "which the leading number keeps its sign.</p>\n";
 }
 
-std::string further_list(const Report& report) {
+std::string next_measurements_list(const Report& report) {
   std::string items;
   for (const RoundEntry& round : report.rounds) {
-    if (!round.further || round.further->sentence.empty()) continue;
+    if (!round.next_measurement || round.next_measurement->sentence.empty()) continue;
     items += fmt::format("<li>Round {}, {}: {}</li>\n", round.round, escaped(round.effect.name()),
-                         escaped(round.further->sentence));
+                         escaped(round.next_measurement->sentence));
   }
   if (items.empty()) return {};
   return "<h3>What to measure next</h3>\n<p class=\"note\">These poses cannot distinguish the named effects from "
@@ -181,16 +181,16 @@ std::string not_found_table(const Report& report) {
                             rows, report.not_found.size()));
 }
 
-std::string unseen_table(const Report& report) {
+std::string untestable_table(const Report& report) {
   std::string rows;
-  for (const auto& [kind, reason] : report.unseen) {
+  for (const auto& [kind, reason] : report.untestable) {
     rows +=
         fmt::format("<tr><th scope=\"row\">{}</th><td class=\"words\">{}</td></tr>\n", escaped(kind), escaped(reason));
   }
   if (rows.empty()) return {};
   return titled(
       "Not testable with these data", "Whether the arm has effects of these kinds stays open.",
-      table_panel("unseen", "<th scope=\"row\">kind</th><th class=\"words\">why</th>", rows, report.unseen.size()));
+      table_panel("unseen", "<th scope=\"row\">kind</th><th class=\"words\">why</th>", rows, report.untestable.size()));
 }
 
 std::string decoys_table(const Report& report) {

@@ -174,7 +174,7 @@ std::string fixed(std::optional<double> value, int decimals) {
   return without_negative_zero(fmt::format("{:.{}f}", *value, decimals));
 }
 
-std::string grouped(std::uint64_t value) {
+std::string grouped_digits(std::uint64_t value) {
   std::string text = std::to_string(value);
   for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, "\u202F");
   return text;

@@ -32,12 +32,12 @@ std::string rounds_table(const Report& report);
 /// A row per round with an effect: its law, its numbers with errors and intervals, and what it was judged by.
 std::string evidence_table(const Report& report);
 /// What to measure next, an entry per effect that has rivals.
-std::string further_list(const Report& report);
+std::string next_measurements_list(const Report& report);
 
 /// Effects looked for and not found, with the smallest that would have shown.
 std::string not_found_table(const Report& report);
 /// Kinds of effects that the data cannot show, with the reason.
-std::string unseen_table(const Report& report);
+std::string untestable_table(const Report& report);
 /// How the controls fared.
 std::string decoys_table(const Report& report);
 

@@ -149,13 +149,13 @@ class KrlReader {
     if (axes.size() == kAxes.size()) {
       axis_target(target, axes, numbers);
     } else if (!axes.empty() && (context.axis || context.motion)) {
-      leave(program_, target, "it names only some of A1 to A6");
+      skip_target(program_, target, "it names only some of A1 to A6");
     } else if (context.frame || !(context.pose || context.motion || stated)) {
       return;
     } else if (parts.size() == kPoseParts.size()) {
       pose_target(target, parts, components, numbers);
     } else if (!parts.empty()) {
-      leave(program_, target, "it names only some of X, Y, Z, A, B and C");
+      skip_target(program_, target, "it names only some of X, Y, Z, A, B and C");
     }
   }
 

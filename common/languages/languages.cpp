@@ -80,7 +80,7 @@ Program read_program(const Language& language, std::string_view text, const std:
   return program;
 }
 
-std::string mark_of(const std::string& version, const std::string& job, const std::string& data_sha256) {
+std::string correction_mark(const std::string& version, const std::string& job, const std::string& data_sha256) {
   constexpr std::size_t kShown = 12;
   std::string mark = std::string(kMark) + ' ' + version + " with the model of " + job;
   if (!data_sha256.empty()) mark += " (data " + data_sha256.substr(0, kShown) + ')';

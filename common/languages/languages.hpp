@@ -21,9 +21,9 @@ struct Language {
   char comment = '#';                            ///< begins what is a comment up to the end of its line
   std::vector<std::string_view> headers{};       ///< how lines begin, in small letters, that comments must stand behind
   /// A function of the text alone. Throws InputError with file, line, column, value and rule where a target is
-  /// malformed; what cannot be known it says in Target::frames or Program::left, and never guesses. `arm` says how many
-  /// joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing last line
-  /// break make no difference.
+  /// malformed; what cannot be known it says in Target::frames or Program::uncorrected, and never guesses. `arm` says
+  /// how many joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing
+  /// last line break make no difference.
   Program (*read)(std::string_view text, const std::string& file, const Chain& arm) = nullptr;
 };
 
@@ -41,7 +41,7 @@ Program read_program(const Language& language, std::string_view text, const std:
 // The comment by which a corrected program is known, so that none is corrected twice
 
 /// "corrected by demecal VERSION with the model of JOB (data SHA)": the same for the same model.
-std::string mark_of(const std::string& version, const std::string& job, const std::string& data_sha256);
+std::string correction_mark(const std::string& version, const std::string& job, const std::string& data_sha256);
 
 /// The text with the mark as a comment line of its own where the language allows one: behind the first of its headers
 /// or, without one, first of all. Line breaks are those of the text.

@@ -100,8 +100,8 @@ void take_uses(const std::vector<TargetUse>& uses, Target& target) {
   }
 }
 
-void leave(Program& program, const Target& target, const std::string& why) {
-  program.left.push_back({target.place, target.name, why + "; it is left as it is"});
+void skip_target(Program& program, const Target& target, const std::string& why) {
+  program.uncorrected.push_back({target.place, target.name, why + "; it is left as it is"});
 }
 
 std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<const BracketItem> items,
@@ -112,7 +112,7 @@ std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<con
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string_view word = text.code().substr(items[i].begin, items[i].size);
     if (numbers == Numbers::or_expressions && is_expression(word)) {
-      leave(program, target, "'" + std::string(word) + "' is no number");
+      skip_target(program, target, "'" + std::string(word) + "' is no number");
       return std::nullopt;
     }
     cells.push_back(text.number(items[i].begin, items[i].size, units[i]));

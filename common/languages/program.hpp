@@ -70,10 +70,10 @@ struct Remark {
 };
 
 struct Program {
-  std::string language{};       ///< the name of its row in languages()
-  std::string file;             ///< as named to the user
-  std::vector<Target> targets;  ///< in the order of the text
-  std::vector<Remark> left;     ///< what looks like a target but cannot be corrected, and why
+  std::string language{};           ///< the name of its row in languages()
+  std::string file;                 ///< as named to the user
+  std::vector<Target> targets;      ///< in the order of the text
+  std::vector<Remark> uncorrected;  ///< what looks like a target but cannot be corrected, and why
 };
 
 /// Whether the file's orientation is kept as it is.
@@ -137,7 +137,7 @@ std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<con
                                           const Target& target);
 
 /// Says in `program` why this target cannot be corrected.
-void leave(Program& program, const Target& target, const std::string& why);
+void skip_target(Program& program, const Target& target, const std::string& why);
 
 /// Throws InputError at the place unless w, x, y, z are a unit quaternion, to the digits that files keep.
 void require_quaternion(const ProgramText& text, std::span<const Cell> cells);

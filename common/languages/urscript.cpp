@@ -109,8 +109,8 @@ class UrReader {
     } else {
       std::size_t first = begin;
       const std::string argument(text_.trimmed(first, argument_end(begin)));
-      leave(program_, {.name = word, .place = text_.place(std::min(begin, code_.size()))},
-            "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
+      skip_target(program_, {.name = word, .place = text_.place(std::min(begin, code_.size()))},
+                  "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
     }
   }
 

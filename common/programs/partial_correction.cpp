@@ -21,16 +21,16 @@ double safe_share(const Eigen::Vector3d& correction, const Eigen::Vector3d& appl
 }
 
 /// Along the principal axes: what to make of a correction, and how much that is expected to lower the squared error.
-struct Choice {
+struct CorrectedAxes {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   double gain = 0.0;
 };
 
 /// The best of all sets of axes along which the correction is above its deviation by so much that making it is nearer
 /// to the truth on average than leaving it.
-Choice best_choice(const Eigen::Vector3d& along, const Eigen::Vector3d& variances) {
+CorrectedAxes best_axes(const Eigen::Vector3d& along, const Eigen::Vector3d& variances) {
   constexpr int kSets = 8;
-  Choice best;
+  CorrectedAxes best;
   for (int set = 1; set < kSets; ++set) {
     Eigen::Vector3d kept = along;
     for (int axis = 0; axis < 3; ++axis) {
@@ -98,14 +98,14 @@ DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::M
   const Eigen::Matrix3d& axes = eigen.eigenvectors();
   const Eigen::Vector3d along = axes.transpose() * correction;
   const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(0.0);
-  const Eigen::Vector3d kept = best_choice(along, variances).along;
+  const Eigen::Vector3d kept = best_axes(along, variances).along;
   DeterminedPart part;
   part.applied = kept == along ? correction : Eigen::Vector3d(axes * kept);
   for (int axis = 0; axis < 3; ++axis) {
     const double deviation = std::sqrt(variances[axis]);
     const bool left = std::abs(kept[axis]) <= kMostlyLeft * std::abs(along[axis]);
     if (!left || deviation <= std::max(worth_saying, part.deviation)) continue;
-    part.left = axes.col(axis);
+    part.omitted = axes.col(axis);
     part.deviation = deviation;
   }
   return part;

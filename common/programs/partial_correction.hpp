@@ -11,8 +11,9 @@ namespace demecal {
 /// A correction of position (m) or of orientation (rad), as far as it should be made.
 struct DeterminedPart {
   Eigen::Vector3d applied = Eigen::Vector3d::Zero();
-  Eigen::Vector3d left = Eigen::Vector3d::Zero();  ///< direction (unit norm) left as programmed; 0: none worth saying
-  double deviation = 0.0;                          ///< standard deviation of the correction along `left`
+  Eigen::Vector3d omitted =
+      Eigen::Vector3d::Zero();  ///< direction (unit norm) left as programmed; 0: none worth saying
+  double deviation = 0.0;       ///< standard deviation of the correction along `omitted`
 };
 
 /// Of `correction`, whose error has this covariance, along the covariance's principal axes. An axis may be corrected

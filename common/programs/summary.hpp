@@ -16,11 +16,11 @@ struct TargetFigures {
 };
 
 /// Of a target that was corrected.
-TargetFigures figures_of(const Target& target, const CorrectedTarget& corrected, const Chain& arm);
+TargetFigures target_figures(const Target& target, const CorrectedTarget& corrected, const Chain& arm);
 
 /// Mean and largest distance, mm, that corrections move the nominal robot's tool point, over the targets corrected.
 struct MovedFigures {
-  int targets = 0, left = 0;  ///< corrected (where nothing had to change, too), and left as they are
+  int targets = 0, uncorrected = 0;  ///< corrected (where nothing had to change, too), and left as they are
   double mean_mm = 0.0, max_mm = 0.0;
 };
 MovedFigures moved_figures(const CorrectedProgram& corrected);

@@ -31,7 +31,7 @@ std::string axis_name(const Eigen::Vector3d& direction, const Eigen::Matrix3d& f
 
 std::string left_sentence(const std::string& what, const DeterminedPart& part, const std::string& deviation,
                           const Eigen::Matrix3d& flange) {
-  return what + axis_name(part.left, flange) + " is not determined by the calibration (standard deviation " +
+  return what + axis_name(part.omitted, flange) + " is not determined by the calibration (standard deviation " +
          deviation + "): left as programmed";
 }
 
@@ -74,13 +74,13 @@ void settle_position(const Target& target, const CommandModel& model, const Eige
     joints = *solved;
     const Eigen::Vector3d error = goal_m - model.robot.predict(corrected.stop.with_joints(joints), "").translation();
     const bool first = repetition == 0;
-    if (first || error.norm() <= corrected.left_m) {
+    if (first || error.norm() <= corrected.residual_m) {
       corrected.command = joints;
       corrected.command_tool = tool;
-      corrected.left_m = error.norm();
+      corrected.residual_m = error.norm();
     }
     if (error.norm() < kExact) {
-      corrected.outcome = Correctedness::corrected;
+      corrected.outcome = CorrectionOutcome::corrected;
       return;
     }
     tool.translation() += error;
@@ -105,7 +105,7 @@ std::string joint_label(int joint) {
   return "joint " + std::to_string(joint + 1);
 }
 
-CorrectedTarget corrected_at(const Target& target, const CommandModel& model, const Stop& stop) {
+CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop) {
   CorrectedTarget corrected;
   corrected.stop = stop;
   corrected.nominal = stop.joints;
@@ -113,9 +113,10 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
   const Eigen::Isometry3d goal = corrected.goal = goal_of(target, model, corrected);
   const InverseSolution solution = nearby_command(model.robot, goal, stop);
   corrected.inverse = corrected.command = solution.q;
-  corrected.outcome = solution.status == InverseStatus::converged ? Correctedness::corrected : Correctedness::nearest;
-  corrected.left_m = solution.position_residual_m;
-  corrected.left_rad = solution.orientation_residual_rad;
+  corrected.outcome =
+      solution.status == InverseStatus::converged ? CorrectionOutcome::corrected : CorrectionOutcome::nearest;
+  corrected.residual_m = solution.position_residual_m;
+  corrected.residual_rad = solution.orientation_residual_rad;
   corrected.command_tool = model.nominal_tool(corrected.command);
   if (model.posterior && model.interval)
     corrected.error95_m = real_radius95_m(*model.interval, *model.posterior, model.robot, stop);
@@ -123,13 +124,13 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
   return corrected;
 }
 
-std::vector<std::string> texts_of(const Target& target, const CorrectedTarget& corrected) {
+std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget& corrected) {
   std::vector<std::string> texts;
-  const bool changed = !corrected.is_left() && corrected.command != corrected.nominal;
+  const bool changed = !corrected.is_uncorrected() && corrected.command != corrected.nominal;
   const auto add = [&](const Cell& cell, double value) {
     texts.push_back(changed ? rewritten(cell, value).value_or("") : "");
   };
-  if (corrected.is_left()) return texts;
+  if (corrected.is_uncorrected()) return texts;
   for (std::size_t i = 0; i < target.joints.size(); ++i) {
     add(target.joints[i], corrected.command[static_cast<Eigen::Index>(i)]);
   }

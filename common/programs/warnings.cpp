@@ -11,8 +11,8 @@
 namespace demecal {
 namespace {
 
-constexpr double kLimitRounding = 1e-4;      ///< rad or m: files round, and the ends of ranges are poses themselves
-constexpr double kLargestUsual = 0.05;  ///< rad or m: errors of arms are a tenth of it
+constexpr double kLimitRounding = 1e-4;  ///< rad or m: files round, and the ends of ranges are poses themselves
+constexpr double kLargestUsual = 0.05;   ///< rad or m: errors of arms are a tenth of it
 
 void check_limits(int joint, const Joint& link, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
   const std::string limits = joint_amount(link, link.lower) + " .. " + joint_amount(link, link.upper);
@@ -28,9 +28,9 @@ void check_limits(int joint, const Joint& link, const CorrectedTarget& corrected
 void check_range(int joint, const Joint& link, const CorrectedTarget& corrected, const CommandModel& model,
                  std::vector<std::string>& sentences) {
   const double value = corrected.nominal[joint];
-  const bool corrected_range = beyond_calibrated(model.robot, joint, value) > kLimitRounding;
+  const bool corrected_range = distance_outside_calibrated(model.robot, joint, value) > kLimitRounding;
   const std::optional<Interval> range =
-      corrected_range ? calibrated_range(model.robot, joint) : beyond_measured(model, joint, value);
+      corrected_range ? calibrated_range(model.robot, joint) : outside_measured(model, joint, value);
   if (!range) return;
   sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, value) +
                       ", outside the calibrated range " + joint_amount(link, range->lower) + " .. " +
@@ -76,7 +76,7 @@ void check_configuration(const Target& target, const CorrectedTarget& corrected,
 }
 
 /// What should be known of a tool that the user names for this program.
-void judge_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std::vector<std::string>& sentences) {
+void check_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std::vector<std::string>& sentences) {
   constexpr double kAnother = 1e-4;  ///< m
   const auto another = [&](const Target& target) {
     return target.frames.tool && (target.frames.tool->translation() - tool_m).norm() > kAnother;
@@ -99,11 +99,11 @@ void judge_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std
 
 std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected,
                                      const CommandModel& model) {
-  if (corrected.outcome == Correctedness::no_joints) {
+  if (corrected.outcome == CorrectionOutcome::no_joints) {
     return {"the nominal robot does not reach the pose; it is left as it is"};
   }
   std::vector<std::string> sentences = corrected.remarks;
-  if (corrected.outcome == Correctedness::left) return sentences;
+  if (corrected.outcome == CorrectionOutcome::uncorrected) return sentences;
   for (int joint = 0; joint < model.nominal.chain.size(); ++joint) {
     const Joint& link = model.nominal.chain.joints[static_cast<std::size_t>(joint)];
     check_limits(joint, link, corrected, sentences);
@@ -111,9 +111,9 @@ std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget
   }
   check_bounds(corrected, model, sentences);
   check_configuration(target, corrected, sentences);
-  if (corrected.outcome == Correctedness::nearest) {
-    sentences.push_back("the model has no exact inverse here; " + fixed_text(millimetres(corrected.left_m), 4) +
-                        " mm of position error and " + fixed_text(degrees(corrected.left_rad), 4) +
+  if (corrected.outcome == CorrectionOutcome::nearest) {
+    sentences.push_back("the model has no exact inverse here; " + fixed_text(millimetres(corrected.residual_m), 4) +
+                        " mm of position error and " + fixed_text(degrees(corrected.residual_rad), 4) +
                         " deg of orientation error remain");
   }
   return sentences;
@@ -127,7 +127,7 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
     sentences.emplace_back(
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
-  if (tool_given) judge_given_tool(program, model.nominal.chain.tool_m, sentences);
+  if (tool_given) check_given_tool(program, model.nominal.chain.tool_m, sentences);
   return sentences;
 }
 

@@ -159,14 +159,14 @@ std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, cons
 }
 
 std::string to_json(const Evaluation& evaluation) {
-  return dumped(json_of(evaluation), -1);
+  return to_text(json_of(evaluation), -1);
 }
 
 std::string to_json(const Comparison& comparison, int indent) {
   nlohmann::ordered_json json{{"demecal_comparison", 1}};
   JsonWriter write(json);
   fields(write, comparison);
-  return dumped(json, indent);
+  return to_text(json, indent);
 }
 
 }  // namespace demecal

@@ -15,7 +15,7 @@ namespace {
 
 bool has_mean(const ErrorBySet& errors) {
   return std::ranges::any_of(kPoseSets,
-                             [&](const PoseSetOfReport& set) { return (errors.*set.errors).mean_mm.has_value(); });
+                             [&](const ReportPoseSet& set) { return (errors.*set.errors).mean_mm.has_value(); });
 }
 
 /// What the stage of everything declared adds to the fit.
@@ -106,24 +106,24 @@ const Stage* find_stage(const std::vector<Stage>& stages, const std::string& key
   return found == stages.end() ? nullptr : &*found;
 }
 
-std::vector<PoseSetOfReport> measured_sets(const std::vector<Stage>& stages) {
-  std::vector<PoseSetOfReport> sets(kPoseSets.begin(), kPoseSets.end());
-  std::erase_if(sets, [&](const PoseSetOfReport& set) {
+std::vector<ReportPoseSet> measured_sets(const std::vector<Stage>& stages) {
+  std::vector<ReportPoseSet> sets(kPoseSets.begin(), kPoseSets.end());
+  std::erase_if(sets, [&](const ReportPoseSet& set) {
     return std::ranges::none_of(stages, [&](const Stage& stage) { return stage.on(set).mean_mm.has_value(); });
   });
   return sets;
 }
 
-std::optional<Judgement> judgement(const std::vector<Stage>& stages) {
+std::optional<Improvement> improvement(const std::vector<Stage>& stages) {
   if (stages.size() < 2) return std::nullopt;
   const Stage* const registered = find_stage(stages, "registered");
   const Stage& before = registered != nullptr ? *registered : stages.front();
   const Stage& after = stages.back();
   if (&before == &after) return std::nullopt;
   for (std::size_t i = kPoseSets.size(); i-- > 0;) {
-    const PoseSetOfReport& set = kPoseSets[i];
+    const ReportPoseSet& set = kPoseSets[i];
     if (before.on(set).mean_mm && after.on(set).mean_mm)
-      return Judgement{set, before.title, after.title, before.on(set), after.on(set)};
+      return Improvement{set, before.title, after.title, before.on(set), after.on(set)};
   }
   return std::nullopt;
 }
@@ -139,7 +139,7 @@ std::map<std::uint64_t, std::vector<Harmonic>> harmonics_of(const std::vector<Ef
   return joints;
 }
 
-std::string harmonics_words(const std::vector<Harmonic>& harmonics) {
+std::string harmonics_text(const std::vector<Harmonic>& harmonics) {
   const Harmonic& largest = *std::ranges::max_element(harmonics, {}, &Harmonic::amplitude);
   const std::string size = amount(largest.amplitude, largest.unit);
   if (harmonics.size() == 1) return fmt::format("1 harmonic, {:g} cycles per turn, {}", largest.cycles, size);
@@ -155,7 +155,7 @@ std::optional<double> EffectEntry::standard_error(const std::string& wanted) con
   return value_of(standard_errors, wanted);
 }
 
-std::string EffectEntry::telling() const {
+std::string EffectEntry::distinction() const {
   std::string text = unusual_form(*this);
   for (const char* const setting : kTelling) {
     const std::optional<double> value = parameter(setting);
@@ -165,7 +165,7 @@ std::string EffectEntry::telling() const {
 }
 
 std::string EffectEntry::name() const {
-  const std::string which = telling();
+  const std::string which = distinction();
   return kind + (which.empty() ? "" : " (" + which + ")") + (joint ? fmt::format(", joint {}", *joint) : "");
 }
 
@@ -193,7 +193,7 @@ std::string probability(std::optional<double> p) {
   return p && std::isfinite(*p) ? fmt::format("{:.2g}", *p) : "–";
 }
 
-std::string class_words(const std::vector<ClassMember>& members) {
+std::string class_text(const std::vector<ClassMember>& members) {
   std::string text;
   const auto elsewhere = [&members](const ClassMember& member) { return member.joint != members.front().joint; };
   if (!members.empty() && members.front().joint && std::ranges::none_of(members, elsewhere)) {
@@ -213,7 +213,7 @@ std::string class_words(const std::vector<ClassMember>& members) {
 
 std::string class_sentence(const std::vector<ClassMember>& members) {
   if (members.empty()) return {};
-  std::string text = class_words(members) + ": these poses cannot tell.";
+  std::string text = class_text(members) + ": these poses cannot tell.";
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }

@@ -12,12 +12,12 @@
 namespace demecal {
 
 /// A set of poses by its name, its errors and their number.
-struct PoseSetOfReport {
+struct ReportPoseSet {
   const char* name;
   SetErrors ErrorBySet::*errors;
   std::uint64_t Report::Poses::*poses;
 };
-inline constexpr std::array<PoseSetOfReport, 3> kPoseSets{
+inline constexpr std::array<ReportPoseSet, 3> kPoseSets{
     {{"calibration", &ErrorBySet::calibration, &Report::Poses::calibration},
      {"validation", &ErrorBySet::validation, &Report::Poses::validation},
      {"accept", &ErrorBySet::accept, &Report::Poses::accept}}};
@@ -28,7 +28,7 @@ struct Stage {
   std::string title;  ///< for people
   const ErrorBySet* errors = nullptr;
 
-  const SetErrors& on(const PoseSetOfReport& set) const { return errors->*set.errors; }
+  const SetErrors& on(const ReportPoseSet& set) const { return errors->*set.errors; }
 };
 
 /// Those that have figures, in the order of the calibration. The stage of the closed loop is left out where the loop
@@ -37,18 +37,18 @@ std::vector<Stage> error_stages(const Report& report);
 /// Null where it is none of them.
 const Stage* find_stage(const std::vector<Stage>& stages, const std::string& key);
 /// The sets that any stage has a mean on.
-std::vector<PoseSetOfReport> measured_sets(const std::vector<Stage>& stages);
+std::vector<ReportPoseSet> measured_sets(const std::vector<Stage>& stages);
 
 /// The figures a calibration is judged by: those of accept poses; without these of validation poses, and so on.
-struct Judgement {
-  PoseSetOfReport set{};
+struct Improvement {
+  ReportPoseSet set{};
   std::string from, to;  ///< titles of the stages
   SetErrors before;      ///< the robot with its base fitted and nothing else, or the first stage there is
   SetErrors after;       ///< the last stage
 };
 
 /// Nothing where no set has a mean before and after.
-std::optional<Judgement> judgement(const std::vector<Stage>& stages);
+std::optional<Improvement> improvement(const std::vector<Stage>& stages);
 
 struct Harmonic {
   double cycles = 0.0;                     ///< a turn
@@ -62,7 +62,7 @@ struct Harmonic {
 std::map<std::uint64_t, std::vector<Harmonic>> harmonics_of(const std::vector<EffectEntry>& effects);
 
 /// "9 harmonics, 11 to 31 cycles per turn, largest 0.21 mrad at 15"; of at least one.
-std::string harmonics_words(const std::vector<Harmonic>& harmonics);
+std::string harmonics_text(const std::vector<Harmonic>& harmonics);
 
 /// `value` of an SI unit as it stands in a coefficient's label, with three digits and a unit of fitting size:
 /// (0.000412, "rad") is "0.412 mrad", (2e-7, "rad/Nm") "0.2 µrad/Nm", (1.3e-5, "1/K") "13 ppm/K". A dash where it is
@@ -76,7 +76,7 @@ std::string limit_amount(double value, const std::string& unit);
 std::string probability(std::optional<double> p);
 
 /// "link geometry of joints 2 and 3 or instrument scale", "backlash or friction hysteresis of joint 2".
-std::string class_words(const std::vector<ClassMember>& members);
+std::string class_text(const std::vector<ClassMember>& members);
 
 /// "Link geometry of joint 2 or instrument scale: these poses cannot tell."; empty for an empty class.
 std::string class_sentence(const std::vector<ClassMember>& members);

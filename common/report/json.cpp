@@ -93,7 +93,7 @@ std::optional<std::uint64_t> JsonValue::count() const {
   return value_->get<std::uint64_t>();
 }
 
-std::optional<bool> JsonValue::truth() const {
+std::optional<bool> JsonValue::boolean() const {
   if (!exists()) return std::nullopt;
   if (!value_->is_boolean()) refuse("must be true or false");
   return value_->get<bool>();

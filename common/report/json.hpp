@@ -31,7 +31,7 @@ class JsonValue {
   std::vector<std::pair<std::string, JsonValue>> members() const;  ///< of an object, in the order of the file
   std::optional<double> number() const;
   std::optional<std::uint64_t> count() const;  ///< a whole number that is not negative
-  std::optional<bool> truth() const;
+  std::optional<bool> boolean() const;
   std::string text() const;                ///< empty where missing
   std::vector<std::string> texts() const;  ///< of an array of texts
   std::vector<double> numbers() const;     ///< of an array of numbers
@@ -161,7 +161,7 @@ nlohmann::ordered_json json_of(const Value& value) {
 template <class Value>
 void read_json(const JsonValue& json, Value& value) {
   if constexpr (std::is_same_v<Value, bool>) {
-    value = json.truth().value_or(false);
+    value = json.boolean().value_or(false);
   } else if constexpr (std::is_floating_point_v<Value>) {
     value = json.number().value_or(std::numeric_limits<Value>::quiet_NaN());
   } else if constexpr (std::is_integral_v<Value>) {
@@ -189,7 +189,7 @@ void read_json(const JsonValue& json, Value& value) {
 }
 
 /// Text of bytes that may not be UTF-8, since names come from files: they are replaced, lest there be no text.
-inline std::string dumped(const nlohmann::ordered_json& json, int indent) {
+inline std::string to_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

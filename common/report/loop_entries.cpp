@@ -67,13 +67,14 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
                    .interval = intervals(round, robot),
                    .validation_before_mm = if_finite(round.validation_before_mm),
                    .validation_after_mm = if_finite(round.validation_after_mm),
-                   .further = {}};
+                   .next_measurement = {}};
   for (const Rival& rival : round.rivals) {
     entry.rivals.push_back({effect_entry(rival.effect, robot), if_finite(rival.cosine), if_finite(rival.nats_behind)});
   }
   entry.members = effect_class(entry.effect, entry.rivals);
   entry.class_sentence = class_sentence(entry.members);
-  if (round.further) entry.further = FurtherEntry{round.further->sentence, count_of(round.further->poses)};
+  if (round.further)
+    entry.next_measurement = NextMeasurementEntry{round.further->sentence, count_of(round.further->poses)};
   return entry;
 }
 
@@ -142,7 +143,7 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   for (const Round& round : loop.rounds) report.rounds.push_back(round_entry(round, described));
   for (const Effect& effect : loop.dropped) report.dropped.push_back(effect_entry(effect, described));
   for (const NotFound& missing : loop.not_found) report.not_found.push_back(not_found_entry(missing, described));
-  for (const Unseen& unseen : loop.unseen) report.unseen.push_back({unseen.kind, unseen.reason});
+  for (const Unseen& unseen : loop.unseen) report.untestable.push_back({unseen.kind, unseen.reason});
   for (const Decoy& decoy : loop.decoys)
     report.decoys.push_back({decoy.name, if_finite(decoy.best_fall_nats), if_finite(decoy.p_left), decoy.won});
   report.stopped = word_of(loop.stopped);

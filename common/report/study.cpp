@@ -145,7 +145,7 @@ std::string to_json(const Study& study, int indent) {
   json["islands"] = study.islands;
   json["blocks"] = Json::array();
   for (const BuildingBlock& block : study.blocks) json["blocks"].push_back(block_json(block));
-  return dumped(json, indent);
+  return to_text(json, indent);
 }
 
 }  // namespace demecal

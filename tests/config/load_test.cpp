@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "config/data_set_file.hpp"
+#include "config/files.hpp"
 #include "config/job_file.hpp"
 #include "config/robot_file.hpp"
 #include "config/scenario_file.hpp"
-#include "config/files.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
@@ -191,7 +191,7 @@ TEST(LoadJob, RefusesSeedsThatAreNoFormulasOrHaveNoPlace) {
 
 TEST(LoadJob, DeclaresByTheSameWordsFromACommandLine) {
   const std::vector<std::string> words{"tool", "joint_corrections"};
-  const DeclaredModel declared = declared_of(words);
+  const DeclaredModel declared = declared_model(words);
   EXPECT_TRUE(declared.tool && declared.joint_corrections);
   EXPECT_FALSE(declared.registration || declared.joint_offset || declared.geometry);
   EXPECT_THAT(declared_words(), ElementsAre("registration", "tool", "joint_offset", "geometry", "joint_corrections"));

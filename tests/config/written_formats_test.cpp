@@ -188,7 +188,7 @@ std::string summary_of(const std::string& program, const Robot& nominal, const C
                        const JointVector& near) {
   CorrectedProgram corrected = correct_program(
       program, read_program(WrittenIn::csv, program, "program.csv", nominal.chain), model, {.near = near});
-  EXPECT_FALSE(corrected.targets.at(0).is_left()) << program;
+  EXPECT_FALSE(corrected.targets.at(0).is_uncorrected()) << program;
   corrected.targets.front().error95_m = 1e-4;
   corrected.warnings.push_back({kWholeProgram, "", "a warning"});
   return summary_json(corrected, nominal.chain);

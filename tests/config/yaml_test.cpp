@@ -33,7 +33,7 @@ TEST(Yaml, ReadsScalarsOfEveryKind) {
   EXPECT_EQ(root.at("n").number(), -1.5e-3);
   EXPECT_EQ(root.at("i").whole_number(-10, 10), -7);
   EXPECT_EQ(root.at("s").seed(), 18446744073709551615u);
-  EXPECT_TRUE(root.at("t").truth());
+  EXPECT_TRUE(root.at("t").boolean());
   EXPECT_EQ(root.at("w").text(), "a word");
   EXPECT_EQ(root.at("v").vector3(), Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(root.at("r").range(), std::pair(-1.0, 2.0));
@@ -54,7 +54,7 @@ TEST(Yaml, ComplainsWithFileLineValueKeyAndRule) {
   EXPECT_EQ(said("m", [](const YamlNode& n) { n.text(); }), "f.yaml:5: m must be a text");
   EXPECT_EQ(said("f", [](const YamlNode& n) { n.whole_number(0, 9); }), "f.yaml:6: '1.5': f must be a whole number");
   EXPECT_EQ(said("f", [](const YamlNode& n) { n.number(2.0, 3.0); }), "f.yaml:6: '1.5': f must lie within 2 to 3");
-  EXPECT_EQ(said("b", [](const YamlNode& n) { n.truth(); }),
+  EXPECT_EQ(said("b", [](const YamlNode& n) { n.boolean(); }),
             "f.yaml:7: 'yes': b must be one of: true false; the nearest is 'true'");
   EXPECT_EQ(said("r", [](const YamlNode& n) { n.range(); }), "f.yaml:8: '[2, 1]': r must rise from lower to upper");
 }
@@ -69,12 +69,12 @@ TEST(Yaml, NamesTheNearestKey) {
 }
 
 TEST(Yaml, ChecksTheKindAndVersionOfAFile) {
-  EXPECT_EQ(complaint([] { yaml("demecal_robot: 1\n").of_version("robot", 1); }), "");
-  EXPECT_EQ(complaint([] { yaml("demecal_robot: 2\n").of_version("robot", 1); }),
+  EXPECT_EQ(complaint([] { yaml("demecal_robot: 1\n").with_version("robot", 1); }), "");
+  EXPECT_EQ(complaint([] { yaml("demecal_robot: 2\n").with_version("robot", 1); }),
             "f.yaml:1: '2': demecal_robot must be 1");
-  EXPECT_EQ(complaint([] { yaml("a: 1\ndemecal_job: 1\n").of_version("robot", 1); }),
+  EXPECT_EQ(complaint([] { yaml("a: 1\ndemecal_job: 1\n").with_version("robot", 1); }),
             "f.yaml:2: 'demecal_job': demecal_job marks another kind of file; demecal_robot: 1 is expected");
-  EXPECT_EQ(complaint([] { yaml("\na: 1\n").of_version("robot", 1); }),
+  EXPECT_EQ(complaint([] { yaml("\na: 1\n").with_version("robot", 1); }),
             "f.yaml:2: demecal_robot: 1 is missing: it says what kind of file this is");
 }
 

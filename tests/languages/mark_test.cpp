@@ -7,7 +7,7 @@ namespace demecal {
 namespace {
 
 TEST(Mark, IsACommentThatReadersPassOverAndASecondRunFinds) {
-  const std::string mark = mark_of("1.0", "a job", "0123456789abcdef");
+  const std::string mark = correction_mark("1.0", "a job", "0123456789abcdef");
   EXPECT_EQ(mark, "corrected by demecal 1.0 with the model of a job (data 0123456789ab)");
   RandomStream stream{7510};
   const Chain arm = wrist_arm();

@@ -120,9 +120,9 @@ TEST(Krl, ReadsTargetsAndNeitherFramesNorRelativeMotions) {
   EXPECT_TRUE(*program.targets[4].hint.negative[2]);
   EXPECT_FALSE(*program.targets[4].hint.negative[1]);
   EXPECT_THAT(values(program.targets[1].joints), ElementsAre(0, -90, 90, 0, 1.5, -2));
-  ASSERT_EQ(program.left.size(), 2u);
-  EXPECT_THAT(program.left[0].sentence, HasSubstr("only some of A1 to A6"));
-  EXPECT_THAT(program.left[1].sentence, HasSubstr("'q' is no number"));
+  ASSERT_EQ(program.uncorrected.size(), 2u);
+  EXPECT_THAT(program.uncorrected[0].sentence, HasSubstr("only some of A1 to A6"));
+  EXPECT_THAT(program.uncorrected[1].sentence, HasSubstr("'q' is no number"));
 }
 
 TEST(Krl, NamesTheFault) {
@@ -149,8 +149,8 @@ TEST(Rapid, ReadsTargetsWhereverTheyStand) {
   EXPECT_THAT(values(program.targets[0].position), ElementsAre(500, -20.5, 300));
   EXPECT_EQ(program.targets[0].hint.quadrants[3], -1);
   EXPECT_EQ(program.targets[2].place.line, 6u);
-  ASSERT_EQ(program.left.size(), 1u);
-  EXPECT_THAT(program.left[0].sentence, HasSubstr("'x'"));
+  ASSERT_EQ(program.uncorrected.size(), 1u);
+  EXPECT_THAT(program.uncorrected[0].sentence, HasSubstr("'x'"));
 }
 
 TEST(Rapid, NamesTheFault) {
@@ -178,7 +178,7 @@ TEST(UrScript, ReadsWhatMotionsAreSentTo) {
   ASSERT_EQ(program.targets[0].hint.near.size(), 6);
   EXPECT_EQ(program.targets[0].hint.near[1], -1.5);
   EXPECT_THAT(values(program.targets[2].joints), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_EQ(program.left.size(), 3u);
+  EXPECT_EQ(program.uncorrected.size(), 3u);
 }
 
 TEST(UrScript, NamesTheFault) {

@@ -78,7 +78,7 @@ Circle circle_of(RandomStream& stream, const CommandModel& model, WrittenIn lang
   const Run before = run_on(model, program, meant);
   const CorrectedProgram corrected = correct_program(text, std::move(program), model, {.near = meant.front()});
   for (std::size_t i = 0; i < meant.size(); ++i) {
-    EXPECT_EQ(corrected.targets[i].outcome, Correctedness::corrected);
+    EXPECT_EQ(corrected.targets[i].outcome, CorrectionOutcome::corrected);
     EXPECT_LT((meant[i] - corrected.targets[i].nominal).norm(), 1e-2);
     meant[i] = corrected.targets[i].nominal;  // the file's rounding
   }

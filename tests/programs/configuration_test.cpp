@@ -91,7 +91,7 @@ TEST(SingularWrist, KeepsItsJoints) {
     const CorrectedProgram corrected =
         correct_program(text, read_program(WrittenIn::urscript, text, "p", model.nominal.chain), model, {});
     EXPECT_LT((corrected.targets[0].command - joints).cwiseAbs().maxCoeff(), radians(3.0));
-    EXPECT_LT(corrected.targets[0].left_m, 1e-5);
+    EXPECT_LT(corrected.targets[0].residual_m, 1e-5);
   }
 }
 

@@ -132,8 +132,8 @@ TEST(UnknownFrames, LeaveTheirLinesAndSaySo) {
       "LIN {X 500,Y 200,Z 300,A 0,B 90,C 0,S 2,T 2}\n";
   const CorrectedProgram corrected =
       correct_program(text, read_program(WrittenIn::krl, text, "p", model.nominal.chain), model, {});
-  EXPECT_EQ(corrected.targets[0].outcome, Correctedness::corrected);
-  EXPECT_EQ(corrected.targets[1].outcome, Correctedness::left);
+  EXPECT_EQ(corrected.targets[0].outcome, CorrectionOutcome::corrected);
+  EXPECT_EQ(corrected.targets[1].outcome, CorrectionOutcome::uncorrected);
   EXPECT_EQ(corrected.text.substr(corrected.text.find("LIN")), text.substr(text.find("LIN")));
   ASSERT_FALSE(corrected.warnings.empty());
   EXPECT_THAT(corrected.warnings.back().sentence,
@@ -148,7 +148,7 @@ TEST(GivenTool, StandsInForOneThatTheFileDoesNotGiveAndGivesWayToOneThatItStates
   const auto first_warning = [&](const std::string& text) {
     const CorrectedProgram corrected =
         correct_program(text, read_program(WrittenIn::krl, text, "p", model.nominal.chain), model, given);
-    EXPECT_EQ(corrected.targets[0].outcome, Correctedness::corrected);
+    EXPECT_EQ(corrected.targets[0].outcome, CorrectionOutcome::corrected);
     return corrected.warnings.empty() ? "" : corrected.warnings[0].sentence;
   };
   EXPECT_THAT(first_warning("BAS(#TOOL,3)\n" + move), HasSubstr("stands in for one"));

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 /// "go 1 2 3 4 5 6" moves the joints, in degrees.
 Program read_dawdle(std::string_view text, const std::string& file, const Chain& arm) {
   const ProgramText code(text, file, {.comment = '%'});
-  Program program{.file = file, .targets = {}, .left = {}};
+  Program program{.file = file, .targets = {}, .uncorrected = {}};
   code.for_each_word([&](std::size_t begin, std::size_t end) {
     if (code.code().substr(begin, end - begin) != "go") return;
     Target target{.place = code.place(begin)};
@@ -57,7 +57,7 @@ TEST(MadeUpLanguage, IsCorrectedMarkedAndSummedUp) {
   EXPECT_THAT(summary_json(corrected, model.nominal.chain), HasSubstr("\"language\":\"dawdle\""));
   EXPECT_THAT(summary_table(corrected, model.nominal.chain), HasSubstr("2 targets corrected"));
 
-  const std::string marked = with_mark(corrected.text, kDawdle, mark_of("1.0", "a job", ""));
+  const std::string marked = with_mark(corrected.text, kDawdle, correction_mark("1.0", "a job", ""));
   EXPECT_THAT(marked, ::testing::StartsWith("to work\n% corrected by demecal 1.0 with the model of a job\n  go "));
   EXPECT_EQ(marked_line(marked, kTable), 2u);
   const Program again = read_program(kDawdle, marked, "a.daw", model.nominal.chain);

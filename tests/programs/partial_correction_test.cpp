@@ -24,7 +24,7 @@ TEST(DeterminedPart, LeavesTheOneDirectionThatIsNotKnown) {
   const Eigen::Matrix3d covariance = 1e-12 * Eigen::Matrix3d::Identity() + 1e-4 * direction * direction.transpose();
   const Eigen::Vector3d correction(1e-3, -2e-3, 5e-4);
   const DeterminedPart part = determined_part(correction, covariance, 5e-5);
-  EXPECT_NEAR(std::abs(part.left.dot(direction)), 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(part.omitted.dot(direction)), 1.0, 1e-9);
   EXPECT_NEAR(part.applied.dot(direction), 0.0, 1e-9);
   EXPECT_LT((part.applied - (correction - correction.dot(direction) * direction)).norm(), 1e-9);
 }

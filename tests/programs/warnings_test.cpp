@@ -5,9 +5,9 @@
 #include "corrected_arm.hpp"
 #include "kinematics/units.hpp"
 #include "languages/written_program.hpp"
+#include "programs/correct_program.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/summary.hpp"
-#include "programs/correct_program.hpp"
 
 namespace demecal {
 namespace {
@@ -78,7 +78,7 @@ TEST(Concerns, NamePosesOutOfReachAndLeaveThem) {
   EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("does not reach the pose"));
   EXPECT_EQ(corrected.text.substr(0, 27), text.substr(0, 27));
   EXPECT_NE(corrected.text, text);
-  EXPECT_EQ(moved_figures(corrected).left, 1);
+  EXPECT_EQ(moved_figures(corrected).uncorrected, 1);
 }
 
 /// The one warning about a model whose tool is moved so, and that nothing is corrected for it.

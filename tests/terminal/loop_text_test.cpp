@@ -191,12 +191,12 @@ TEST(LoopTerminal, IsAtMostAHundredColumnsWide) {
 TEST(TerminalText, FillsUpAndCutsToItsColumns) {
   for (const std::string text : {"", "a", "grün", "ein sehr langes Wort µµµµµ"}) {
     for (const std::size_t columns : {6u, 9u, 40u}) {
-      EXPECT_EQ(columns_of(left(text, columns)), columns);
-      EXPECT_EQ(columns_of(right(text, columns)), columns);
+      EXPECT_EQ(display_width(left_aligned(text, columns)), columns);
+      EXPECT_EQ(display_width(right_aligned(text, columns)), columns);
     }
   }
-  EXPECT_EQ(right("ü", 3), "  ü");
-  EXPECT_EQ(cut("äöüäöü", 5), "äö...");
+  EXPECT_EQ(right_aligned("ü", 3), "  ü");
+  EXPECT_EQ(truncated("äöüäöü", 5), "äö...");
 }
 
 }  // namespace
