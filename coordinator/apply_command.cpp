@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <set>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/watched.hpp"
 

@@ -4,11 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
-#include "config/load_matrices.hpp"
+#include "yaml/files.hpp"
 #include "config/robot_file.hpp"
 #include "config/model_file.hpp"
-#include "config/yaml_node.hpp"
+#include "yaml/yaml_node.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "formulas/corrected_arm.hpp"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "config/robot_file.hpp"
 
 namespace demecal {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "config/preparation_file.hpp"
 #include "config/data_set_file.hpp"
 #include "coordinator/checked_data.hpp"

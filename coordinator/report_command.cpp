@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "html/page.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "calibration/loop_passes.hpp"
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/argument_error.hpp"
 #include "coordinator/written_files.hpp"

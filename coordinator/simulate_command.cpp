@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "config/scenario_file.hpp"
 #include "config/data_set_file.hpp"
 #include "coordinator/commands.hpp"

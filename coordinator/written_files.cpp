@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "config/yaml_node.hpp"
 #include "data/columns.hpp"
 #include "data/data_set.hpp"
 #include "effects/stop.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 

@@ -2,12 +2,12 @@
 #include <limits>
 #include <tuple>
 
-#include "config/files.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
 #include "errors/input_error.hpp"
 #include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

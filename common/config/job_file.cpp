@@ -5,8 +5,9 @@
 #include <limits>
 #include <string_view>
 
-#include "config/files.hpp"
-#include "config/yaml_node.hpp"
+#include "effects/effect.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -149,10 +150,11 @@ Job read_job(const YamlNode& root) {
 }
 
 std::span<const std::string> effect_kinds() {
-  static const std::vector<std::string> kinds{
-      "registration",  "tool",           "joint_offset",   "geometry", "gain",         "eccentricity",
-      "gear_harmonic", "compliance",     "link_bending",   "coupling", "backlash",     "hysteresis",
-      "axis_wobble",   "thermal_offset", "thermal_length", "drift",    "sensor_scale", "symbolic"};
+  static const std::vector<std::string> kinds = [] {
+    std::vector<std::string> words;
+    for (const EffectLaw* law : catalogue()) words.emplace_back(law->kind());
+    return words;
+  }();
   return kinds;
 }
 

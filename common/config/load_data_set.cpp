@@ -3,15 +3,15 @@
 #include <sstream>
 
 #include "config/data_set_file.hpp"
-#include "config/files.hpp"
 #include "config/robot_file.hpp"
-#include "config/yaml_node.hpp"
 #include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 #include "random/random_stream.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

@@ -3,11 +3,11 @@
 #include <sstream>
 
 #include "config/model_file.hpp"
-#include "config/yaml_text.hpp"
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
+#include "yaml/yaml_text.hpp"
 
 namespace demecal {
 namespace {

@@ -2,9 +2,9 @@
 #include <sstream>
 
 #include "config/model_file.hpp"
-#include "config/yaml_node.hpp"
-#include "config/yaml_text.hpp"
 #include "errors/input_error.hpp"
+#include "yaml/yaml_node.hpp"
+#include "yaml/yaml_text.hpp"
 
 namespace demecal {
 namespace {

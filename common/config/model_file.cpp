@@ -6,13 +6,13 @@
 #include "calibration/shared_calls.hpp"
 #include "config/job_file.hpp"
 #include "config/robot_file.hpp"
-#include "config/yaml_node.hpp"
-#include "config/yaml_text.hpp"
 #include "errors/input_error.hpp"
 #include "expression/argument_order.hpp"
 #include "expression/folded_formula.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
+#include "yaml/yaml_node.hpp"
+#include "yaml/yaml_text.hpp"
 
 namespace demecal {
 namespace {

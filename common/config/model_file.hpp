@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "calibration/calibrated_model.hpp"
-#include "config/yaml_node.hpp"
 #include "effects/effect.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 

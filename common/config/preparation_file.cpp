@@ -3,10 +3,10 @@
 #include <sstream>
 
 #include "config/robot_file.hpp"
-#include "config/yaml_node.hpp"
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
 #include "preparation/marked_names.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "config/yaml_node.hpp"
 #include "preparation/raw_measurements.hpp"
 #include "preparation/readings.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 

@@ -1,8 +1,8 @@
 #include "config/scenario_file.hpp"
 
-#include "config/yaml_node.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "config/robot_file.hpp"
-#include "config/yaml_node.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

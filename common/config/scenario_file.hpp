@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "config/yaml_node.hpp"
 #include "simulation/scenario.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 

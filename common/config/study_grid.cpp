@@ -4,8 +4,8 @@
 #include <array>
 
 #include "config/job_file.hpp"
-#include "config/yaml_node.hpp"
 #include "errors/input_error.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

@@ -6,12 +6,12 @@
 #include <string_view>
 
 #include "config/data_set_file.hpp"
-#include "config/files.hpp"
 #include "config/robot_file.hpp"
-#include "config/yaml_node.hpp"
-#include "config/yaml_text.hpp"
 #include "data/csv.hpp"
 #include "errors/check.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
+#include "yaml/yaml_text.hpp"
 
 namespace demecal {
 namespace {

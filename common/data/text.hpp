@@ -22,6 +22,7 @@ using UnitConversion = double (*)(double);
 /// decimal does, the one that comes within the last bit.
 std::string number_text(double inside, UnitConversion to_border, UnitConversion to_inside);
 
+/// Without the difference between capital and small ASCII letters, whatever the locale.
 inline std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& letter : lower) {

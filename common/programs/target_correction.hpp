@@ -1,4 +1,4 @@
-// The correction of one target whose joints are known, and numbers as sentences of this room write them.
+// The correction of one target whose joints are known; amounts as sentences about targets write them.
 #pragma once
 
 #include <optional>

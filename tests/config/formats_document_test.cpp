@@ -11,15 +11,14 @@
 
 #include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
-#include "config/load_matrices.hpp"
 #include "config/model_file.hpp"
 #include "config/preparation_file.hpp"
 #include "config/robot_file.hpp"
 #include "config/scenario_file.hpp"
 #include "config/study_grid.hpp"
-#include "config/yaml_node.hpp"
 #include "effects/random_effects.hpp"
 #include "formats_document.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 #include "coordinator/chronicle.hpp"
 #include "errors/input_error.hpp"
 #include "in_memory_run.hpp"

@@ -35,7 +35,7 @@ std::set<std::string> reachable_rooms(const Map& map, const Room& start);
 /// Every library that `start` may include: its own and the public ones of the rooms it reaches.
 std::set<std::string> reachable_libraries(const Map& map, const Room& start);
 
-/// True for a room that opens no file, starts no thread and reads no clock: all but config and transport.
+/// True for a room that opens no file, starts no thread and reads no clock: all but yaml, config, transport and dds.
 bool is_pure(const std::string& room);
 
 }  // namespace demecal::map

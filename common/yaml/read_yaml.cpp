@@ -1,12 +1,12 @@
-#include "config/yaml_node.hpp"
+#include "yaml/yaml_node.hpp"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <sstream>
 
-#include "config/files.hpp"
 #include "errors/input_error.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

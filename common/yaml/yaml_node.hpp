@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "config/files.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 

@@ -1,10 +1,10 @@
 // Whole files and their hash.
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "temporary_folder.hpp"
+#include "../config/temporary_folder.hpp"
 
 namespace demecal {
 namespace {

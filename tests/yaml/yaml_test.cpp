@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "config/yaml_node.hpp"
-#include "config/yaml_text.hpp"
-#include "temporary_folder.hpp"
+#include "../config/temporary_folder.hpp"
+#include "yaml/yaml_node.hpp"
+#include "yaml/yaml_text.hpp"
 
 namespace demecal {
 namespace {

@@ -1,4 +1,4 @@
-#include "config/files.hpp"
+#include "yaml/files.hpp"
 
 #include <openssl/evp.h>
 #include <array>
