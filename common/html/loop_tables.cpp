@@ -103,7 +103,7 @@ std::string evidence_row(const RoundEntry& round) {
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"words wide\">{}</td><td class=\"numbers\">{}</td><td>{}</td><td>{}</td>"
       "<td>{}</td><td>{}</td></tr>\n",
-      round.round, law, numbers(round), probability(round.p_structure), fixed(round.fall_nats, 1),
+      round.round, law, numbers(round), probability(round.p_structure), fixed(round.gain_nats, 1),
       percent_of(round.confirmed) + " (" + percent_of(round.confirmed_lower) + ")", percent_of(round.sign_stability));
 }
 
@@ -197,7 +197,7 @@ std::string decoys_table(const Report& report) {
   std::string rows;
   for (const DecoyEntry& decoy : report.decoys) {
     rows += table_row(escaped(decoy.name),
-                      {fixed(decoy.best_fall_nats, 1),
+                      {fixed(decoy.best_gain_nats, 1),
                        decoy.won ? "<span class=\"badge no\">won</span>" : "<span class=\"badge\">did not win</span>"});
   }
   if (rows.empty()) return {};

@@ -108,7 +108,7 @@ PredictionEntry prediction_entry(const PredictionInterval& interval) {
           .noise_mm = if_finite(millimetres(interval.noise_m)),
           .distance_noise_mm = if_finite(millimetres(interval.distance_noise_m)),
           .model_error_mm = if_finite(millimetres(interval.model_error_m)),
-          .told_by = interval.fitted ? "calibration" : "validation",
+          .pose_set = interval.fitted ? "calibration" : "validation",
           .poses = interval.poses,
           .gross_errors = interval.gross_errors,
           .remark = origin_of(interval)};

@@ -286,7 +286,7 @@ std::string decoys_sentence(const std::vector<DecoyEntry>& decoys) {
         "was taken for, and none of the effects is sure",
         rarest.name, *rarest.p_left);
   }
-  const DecoyEntry& best = *std::ranges::max_element(decoys, {}, &DecoyEntry::best_fall_nats);
+  const DecoyEntry& best = *std::ranges::max_element(decoys, {}, &DecoyEntry::best_gain_nats);
   return fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name);
 }
 

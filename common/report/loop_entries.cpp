@@ -60,7 +60,7 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
                    .p_structure = if_finite(round.p_structure),
                    .p_family = if_finite(round.p_family),
                    .permutations = count_of(round.permutations),
-                   .fall_nats = if_finite(round.fall_nats),
+                   .gain_nats = if_finite(round.fall_nats),
                    .confirmed = if_finite(round.confirmed),
                    .confirmed_lower = if_finite(round.confirmed_lower),
                    .sign_stability = if_finite(round.sign_stability),

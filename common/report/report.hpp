@@ -64,7 +64,7 @@ struct PoseErrorEntry {
 /// What the radii of single poses come from.
 struct PredictionEntry {
   std::optional<double> quantile, noise_mm, distance_noise_mm, model_error_mm;
-  std::string told_by;  ///< the set of poses
+  std::string pose_set;  ///< the set of poses
   std::uint64_t poses = 0, gross_errors = 0;
   std::string remark;
 };
@@ -126,7 +126,7 @@ struct RoundEntry {
   std::vector<RivalEntry> rivals;
   std::optional<double> p_structure, p_family;
   std::uint64_t permutations = 0;
-  std::optional<double> fall_nats, confirmed, confirmed_lower, sign_stability;
+  std::optional<double> gain_nats, confirmed, confirmed_lower, sign_stability;
   std::vector<NamedInterval> interval;
   std::optional<double> validation_before_mm, validation_after_mm;
   std::optional<NextMeasurementEntry> next_measurement;
@@ -150,7 +150,7 @@ struct UntestableEntry {
 
 struct DecoyEntry {
   std::string name;
-  std::optional<double> best_fall_nats, p_left;
+  std::optional<double> best_gain_nats, p_left;
   bool won = false;
 };
 

@@ -60,7 +60,7 @@ void fields(auto& visit, Like<ExcludedPose> auto& pose) {
 
 void fields(auto& visit, Like<PredictionEntry> auto& prediction) {
   visit("quantile", prediction.quantile, "noise_mm", prediction.noise_mm, "distance_noise_mm",
-        prediction.distance_noise_mm, "model_error_mm", prediction.model_error_mm, "told_by", prediction.told_by,
+        prediction.distance_noise_mm, "model_error_mm", prediction.model_error_mm, "told_by", prediction.pose_set,
         "poses", prediction.poses, "gross_errors", prediction.gross_errors, "remark", prediction.remark);
 }
 
@@ -99,7 +99,7 @@ void fields(auto& visit, Like<RoundEntry> auto& round) {
   visit("round", round.round, "group", round.group, "verdict", round.verdict, "effect", round.effect, "diagnosis",
         round.diagnosis, "formula", round.formula, "reason", round.reason, "implausible", round.implausible, "class",
         round.members, "class_sentence", round.class_sentence, "rivals", round.rivals, "p_structure", round.p_structure,
-        "p_family", round.p_family, "permutations", round.permutations, "fall_nats", round.fall_nats, "confirmed",
+        "p_family", round.p_family, "permutations", round.permutations, "fall_nats", round.gain_nats, "confirmed",
         round.confirmed, "confirmed_lower", round.confirmed_lower, "sign_stability", round.sign_stability, "interval",
         round.interval, "validation_before_mm", round.validation_before_mm, "validation_after_mm",
         round.validation_after_mm, "further", round.next_measurement);
@@ -115,7 +115,7 @@ void fields(auto& visit, Like<UntestableEntry> auto& kind) {
 }
 
 void fields(auto& visit, Like<DecoyEntry> auto& decoy) {
-  visit("name", decoy.name, "best_fall_nats", decoy.best_fall_nats, "p_left", decoy.p_left, "won", decoy.won);
+  visit("name", decoy.name, "best_fall_nats", decoy.best_gain_nats, "p_left", decoy.p_left, "won", decoy.won);
 }
 
 void fields(auto& visit, Like<NoiseEntry> auto& noise) {

@@ -41,7 +41,7 @@ std::string last_fit(const Report& report) {
 /// How far single poses are predicted to err, and how many accept poses did not keep to it.
 std::string intervals(const std::vector<PoseErrorEntry>& poses, const std::optional<PredictionEntry>& prediction) {
   const IntervalCoverage accept = coverage_of(poses);
-  if (!prediction || (accept.poses == 0 && prediction->told_by != "calibration")) return {};
+  if (!prediction || (accept.poses == 0 && prediction->pose_set != "calibration")) return {};
   const std::string within =
       accept.poses == 0 ? "radii that hold 95 % of errors stand in report.json"
                         : fmt::format(
