@@ -217,7 +217,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   const YamlNode& data = file.at("data").with_keys({"name", "sha256"});
   model.data_name = data.at("name").text();
   model.data_sha256 = data.at("sha256").text();
-  model.nominal = robot_from(file.at("robot"));
+  model.nominal = read_robot(file.at("robot"));
   model.declared = read_declared(file.at("declared"));
   model.robot.chain = model.nominal.chain;
   const std::vector<YamlNode>& links = file.at("links").list(model.nominal.chain.joints.size());

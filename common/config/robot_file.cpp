@@ -156,7 +156,7 @@ MatrixText read_matrix(const YamlNode& node) {
 
 }  // namespace
 
-Robot robot_from(const YamlNode& node) {
+Robot read_robot(const YamlNode& node) {
   node.with_keys({"demecal_robot", "name", "convention", "joints", "tool_mm", "links", "gravity_mps2",
                   "repeatability_mm", "home_deg"});
   Robot robot;
@@ -170,7 +170,7 @@ Robot robot_from(const YamlNode& node) {
 }
 
 Robot load_robot(const std::filesystem::path& path) {
-  return robot_from(read_yaml(path).with_version("robot", 1));
+  return read_robot(read_yaml(path).with_version("robot", 1));
 }
 
 std::string robot_text(const Robot& robot, int indent) {

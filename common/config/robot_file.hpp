@@ -14,10 +14,10 @@ namespace demecal {
 Robot load_robot(const std::filesystem::path& path);
 
 /// The same of a map already read, such as one inside another file; its version key is the caller's to check.
-Robot robot_from(const YamlNode& node);
+Robot read_robot(const YamlNode& node);
 
 /// The keys of a ROBOT.yaml but its version, one or more lines each, every line moved `indent` spaces to the right.
-/// robot_from() reads them back.
+/// read_robot() reads them back.
 std::string robot_text(const Robot& robot, int indent = 0);
 
 /// The product of the matrices of a MATRICES.yaml, in their order: `joints` names the joints' symbols, `values` what
