@@ -46,29 +46,29 @@ void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t inde
                        "; correct the data, or the limits in the robot file");
 }
 
-using Columns = std::vector<TableColumn>;
+using TableColumns = std::vector<TableColumn>;
 
 /// The columns of a data set, found in its table.
 struct PoseColumns {
-  Columns joints, position, orientation, distances, approach;
+  TableColumns joints, position, orientation, distances, approach;
   std::optional<TableColumn> payload, temperature, time, set, pose, target;
 };
 
-Columns find_all(const CsvTable& table, const std::vector<ColumnName>& names) {
-  Columns columns;
+TableColumns find_all(const CsvTable& table, const std::vector<ColumnName>& names) {
+  TableColumns columns;
   for (const ColumnName& name : names) columns.emplace_back(table, name);
   return columns;
 }
 
-Columns find_all(const CsvTable& table, const std::vector<ColumnName>& names, Quantity quantity,
-                 const AssumedUnits& units) {
-  Columns columns;
+TableColumns find_all(const CsvTable& table, const std::vector<ColumnName>& names, Quantity quantity,
+                      const AssumedUnits& units) {
+  TableColumns columns;
   for (const ColumnName& name : names) columns.emplace_back(table, name, quantity, units);
   return columns;
 }
 
-Columns find_joints(const CsvTable& table, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
-  Columns columns;
+TableColumns find_joints(const CsvTable& table, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+  TableColumns columns;
   for (std::size_t i = 0; i < map.joints.size(); ++i) {
     columns.emplace_back(table, map.joints[i], joint_quantity(chain.joints[i]), units);
   }
@@ -96,13 +96,13 @@ PoseColumns find_columns(const CsvTable& table, const ColumnMap& map, const Assu
 }
 
 template <typename Vector>
-Vector read_vector(const Columns& columns, const CsvRow& row) {
+Vector read_vector(const TableColumns& columns, const CsvRow& row) {
   Vector values(static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) values[static_cast<Eigen::Index>(i)] = columns[i].number(row);
   return values;
 }
 
-Eigen::Quaterniond read_orientation(const Columns& columns, const CsvRow& row) {
+Eigen::Quaterniond read_orientation(const TableColumns& columns, const CsvRow& row) {
   constexpr double kNormTolerance = 1e-3;  // rounded decimals stay within it; Euler angles and swapped columns do not
   const Eigen::Vector4d wxyz = read_vector<Eigen::Vector4d>(columns, row);
   if (!(std::abs(wxyz.norm() - 1.0) <= kNormTolerance)) {
@@ -112,7 +112,7 @@ Eigen::Quaterniond read_orientation(const Columns& columns, const CsvRow& row) {
   return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
 }
 
-ApproachSigns read_approach(const Columns& columns, const CsvRow& row) {
+ApproachSigns read_approach(const TableColumns& columns, const CsvRow& row) {
   const auto signs = read_vector<ApproachSigns>(columns, row);
   for (Eigen::Index i = 0; i < signs.size(); ++i) {
     if (signs[i] == -1.0 || signs[i] == 0.0 || signs[i] == 1.0) continue;
@@ -121,7 +121,7 @@ ApproachSigns read_approach(const Columns& columns, const CsvRow& row) {
   return signs;
 }
 
-std::vector<double> read_distances(const Columns& columns, const CsvRow& row) {
+std::vector<double> read_distances(const TableColumns& columns, const CsvRow& row) {
   std::vector<double> distances;
   for (const TableColumn& column : columns) {
     distances.push_back(column.number(row));

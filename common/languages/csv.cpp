@@ -31,7 +31,7 @@ struct Column {
   std::size_t index;
   CellUnit unit;
 };
-using Columns = std::vector<Column>;
+using ProgramColumns = std::vector<Column>;
 
 class CsvTargets {
  public:
@@ -110,8 +110,8 @@ class CsvTargets {
     return std::nullopt;
   }
 
-  Columns joint_columns(const std::string& stem) {
-    Columns columns;
+  ProgramColumns joint_columns(const std::string& stem) {
+    ProgramColumns columns;
     for (std::size_t i = 0; i < arm_.joints.size(); ++i) {
       const bool revolute = arm_.joints[i].type == JointType::revolute;
       const auto column = find(stem + std::to_string(i + 1), revolute ? kAngles : kLengths);
@@ -122,8 +122,8 @@ class CsvTargets {
   }
 
   /// All of these names, or nothing.
-  Columns all_of(const std::vector<std::string>& stems, std::span<const UnitName> units) {
-    Columns columns;
+  ProgramColumns all_of(const std::vector<std::string>& stems, std::span<const UnitName> units) {
+    ProgramColumns columns;
     for (const std::string& stem : stems) {
       const auto column = find(stem, units);
       if (!column) return {};
@@ -148,7 +148,7 @@ class CsvTargets {
                      "z_mm; the unit stands in a column's name");
   }
 
-  std::vector<Cell> cells(const Columns& columns, const std::vector<Field>& row) const {
+  std::vector<Cell> cells(const ProgramColumns& columns, const std::vector<Field>& row) const {
     std::vector<Cell> found;
     for (const Column& column : columns) {
       found.push_back(text_.number(row[column.index].begin, row[column.index].size, column.unit));
@@ -169,7 +169,7 @@ class CsvTargets {
                  "has " + std::to_string(row.size()) + " fields, but the header has " + std::to_string(names_.size()) +
                      " columns");
     }
-    const Columns& columns = joints_.empty() ? position_ : joints_;
+    const ProgramColumns& columns = joints_.empty() ? position_ : joints_;
     Target target{.place = text_.place(row[columns.front().index].begin)};
     for (const char* name : {"name", "pose_id", "id"}) {
       const std::size_t* index = target.name.empty() ? find(name) : nullptr;
@@ -210,7 +210,7 @@ class CsvTargets {
   char separator_ = ',';
   std::size_t header_ = 0, line_end_ = 0, found_ = 0;
   std::vector<std::string> names_;
-  Columns joints_, position_, orientation_, approach_;
+  ProgramColumns joints_, position_, orientation_, approach_;
 };
 
 }  // namespace
