@@ -3,14 +3,13 @@
 #include <optional>
 #include <utility>
 
-#include "calibration/closed_calibration.hpp"
-#include "calibration/distal_learning.hpp"
-#include "calibration/function_stages.hpp"
-#include "calibration/model_posterior.hpp"
-#include "calibration/prediction_scores.hpp"
+#include "calibration/shared_functions.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "closed_calibration/closed_calibration.hpp"
 #include "coordinator/evolutions.hpp"
 #include "coordinator/loop_display.hpp"
 #include "coordinator/structural_learning.hpp"
+#include "distal/learning.hpp"
 
 namespace demecal {
 namespace {

@@ -8,15 +8,15 @@
 #include <memory>
 #include <string>
 
-#include "calibration/distal_steps.hpp"
 #include "calibration/job.hpp"
 #include "coordinator/chronicle.hpp"
 #include "coordinator/evolution_run.hpp"
 #include "coordinator/exit_codes.hpp"
 #include "coordinator/run_journal.hpp"
 #include "data/data_set.hpp"
+#include "distal/steps.hpp"
 #include "report/make_report.hpp"
-#include "structure/found_transform.hpp"
+#include "structure/structure_fit.hpp"
 
 namespace demecal {
 

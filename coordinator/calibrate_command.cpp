@@ -35,7 +35,7 @@ Job job_of(const CalibrateRequest& request) {
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
   if (!request.data_file.empty()) job.data_file = request.data_file;
   for (const Method method : {Method::direct, Method::distal, Method::structural}) {
-    if (request.method == word_of(method)) job.method = method;
+    if (request.method == to_string(method)) job.method = method;
   }
   return job;
 }

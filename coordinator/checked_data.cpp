@@ -7,7 +7,7 @@
 #include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/coverage.hpp"
+#include "data_check/searches.hpp"
 #include "effects/measurement.hpp"
 #include "html/page.hpp"
 #include "report/make_report.hpp"

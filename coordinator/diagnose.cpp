@@ -1,7 +1,7 @@
 #include "coordinator/diagnose.hpp"
 
-#include "calibration/last_fit.hpp"
-#include "calibration/loop_passes.hpp"
+#include "closed_calibration/closing.hpp"
+#include "closed_calibration/loop_passes.hpp"
 #include "coordinator/known_arm.hpp"
 
 namespace demecal {
@@ -50,16 +50,16 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   const Fit& declared = result.preparation.declared;
   LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot),
                                 loop_options(job, declared.robot.effects.size()), watched);
-  tidy(found.before);
-  tidy(found.model);
-  LoopEnds ends{std::move(found.before), std::move(found.model)};
+  drop_negligible_terms(found.before);
+  drop_negligible_terms(found.model);
+  LoopModels ends{std::move(found.before), std::move(found.model)};
   std::optional<LastFit> last = last_fit(data, job.declared, ends);
   if (last) ends = std::move(last->ends);
   result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
   if (last) result.calibration.unseen = last->unseen;
   result.before = std::move(ends.before.robot);
   result.loop = std::move(found.outcome);
-  tell_of(result.loop, ends.after.robot, data.robot);
+  update_rounds(result.loop, ends.after.robot, data.robot);
   result.model = model_of(data, job, result.calibration);
   result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   result.facts.interrupted = result.end == RunEnd::interrupted;

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "calibration/closing.hpp"
+#include "closed_calibration/closing.hpp"
 #include "coordinator/calibrate.hpp"
 
 namespace demecal {

@@ -10,7 +10,7 @@
 namespace demecal {
 
 JobIdentity identity_of(const std::string& job_file, const Job& job, const DataSet& data, bool asynchronous) {
-  const std::string overridden = fmt::format("\n{} {}\n", word_of(job.method), job.closed_loop.max_effects);
+  const std::string overridden = fmt::format("\n{} {}\n", to_string(job.method), job.closed_loop.max_effects);
   return {.data_sha256 = sha256(data.sha256 + read_file(job.data_file) + robot_text(data.robot)),
           .job_sha256 = sha256(read_file(job_file) + overridden),
           .seed = job.seed,

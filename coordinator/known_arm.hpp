@@ -1,7 +1,7 @@
 // A model and a data set that are put together must be of one arm.
 #pragma once
 
-#include "calibration/calibrated_model.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 
 namespace demecal {

@@ -11,8 +11,7 @@
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
-#include "preparation/false_targets.hpp"
-#include "preparation/statistic.hpp"
+#include "preparation/results.hpp"
 #include "terminal/report_text.hpp"
 
 namespace demecal {
@@ -72,9 +71,9 @@ ExitCode run(const PrepareRequest& request) {
   const Prepared prepared = prepare_measurements(raw);
   const std::optional<FrameKind> asked = frame_asked(request, raw, prepared);
   const std::optional<FrameKind> errors = frame_of_errors(asked, prepared);
-  const DataSet data = data_set_of(raw, prepared, asked);
+  const DataSet data = prepared_data_set(raw, prepared, asked);
   const std::vector<WrittenFile> files = files_beside(raw, prepared, errors);
-  const Statistic statistic = statistic_of(raw, prepared);
+  const Statistic statistic = error_statistic(raw, prepared);
   warn(request, raw, prepared);
   const CheckedData checked{data, check_data(data)};
   if (refuses(checked, request.force)) return ExitCode::contradiction;
@@ -86,14 +85,14 @@ ExitCode run(const PrepareRequest& request) {
   const FilesBeingWritten written(request.out, names);
   write_data_set(data, request.out, "Prepared from raw measurements: " + raw.name);
   for (const WrittenFile& file : files) write_file(request.out + "/" + file.name, file.text);
-  const std::string frame(asked ? word_of(*asked) : "instrument");
+  const std::string frame(asked ? to_string(*asked) : "instrument");
   if (request.json) {
     fmt::print("{}", statistic_json(statistic, raw.name, frame, names));
     return ExitCode::done;
   }
   fmt::print("{}", statistic_table(statistic, raw.name));
   fmt::print("{} rows in the frame `{}`; {}: {}\n", data.poses.size(), frame, request.out, fmt::join(names, ", "));
-  if (errors && errors != asked) fmt::print("errors.csv and false targets are by the frame `{}`\n", word_of(*errors));
+  if (errors && errors != asked) fmt::print("errors.csv and false targets are by the frame `{}`\n", to_string(*errors));
   return ExitCode::done;
 }
 

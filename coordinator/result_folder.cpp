@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/loop_passes.hpp"
-#include "yaml/files.hpp"
+#include "closed_calibration/loop_passes.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/argument_error.hpp"
 #include "coordinator/written_files.hpp"
@@ -16,6 +15,7 @@
 #include "errors/input_error.hpp"
 #include "html/page.hpp"
 #include "report/history.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

@@ -4,9 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "baselines/radial_basis.hpp"
-#include "baselines/scaled_joints.hpp"
-#include "baselines/varying_links.hpp"
+#include "baselines/regression.hpp"
 #include "effects/error_figures.hpp"
 #include "errors/input_error.hpp"
 
@@ -22,7 +20,7 @@ LinkParameter variable_of(const Chain& chain, int joint) {
   return revolute ? LinkParameter::theta : LinkParameter::d;
 }
 
-std::string ridge_words(double ridge) {
+std::string ridge_text(double ridge) {
   std::ostringstream text;
   text << "ridge " << ridge;
   return text.str();
@@ -42,7 +40,7 @@ BaselineFit linear_joints(const RegisteredArm& arm) {
     functions.push_back({joint, variable, [joint](const JointVector& q) { return q[joint]; }});
   }
   VaryingFit fit = fit_varying_links(arm, functions);
-  fit.fit.chosen = ridge_words(fit.ridge);
+  fit.fit.chosen = ridge_text(fit.ridge);
   return fit.fit;
 }
 
@@ -83,7 +81,7 @@ std::vector<LinkFunction> polynomials(const RegisteredArm& arm, int degree) {
 }
 
 /// Every joint's error a complete polynomial of all joints (Shamma and Whitney, 1987), its degree by cross-validation.
-BaselineFit shamma(const RegisteredArm& arm) {
+BaselineFit joint_polynomials(const RegisteredArm& arm) {
   BaselineFit best;
   double least = std::numeric_limits<double>::infinity();
   for (int degree = 1; degree <= kHighestDegree; ++degree) {
@@ -93,7 +91,7 @@ BaselineFit shamma(const RegisteredArm& arm) {
     if (fit.cost >= least) continue;
     least = fit.cost;
     best = std::move(fit.fit);
-    best.chosen = "degree " + std::to_string(degree) + ", " + ridge_words(fit.ridge);
+    best.chosen = "degree " + std::to_string(degree) + ", " + ridge_text(fit.ridge);
   }
   return best;
 }
@@ -115,7 +113,7 @@ BaselineFit fourier(const RegisteredArm& arm, int order) {
     }
   }
   VaryingFit fit = fit_varying_links(arm, functions);
-  fit.fit.chosen = ridge_words(fit.ridge);
+  fit.fit.chosen = ridge_text(fit.ridge);
   return fit.fit;
 }
 
@@ -147,7 +145,7 @@ const std::vector<Baseline>& baselines() {
   static const std::vector<Baseline> all{
       {"registration", "base and tool alone", registration_alone},
       {"linear_joints", "gain and offset per joint", linear_joints},
-      {"polynomials", "polynomials of the joints (Shamma)", shamma},
+      {"polynomials", "polynomials of the joints (Shamma)", joint_polynomials},
       {"fourier_1", "Fourier series, order 1 (Everett, Vincze)",
        [](const RegisteredArm& arm) { return fourier(arm, 1); }},
       {"fourier_2", "Fourier series, order 2", [](const RegisteredArm& arm) { return fourier(arm, 2); }},

@@ -1,13 +1,10 @@
-#include "baselines/radial_basis.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "baselines/folds.hpp"
-#include "baselines/scaled_joints.hpp"
+#include "baselines/regression.hpp"
 
 namespace demecal {
 namespace {
@@ -34,18 +31,18 @@ struct Network {
 };
 
 /// The first point, and then ever the one that is farthest from those taken.
-std::vector<Eigen::VectorXd> spread(const std::vector<Eigen::VectorXd>& points, std::size_t count) {
-  std::vector<Eigen::VectorXd> taken{points.front()};
+std::vector<Eigen::VectorXd> farthest_points(const std::vector<Eigen::VectorXd>& points, std::size_t count) {
+  std::vector<Eigen::VectorXd> chosen_points{points.front()};
   std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
-  while (taken.size() < std::min(count, points.size())) {
+  while (chosen_points.size() < std::min(count, points.size())) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      distance[i] = std::min(distance[i], (points[i] - taken.back()).squaredNorm());
+      distance[i] = std::min(distance[i], (points[i] - chosen_points.back()).squaredNorm());
     }
     const auto farthest = std::ranges::max_element(distance);
     if (*farthest == 0.0) break;
-    taken.push_back(points[static_cast<std::size_t>(farthest - distance.begin())]);
+    chosen_points.push_back(points[static_cast<std::size_t>(farthest - distance.begin())]);
   }
-  return taken;
+  return chosen_points;
 }
 
 /// The constant is not held.
@@ -61,12 +58,12 @@ struct Samples {
   std::vector<int> folds;
 };
 
-std::vector<NormalSums> sums_of(const Samples& samples, const Network& network) {
+std::vector<RidgeSums> sums_of(const Samples& samples, const Network& network) {
   std::vector<RowSums> sums(kFoldsOfNetwork, RowSums(weight_of(network).size(), 3));
   for (std::size_t i = 0; i < samples.joints.size(); ++i) {
     sums[static_cast<std::size_t>(samples.folds[i])].add(network.row(samples.joints[i]), samples.error_m[i]);
   }
-  std::vector<NormalSums> by_fold;
+  std::vector<RidgeSums> by_fold;
   for (RowSums& fold : sums) by_fold.push_back(fold.sums());
   return by_fold;
 }
@@ -82,7 +79,7 @@ Samples samples_of(const RegisteredArm& arm, const ScaledJoints& scaled) {
     samples.error_m.emplace_back(
         (*pose.position_m - arm.robot.predict(Stop(pose), pose.target).translation()).transpose());
   }
-  samples.folds = folds_of(arm.data, seen, kFoldsOfNetwork);
+  samples.folds = assign_folds(arm.data, seen, kFoldsOfNetwork);
   return samples;
 }
 
@@ -95,7 +92,7 @@ BaselineFit fit_radial_basis(const RegisteredArm& arm) {
   Network best;
   RidgeChoice least{0.0, std::numeric_limits<double>::infinity()};
   for (const std::size_t count : kCentres) {
-    Network network{spread(samples.joints, count), 1.0, {}};
+    Network network{farthest_points(samples.joints, count), 1.0, {}};
     for (const double width : kWidths) {
       network.width = width * std::sqrt(static_cast<double>(arm.robot.chain.size()));
       const RidgeChoice choice = choose_ridge(sums_of(samples, network), weight_of(network));
@@ -105,7 +102,7 @@ BaselineFit fit_radial_basis(const RegisteredArm& arm) {
     }
     if (count >= samples.joints.size()) break;
   }
-  const NormalSums all = total(sums_of(samples, best));
+  const RidgeSums all = sum_of_parts(sums_of(samples, best));
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(all.linear.rows(), 3);
   best.weights = ridge_solution(all, weight_of(best), least.ridge, none);
   std::ostringstream chosen;

@@ -1,11 +1,9 @@
-#include "baselines/varying_links.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 
-#include "baselines/folds.hpp"
+#include "baselines/regression.hpp"
 #include "fitting/observation.hpp"
 
 namespace demecal {
@@ -80,9 +78,9 @@ RowScales scales_of(const RegisteredArm& arm, const std::vector<Observation>& ob
 }
 
 /// The rows of all observations about the coefficients, summed by the fold that leaves them out.
-std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& model, const RowScales& scales,
-                                const std::vector<Observation>& observations, const std::vector<int>& folds,
-                                const Eigen::VectorXd& coefficients) {
+std::vector<RidgeSums> sums_at(const RegisteredArm& arm, const VaryingModel& model, const RowScales& scales,
+                               const std::vector<Observation>& observations, const std::vector<int>& folds,
+                               const Eigen::VectorXd& coefficients) {
   std::vector<RowSums> sums(kFoldsOfLinks, RowSums(model.size(), 1));
   ScaledRows rows;
   for (std::size_t i = 0; i < observations.size(); ++i) {
@@ -91,7 +89,7 @@ std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& mo
     scaled_rows(arm.data, model.space(), point, observations[i], scales, rows);
     sums[static_cast<std::size_t>(folds[i])].add(-model.by_coefficients(rows.jacobian, q), rows.residual);
   }
-  std::vector<NormalSums> by_fold;
+  std::vector<RidgeSums> by_fold;
   for (RowSums& fold : sums) by_fold.push_back(fold.sums());
   return by_fold;
 }
@@ -101,13 +99,13 @@ std::vector<NormalSums> sums_at(const RegisteredArm& arm, const VaryingModel& mo
 VaryingFit fit_varying_links(const RegisteredArm& arm, const std::vector<LinkFunction>& functions) {
   const auto model = std::make_shared<const VaryingModel>(arm, functions);
   const std::vector<Observation> observations = observe(arm.data, arm.poses, arm.robot);
-  const std::vector<int> folds = folds_of(arm.data, arm.poses, kFoldsOfLinks);
+  const std::vector<int> folds = assign_folds(arm.data, arm.poses, kFoldsOfLinks);
   const RowScales scales = scales_of(arm, observations);
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(model->size());
-  std::vector<NormalSums> sums = sums_at(arm, *model, scales, observations, folds, coefficients);
+  std::vector<RidgeSums> sums = sums_at(arm, *model, scales, observations, folds, coefficients);
   const RidgeChoice choice = choose_ridge(sums, model->weight());
   for (int step = 0; step < kMostSteps; ++step) {
-    const NormalSums all = total(sums);
+    const RidgeSums all = sum_of_parts(sums);
     const Eigen::VectorXd change = ridge_solution(all, model->weight(), choice.ridge, coefficients);
     coefficients += change;
     if (std::abs(change.dot(all.square * change)) < kSmallStep * kSmallStep * static_cast<double>(arm.poses.size())) {

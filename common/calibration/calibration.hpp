@@ -2,16 +2,34 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calibration/job.hpp"
-#include "calibration/joint_summaries.hpp"
+#include "calibration/joint_targets.hpp"
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/prediction_interval.hpp"
 
 namespace demecal {
+
+/// Mean absolute joint error over the calibration poses (thesis Table 6-5), rad.
+struct JointSummary {
+  int joint = 0;      ///< from 0
+  bool kept = false;  ///< whether a correction is in the model
+  double before_rad = 0.0;
+  double after_rad = 0.0;
+  double bound_rad = 0.0;  ///< of the correction over its range
+  std::vector<double> discontinuities_rad{};
+  std::string note;  ///< why a joint was left neutral; empty where it was not
+};
+
+/// One summary per joint of `robot`, without notes. `declared`: the joints' errors before anything but the declared
+/// numbers was in the model; `now`: what they are of the robot without its corrections. Errors are 0 where there are
+/// no targets.
+std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
+                                          const CorrectedRobot& robot);
 
 /// All that stands before the joint corrections are evolved.
 struct Preparation {
@@ -34,6 +52,10 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
 /// prepare().
 Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& model,
                          const TargetOptions& target_options = {});
+
+/// Where the loop starts: `robot`, its residuals scattering as they do over the calibration poses. Kinds of rows that
+/// the fit of the declared model did not use are not used.
+Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot);
 
 /// What the joints of the calibration poses do beyond `model` without its corrections. Where the preparation wants
 /// posterior targets, its corrections are the errors learnt so far.
@@ -60,8 +82,8 @@ struct Calibration {
 Calibration conclude(const DataSet& data, const Job& job, const Preparation& preparation,
                      const std::vector<JointCandidates>& candidates, const FitOptions& options = {});
 
-/// The poses that decide between models: those that validate or, where there are none, those that calibrate.
-std::vector<std::size_t> deciding_poses(const DataSet& data);
+/// The poses that select between models: those that validate or, where there are none, those that calibrate.
+std::vector<std::size_t> selection_poses(const DataSet& data);
 
 /// Performance index (thesis eq. 4.6): the sum of squared tool errors over `poses`, mm^2.
 double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses);

@@ -1,12 +1,28 @@
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/calibration.hpp"
-#include "calibration/shortened.hpp"
+#include "calibration/training.hpp"
 #include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
+
+/// A jump smaller than this moves a tool a metre away by less than a hundredth of a millimetre.
+constexpr double kSmallestJumpRad = 1e-5;
+
+/// Mean absolute of the joint's target error less `correction`, over poses that have one.
+double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrection& correction) {
+  double sum = 0.0;
+  std::size_t counted = 0;
+  for (std::size_t row = 0; row < targets.poses.size(); ++row) {
+    if (targets.weight[row] <= 0.0) continue;
+    sum += std::abs(targets.error[row][joint] - correction(targets.commanded[row][joint]));
+    ++counted;
+  }
+  return counted > 0 ? sum / static_cast<double>(counted) : 0.0;
+}
 
 std::string why_neutral(const Job& job, const Selection& selection, const DataSet& data, int joint) {
   if (!job.declared.joint_corrections) return "joint corrections are not declared";
@@ -17,22 +33,39 @@ std::string why_neutral(const Job& job, const Selection& selection, const DataSe
   return "the joint hardly moves over the calibration poses";
 }
 
-/// The declared numbers fitted again with the corrections in place, where the deciding poses agree.
-void refit(const DataSet& data, const Job& job, std::span<const std::size_t> deciding, const FitOptions& options,
+/// The declared numbers fitted again with the corrections in place, where the selection poses agree.
+void refit(const DataSet& data, const Job& job, std::span<const std::size_t> selecting, const FitOptions& options,
            Calibration& result) {
   const Fit again = fit_declared(data, poses_of(data, PoseSet::calibration), job.declared, result.robot, options);
   if (again.status != FitStatus::converged) return;
-  const double present_mm2 = performance_index_mm2(result.robot, data, deciding);
-  if (performance_index_mm2(again.robot, data, deciding) > present_mm2) return;
+  const double present_mm2 = performance_index_mm2(result.robot, data, selecting);
+  if (performance_index_mm2(again.robot, data, selecting) > present_mm2) return;
   result.robot = again.robot;
   result.estimates = again.estimates;
 }
 
 }  // namespace
 
-std::vector<std::size_t> deciding_poses(const DataSet& data) {
-  std::vector<std::size_t> deciding = poses_of(data, PoseSet::validation);
-  return deciding.empty() ? poses_of(data, PoseSet::calibration) : deciding;
+std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
+                                          const CorrectedRobot& robot) {
+  std::vector<JointSummary> summaries;
+  for (int joint = 0; joint < robot.chain.size(); ++joint) {
+    const JointCorrection& correction = robot.corrections[static_cast<std::size_t>(joint)];
+    JointSummary summary{.joint = joint, .kept = !correction.is_neutral(), .note = {}};
+    summary.before_rad = mean_abs_rad(declared, joint, JointCorrection{});
+    summary.after_rad = mean_abs_rad(now, joint, correction);
+    if (summary.kept) {
+      summary.bound_rad = magnitude_bound(correction.formula(), correction.range_rad());
+      summary.discontinuities_rad = discontinuities(correction.formula(), correction.range_rad(), kSmallestJumpRad);
+    }
+    summaries.push_back(std::move(summary));
+  }
+  return summaries;
+}
+
+std::vector<std::size_t> selection_poses(const DataSet& data) {
+  std::vector<std::size_t> selecting = poses_of(data, PoseSet::validation);
+  return selecting.empty() ? poses_of(data, PoseSet::calibration) : selecting;
 }
 
 double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {
@@ -48,17 +81,17 @@ double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, s
 Calibration conclude(const DataSet& data, const Job& job, const Preparation& preparation,
                      const std::vector<JointCandidates>& evolved, const FitOptions& options) {
   std::vector<JointCandidates> candidates = evolved;
-  for (JointCandidates& joint : candidates) write_briefly(joint, job.gp);
+  for (JointCandidates& joint : candidates) add_short_forms(joint, job.gp);
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
-  const std::vector<std::size_t> deciding = deciding_poses(data);
-  const Selection selection = select_corrections(data, fitted, deciding, preparation.declared.robot, candidates);
+  const std::vector<std::size_t> selecting = selection_poses(data);
+  const Selection selection = select_corrections(data, fitted, selecting, preparation.declared.robot, candidates);
   Calibration result{.robot = with_shortened_corrections(selection.robot),
                      .estimates = preparation.declared.estimates,
                      .joints = {},
                      .unseen = {}};
   bool any = false;
   for (const JointChoice& choice : selection.choices) any = any || choice.kept;
-  if (any) refit(data, job, deciding, options, result);
+  if (any) refit(data, job, selecting, options, result);
   const bool exact = preparation.target_options.kind == TargetKind::exact || !any;
   result.joints = joint_summaries(
       preparation.targets, exact ? preparation.targets : targets_about(data, preparation, result.robot), result.robot);

@@ -1,4 +1,4 @@
-// Who evolves formulas for a calibration: the one interface of all that learns by evolution, wherever the islands are.
+// The interface through which a calibration has formulas evolved, wherever the islands are.
 #pragma once
 
 #include <cstdint>

@@ -2,24 +2,61 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "calibration/correction_options.hpp"
-#include "calibration/target_options.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/parameters.hpp"
+#include "expression/tree.hpp"
 #include "fitting/declared_model.hpp"
 
 namespace demecal {
+
+/// posterior: the most probable errors, given how far joints err and how far measurements scatter; exact: the joints
+/// that reach the measured point with the orientation the model predicts (thesis 4.5).
+enum class TargetKind { posterior, exact };
+
+struct TargetOptions {
+  TargetKind kind = TargetKind::posterior;
+  double joint_error_rad = 1e-3;  ///< standard deviation of a joint's error before a pose is looked at; posterior only
+
+  bool operator==(const TargetOptions&) const = default;
+};
+
+/// A correction to begin with, such as a user's guess or an earlier run's result.
+struct SeedFormula {
+  static constexpr int kEveryJoint = -1;
+  int joint = kEveryJoint;  ///< from 0
+  Tree formula;             ///< of theta, rad
+
+  bool operator==(const SeedFormula&) const = default;
+};
+
+/// Whether joints are to share functions (thesis 7.1 ii): how many, and into how many stages the generations are
+/// divided, between which these are found.
+struct SharingOptions {
+  int functions = 0;  ///< at most; 0: none, and no stages
+  int stages = 4;
+
+  bool operator==(const SharingOptions&) const = default;
+};
+
+struct CorrectionOptions {
+  double largest_rad = std::numeric_limits<double>::infinity();  ///< that any correction may become in its range
+  std::vector<SeedFormula> seeds;
+  SharingOptions sharing{};
+
+  bool operator==(const CorrectionOptions&) const = default;
+};
 
 /// How joint corrections are learnt; `diagnose`: not at all, the model came from the closed loop alone; `structural`:
 /// not at all, transforms between the links are searched for.
 enum class Method { direct, distal, diagnose, structural };
 
 /// "direct", "distal", "diagnose", "structural".
-inline const char* word_of(Method method) {
+inline const char* to_string(Method method) {
   constexpr const char* kWords[] = {"direct", "distal", "diagnose", "structural"};
   return kWords[static_cast<std::size_t>(method)];
 }

@@ -1,10 +1,9 @@
-#include "calibration/joint_posterior.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "calibration/joint_targets.hpp"
 #include "effects/measurement.hpp"
 
 namespace demecal {
@@ -31,10 +30,10 @@ struct JointRows {
   std::vector<std::size_t> kinds;
 
   Eigen::VectorXd variances(const RowScales& scales) const {
-    Eigen::VectorXd of(residual.size());
-    for (Eigen::Index row = 0; row < of.size(); ++row)
-      of[row] = std::pow(scales[kinds[static_cast<std::size_t>(row)]], 2);
-    return of;
+    Eigen::VectorXd squares(residual.size());
+    for (Eigen::Index row = 0; row < squares.size(); ++row)
+      squares[row] = std::pow(scales[kinds[static_cast<std::size_t>(row)]], 2);
+    return squares;
   }
   Eigen::LLT<Eigen::MatrixXd> covariance(const RowScales& scales) const {
     Eigen::MatrixXd sum = jacobian * jacobian.transpose();
@@ -45,10 +44,10 @@ struct JointRows {
 
 JointRows rows_at(const DataSet& data, const MeasuredPose& pose, const CorrectedRobot& robot, const JointVector& joints,
                   const JointBelief& belief, const RowScales& scales) {
-  const PoseAndJacobian at = robot.predict_with_jacobian(Stop(pose).with_joints(joints), pose.target);
-  const Eigen::VectorXd residuals = residual(at.pose, data, pose);
+  const PoseAndJacobian predicted = robot.predict_with_jacobian(Stop(pose).with_joints(joints), pose.target);
+  const Eigen::VectorXd residuals = residual(predicted.pose, data, pose);
   const Eigen::MatrixXd jacobian =
-      measurement_jacobian(at.pose, data, pose) * at.jacobian * belief.deviation.asDiagonal();
+      measurement_jacobian(predicted.pose, data, pose) * predicted.jacobian * belief.deviation.asDiagonal();
   const RowCounts count = count_rows(pose);
   JointRows rows;
   std::vector<Eigen::Index> used;
@@ -66,7 +65,7 @@ JointRows rows_at(const DataSet& data, const MeasuredPose& pose, const Corrected
 }
 
 /// Minus twice the logarithm of the rows' probability density.
-double surprise(const JointRows& rows, const RowScales& scales) {
+double deviance(const JointRows& rows, const RowScales& scales) {
   const Eigen::LLT<Eigen::MatrixXd> covariance = rows.covariance(scales);
   const Eigen::VectorXd whitened = covariance.matrixL().solve(rows.residual);
   return whitened.squaredNorm() + 2.0 * covariance.matrixLLT().diagonal().array().log().sum();
@@ -80,27 +79,27 @@ double misfit(const JointRows& rows, const Eigen::VectorXd& x, const RowScales& 
 }  // namespace
 
 Eigen::VectorXd JointBelief::mean_at(const JointVector& commanded) const {
-  Eigen::VectorXd at = Eigen::VectorXd::Zero(commanded.size());
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(commanded.size());
   for (std::size_t joint = 0; joint < mean.size(); ++joint) {
     const auto j = static_cast<Eigen::Index>(joint);
-    at[j] = mean[joint](commanded[j]);
+    errors[j] = mean[joint](commanded[j]);
   }
-  return at;
+  return errors;
 }
 
 RowScales measurement_scales(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot,
                              const JointBelief& belief, const RowScales& residuals) {
-  std::vector<JointRows> all;
+  std::vector<JointRows> rows_of_poses;
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = data.poses[index];
-    all.push_back(rows_at(data, pose, robot, pose.joints + belief.mean_at(pose.joints), belief, residuals));
+    rows_of_poses.push_back(rows_at(data, pose, robot, pose.joints + belief.mean_at(pose.joints), belief, residuals));
   }
   RowScales best = residuals;
   double least = std::numeric_limits<double>::infinity();
   for (double share = 1.0; share >= kSmallestShare; share /= kShareStep) {
     const RowScales scales = scales_with_share(residuals, share);
     double sum = 0.0;
-    for (const JointRows& rows : all) sum += surprise(rows, scales);
+    for (const JointRows& rows : rows_of_poses) sum += deviance(rows, scales);
     if (sum >= least) continue;
     least = sum;
     best = scales;
@@ -113,11 +112,11 @@ std::optional<JointVector> most_probable_errors(const DataSet& data, const Measu
                                                 const RowScales& scales) {
   const Eigen::VectorXd mean = belief.mean_at(pose.joints);
   const auto errors = [&](const Eigen::VectorXd& x) { return JointVector(mean + belief.deviation.cwiseProduct(x)); };
-  const auto at = [&](const Eigen::VectorXd& x) {
+  const auto rows_for = [&](const Eigen::VectorXd& x) {
     return rows_at(data, pose, robot, pose.joints + errors(x), belief, scales);
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(mean.size());
-  JointRows rows = at(x);
+  JointRows rows = rows_for(x);
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::VectorXd next =
         rows.jacobian.transpose() * rows.covariance(scales).solve(rows.residual + rows.jacobian * x);
@@ -127,7 +126,7 @@ std::optional<JointVector> most_probable_errors(const DataSet& data, const Measu
     double fraction = 1.0;
     const double present = misfit(rows, x, scales);
     for (; fraction > 1e-4; fraction /= 2.0) {
-      JointRows tried = at(x + fraction * change);
+      JointRows tried = rows_for(x + fraction * change);
       if (misfit(tried, x + fraction * change, scales) > present) continue;
       rows = std::move(tried);
       break;

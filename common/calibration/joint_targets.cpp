@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "calibration/joint_posterior.hpp"
 #include "effects/measurement.hpp"
 
 namespace demecal {
@@ -22,16 +21,16 @@ double characteristic_length_m(const Chain& chain) {
 
 Eigen::Vector3d measured_position(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
   if (pose.position_m) return *pose.position_m;
-  Eigen::Isometry3d at = robot.predict(Stop(pose), pose.target);
+  Eigen::Isometry3d tool = robot.predict(Stop(pose), pose.target);
   CorrectedRobot moved = robot;
   for (int iteration = 0; iteration < 5; ++iteration) {
     const Eigen::VectorXd missing = residual(moved, data, pose);
-    const Eigen::MatrixXd rows = measurement_jacobian(at, data, pose).leftCols<3>();
+    const Eigen::MatrixXd rows = measurement_jacobian(tool, data, pose).leftCols<3>();
     const Eigen::Vector3d step = rows.completeOrthogonalDecomposition().solve(missing);
     moved.sensor_from_base.pretranslate(step);
-    at.pretranslate(step);
+    tool.pretranslate(step);
   }
-  return at.translation();
+  return tool.translation();
 }
 
 Eigen::Isometry3d goal(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
@@ -75,9 +74,9 @@ struct PoseTarget {
 };
 
 /// Makes the target of one pose after another.
-class Exact {
+class ExactTargets {
  public:
-  Exact(const DataSet& data, const CorrectedRobot& robot) : data_(data), robot_(robot) {
+  ExactTargets(const DataSet& data, const CorrectedRobot& robot) : data_(data), robot_(robot) {
     options_.length_m = characteristic_length_m(robot.chain);
   }
 
@@ -131,7 +130,7 @@ JointTargets joint_targets(const DataSet& data, std::span<const std::size_t> pos
   if (rule.options.kind == TargetKind::posterior) {
     found = posterior_targets(data, poses, robot, rule);
   } else {
-    const Exact exact(data, robot);
+    const ExactTargets exact(data, robot);
     for (const std::size_t index : poses) found.push_back(exact(index, targets.singular));
   }
   for (std::size_t row = 0; row < poses.size(); ++row) {

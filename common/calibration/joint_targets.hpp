@@ -1,10 +1,11 @@
-// What each joint should learn: its error at every pose, told from what was measured.
+// What each joint should learn: its error at every pose, estimated from what was measured.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "calibration/target_options.hpp"
+#include "calibration/job.hpp"
 #include "effects/corrected_robot.hpp"
 #include "fitting/observation.hpp"
 #include "kinematics/inverse.hpp"
@@ -42,7 +43,7 @@ struct TargetRule {
 /// posterior: the most probable errors given the measured rows alone (most_probable_errors()). Before a pose is looked
 /// at the error of a revolute joint is believed to be normal about the rule's mean with a standard deviation of
 /// joint_error_rad; that of a prismatic joint with 0.2 m times as much (0.2 mm for 1 mrad). What no joint can explain,
-/// and what these rows do not tell of a joint, stays as it was believed.
+/// and what these rows do not show of a joint, stays as it was believed.
 ///
 /// exact: the joints at which `robot` reaches the measured position with the orientation it predicts at the commanded
 /// joints, or the measured pose where orientation was measured (thesis 4.5, note 40). Arms with more joints than needed
@@ -50,5 +51,25 @@ struct TargetRule {
 /// with them is used. Of the rule only the kind matters.
 JointTargets joint_targets(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot,
                            const TargetRule& rule);
+
+/// What is believed of the joints' errors before a pose is looked at: independent, normal.
+struct JointBelief {
+  Eigen::VectorXd deviation;          ///< one per joint, rad or m; 0: the joint has the mean's error
+  std::vector<JointCorrection> mean;  ///< one per joint, or empty: zero
+  Eigen::VectorXd mean_at(const JointVector& commanded) const;  ///< rad or m
+};
+
+/// What the rows scatter by beside the joints' errors, per kind (m, rad, m), 0 where a kind is not used. `residuals`
+/// are the scales of what a model leaves, joints' errors included: one share of them all, chosen so that the poses are
+/// most probable (their residuals are normal with J S J^T + Sigma), but no less than a good instrument.
+RowScales measurement_scales(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot,
+                             const JointBelief& belief, const RowScales& residuals);
+
+/// The errors dq at which the density of the joints' errors, given the pose's rows, is largest: Gauss's steps
+/// m + S J^T (J S J^T + Sigma)^-1 (e + J (dq - m)), e and J over the measured rows at the last dq, until they move
+/// nothing. No value where they do not settle.
+std::optional<JointVector> most_probable_errors(const DataSet& data, const MeasuredPose& pose,
+                                                const CorrectedRobot& robot, const JointBelief& belief,
+                                                const RowScales& scales);
 
 }  // namespace demecal

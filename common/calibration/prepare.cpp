@@ -1,5 +1,6 @@
+#include <algorithm>
+
 #include "calibration/calibration.hpp"
-#include "calibration/closing.hpp"
 #include "diagnosis/diagnosed_model.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/scatter.hpp"
@@ -7,9 +8,10 @@
 namespace demecal {
 namespace {
 
+constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
 /// Below it a formula per joint fits anything.
 constexpr std::size_t kLeastPoses = 6;
-constexpr int kSteps = 12;  ///< of Gauss and Newton
+constexpr int kSmoothSteps = 12;  ///< of Gauss and Newton
 
 void require_poses(std::size_t poses, const DataSet& data, const Job& job) {
   if (!job.declared.joint_corrections || poses >= kLeastPoses) return;
@@ -46,15 +48,29 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
 JointTargets first_targets(const DataSet& data, const Job& job, const Preparation& preparation) {
   const CorrectedRobot& declared = preparation.declared.robot;
   if (job.targets.kind == TargetKind::exact) return targets_about(data, preparation, declared);
-  const DiagnosisData of{data, job.declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
-  const DiagnosedModel smooth =
-      refined(of, diagnosed_model(of, loop_start(data, preparation.declared, declared)), kSteps);
+  const DiagnosisData diagnosis_data{data, job.declared, poses_of(data, PoseSet::calibration),
+                                     poses_of(data, PoseSet::validation)};
+  const DiagnosedModel smooth = refined(
+      diagnosis_data, diagnosed_model(diagnosis_data, loop_start(data, preparation.declared, declared)), kSmoothSteps);
   CorrectedRobot about = declared;
   about.corrections = smooth.robot.corrections;
   return targets_about(data, preparation, about);
 }
 
 }  // namespace
+
+Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot) {
+  const RowScales scatter = median_deviations(data, robot, observe(data, poses_of(data, PoseSet::calibration), robot));
+  const auto scale = [&](std::size_t kind, double used) {
+    return used > 0.0 ? std::max(scatter[kind], kSmallestScale) : 0.0;
+  };
+  Fit start = declared;
+  start.robot = robot;
+  start.sigma_position_m = scale(kPosition, declared.sigma_position_m);
+  start.sigma_orientation_rad = scale(kOrientation, declared.sigma_orientation_rad);
+  start.sigma_distance_m = scale(kDistance, declared.sigma_distance_m);
+  return start;
+}
 
 JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model) {
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
-#include "calibration/correction_limit.hpp"
-#include "calibration/jury.hpp"
+#include "calibration/training.hpp"
 #include "evolution/brief_forms.hpp"
 #include "expression/limit.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr int kSweeps = 5;
-constexpr double kEarned = 2.0;  ///< standard errors of the gain: about one false keep in forty
+constexpr double kSignificant = 2.0;  ///< standard errors of the gain: about one false keep in forty
 
-struct Trial {
+struct CorrectionTrial {
   JointCorrection correction;
   SquaredErrors errors;
   double sum = 0.0;
@@ -25,8 +27,8 @@ bool is_below(const JointCorrection& correction, double limit_rad) {
 }
 
 /// A joint's candidates: those evolved, then those from elsewhere.
-std::vector<Trial> trials_of(const JointCandidates& candidates) {
-  std::vector<Trial> trials;
+std::vector<CorrectionTrial> trials_of(const JointCandidates& candidates) {
+  std::vector<CorrectionTrial> trials;
   const double limit_rad = correction_limit_rad(candidates.training);
   const auto add = [&](const JointCorrection& correction) {
     if (is_below(correction, limit_rad)) trials.push_back({correction, {}, 0.0});
@@ -34,28 +36,28 @@ std::vector<Trial> trials_of(const JointCandidates& candidates) {
   for (const Individual& individual : candidates.front) {
     add(correction_from(candidates.training, individual.tree));
   }
-  for (const Tree& tree : candidates.brief) add(correction_from(candidates.training, tree));
-  for (const JointCorrection& other : candidates.others) {
+  for (const Tree& tree : candidates.short_forms) add(correction_from(candidates.training, tree));
+  for (const JointCorrection& other : candidates.alternatives) {
     if (!other.is_neutral()) add(other);
   }
   return trials;
 }
 
-std::vector<Trial> try_all(const Jury& deciding, const CorrectedRobot& robot, const std::vector<JointVector>& neutral,
-                           const JointCandidates& candidates) {
-  std::vector<Trial> trials = trials_of(candidates);
-  for (Trial& trial : trials) {
-    const auto joints = deciding.with(neutral, candidates.training.joint, trial.correction);
-    trial.errors = deciding.squared_errors(robot, joints);
+std::vector<CorrectionTrial> evaluate_all(const PoseEvaluator& selecting, const CorrectedRobot& robot,
+                                          const std::vector<JointVector>& neutral, const JointCandidates& candidates) {
+  std::vector<CorrectionTrial> trials = trials_of(candidates);
+  for (CorrectionTrial& trial : trials) {
+    const auto joints = selecting.with(neutral, candidates.training.joint, trial.correction);
+    trial.errors = selecting.squared_errors(robot, joints);
     trial.sum = sum(trial.errors);
   }
-  std::erase_if(trials, [](const Trial& trial) { return !std::isfinite(trial.sum); });
+  std::erase_if(trials, [](const CorrectionTrial& trial) { return !std::isfinite(trial.sum); });
   return trials;
 }
 
 /// The trial of the briefest description; of equals the first. Null where there is none.
-const Trial* briefest(const std::vector<Trial>& trials, double rows) {
-  const auto nats = [rows](const Trial& trial) {
+const CorrectionTrial* shortest_description(const std::vector<CorrectionTrial>& trials, double rows) {
+  const auto nats = [rows](const CorrectionTrial& trial) {
     return message_nats(trial.correction.formula(), std::max(trial.sum, 1e-300), rows);
   };
   const auto best = std::ranges::min_element(trials, {}, nats);
@@ -63,11 +65,11 @@ const Trial* briefest(const std::vector<Trial>& trials, double rows) {
 }
 
 /// The shortest trial not significantly worse than the best; null where there is none.
-const Trial* frugal(const std::vector<Trial>& trials) {
-  const auto best = std::ranges::min_element(trials, {}, &Trial::sum);
-  const Trial* chosen = nullptr;
-  const auto length = [](const Trial& trial) { return trial.correction.formula().size(); };
-  for (const Trial& trial : trials) {
+const CorrectionTrial* shortest_near_best(const std::vector<CorrectionTrial>& trials) {
+  const auto best = std::ranges::min_element(trials, {}, &CorrectionTrial::sum);
+  const CorrectionTrial* chosen = nullptr;
+  const auto length = [](const CorrectionTrial& trial) { return trial.correction.formula().size(); };
+  for (const CorrectionTrial& trial : trials) {
     const PairedDifference behind = paired(trial.errors, best->errors);
     const bool close = &trial == &*best || behind.mean <= 0.5 * behind.standard_error;
     if (close && (chosen == nullptr || length(trial) < length(*chosen))) chosen = &trial;
@@ -76,37 +78,41 @@ const Trial* frugal(const std::vector<Trial>& trials) {
 }
 
 /// Poses by what they are asked.
-struct Juries {
-  Jury deciding;
-  Jury fitted;
+struct PoseEvaluators {
+  PoseEvaluator selecting;
+  PoseEvaluator fitted;
 };
 
-/// Whether a gain is beyond doubt.
-bool earns_its_place(const PairedDifference& gain) {
-  return gain.mean > kEarned * gain.standard_error;
+/// Whether a gain exceeds what its standard error explains.
+bool is_significant(const PairedDifference& gain) {
+  return gain.mean > kSignificant * gain.standard_error;
 }
 
 /// The fall of the error from joints at which one is neutral to those with its correction.
-PairedDifference gain_of(const Jury& jury, const CorrectedRobot& robot, const std::vector<JointVector>& neutral,
-                         std::size_t joint, const JointCorrection& correction) {
-  return paired(jury.squared_errors(robot, neutral), jury.squared_errors(robot, jury.with(neutral, joint, correction)));
+PairedDifference gain_of(const PoseEvaluator& evaluator, const CorrectedRobot& robot,
+                         const std::vector<JointVector>& neutral, std::size_t joint,
+                         const JointCorrection& correction) {
+  return paired(evaluator.squared_errors(robot, neutral),
+                evaluator.squared_errors(robot, evaluator.with(neutral, joint, correction)));
 }
 
 /// The correction this joint is best given while the others stand as they do in `robot`.
-JointCorrection choose(const Juries& juries, CorrectedRobot robot, const JointCandidates& candidates,
+JointCorrection choose(const PoseEvaluators& evaluators, CorrectedRobot robot, const JointCandidates& candidates,
                        JointChoice& choice) {
   const std::size_t joint = candidates.training.joint;
   robot.corrections[joint] = JointCorrection{};
-  const std::vector<JointVector> neutral = juries.deciding.corrected(robot);
-  const std::vector<Trial> trials = try_all(juries.deciding, robot, neutral, candidates);
-  // Formulas of distal learning lean on the other joints': each alone leaves too much error to pay for itself.
+  const std::vector<JointVector> neutral = evaluators.selecting.corrected(robot);
+  const std::vector<CorrectionTrial> trials = evaluate_all(evaluators.selecting, robot, neutral, candidates);
+  // Formulas of distal learning depend on the other joints': each alone leaves too much error to outweigh its length.
   const bool is_distal = candidates.training.table.loss == Loss::squared;
-  const Trial* chosen = is_distal ? frugal(trials) : briefest(trials, juries.deciding.rows());
+  const CorrectionTrial* chosen =
+      is_distal ? shortest_near_best(trials) : shortest_description(trials, evaluators.selecting.rows());
   choice.kept = false;
   if (chosen == nullptr) return {};
-  const PairedDifference gain = paired(juries.deciding.squared_errors(robot, neutral), chosen->errors);
-  choice.kept = earns_its_place(gain) && earns_its_place(gain_of(juries.fitted, robot, juries.fitted.corrected(robot),
-                                                                 joint, chosen->correction));
+  const PairedDifference gain = paired(evaluators.selecting.squared_errors(robot, neutral), chosen->errors);
+  choice.kept =
+      is_significant(gain) &&
+      is_significant(gain_of(evaluators.fitted, robot, evaluators.fitted.corrected(robot), joint, chosen->correction));
   choice.gain_mm2 = gain.mean;
   choice.gain_error_mm2 = gain.standard_error;
   return choice.kept ? chosen->correction : JointCorrection{};
@@ -117,13 +123,13 @@ bool same(const JointCorrection& a, const JointCorrection& b) {
 }
 
 /// Sweeps over the joints from the corrections in `selection.robot` until nothing changes.
-Selection settle(const Juries& juries, Selection selection, std::span<const JointCandidates> candidates) {
+Selection sweep(const PoseEvaluators& evaluators, Selection selection, std::span<const JointCandidates> candidates) {
   bool changed = true;
   for (int sweep = 0; sweep < kSweeps && changed; ++sweep) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       JointCorrection& present = selection.robot.corrections[candidates[i].training.joint];
-      const JointCorrection next = choose(juries, selection.robot, candidates[i], selection.choices[i]);
+      const JointCorrection next = choose(evaluators, selection.robot, candidates[i], selection.choices[i]);
       changed = changed || !same(present, next);
       present = next;
     }
@@ -132,7 +138,7 @@ Selection settle(const Juries& juries, Selection selection, std::span<const Join
 }
 
 /// Every joint with what fits its own targets best: the targets belong together, one joint's with another's.
-CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates> candidates) {
+CorrectedRobot with_fittest(CorrectedRobot robot, std::span<const JointCandidates> candidates) {
   for (const JointCandidates& joint : candidates) {
     const double limit_rad = correction_limit_rad(joint.training);
     for (const Individual& individual : joint.front) {  // falling fitness: the last one that is bounded stays
@@ -144,30 +150,86 @@ CorrectedRobot all_fittest(CorrectedRobot robot, std::span<const JointCandidates
 }
 
 /// Every joint with its candidate from elsewhere at place `set`, where it has one.
-CorrectedRobot with_others(CorrectedRobot robot, std::span<const JointCandidates> candidates, std::size_t set) {
+CorrectedRobot with_alternatives(CorrectedRobot robot, std::span<const JointCandidates> candidates, std::size_t set) {
   for (const JointCandidates& joint : candidates) {
-    if (set >= joint.others.size() || !is_bounded(joint.others[set], joint.training)) continue;
-    robot.corrections[joint.training.joint] = joint.others[set];
+    if (set >= joint.alternatives.size() || !is_bounded(joint.alternatives[set], joint.training)) continue;
+    robot.corrections[joint.training.joint] = joint.alternatives[set];
   }
   return robot;
 }
 
-std::vector<CorrectedRobot> starts_of(const CorrectedRobot& declared, std::span<const JointCandidates> candidates) {
-  std::vector<CorrectedRobot> starts{declared, all_fittest(declared, candidates)};
+std::vector<CorrectedRobot> starting_points(const CorrectedRobot& declared,
+                                            std::span<const JointCandidates> candidates) {
+  std::vector<CorrectedRobot> starts{declared, with_fittest(declared, candidates)};
   std::size_t sets = 0;
-  for (const JointCandidates& joint : candidates) sets = std::max(sets, joint.others.size());
-  for (std::size_t set = 0; set < sets; ++set) starts.push_back(with_others(declared, candidates, set));
+  for (const JointCandidates& joint : candidates) sets = std::max(sets, joint.alternatives.size());
+  for (std::size_t set = 0; set < sets; ++set) starts.push_back(with_alternatives(declared, candidates, set));
   return starts;
 }
 
 }  // namespace
 
-void write_briefly(JointCandidates& candidates, const GpParameters& parameters) {
+double sum(const SquaredErrors& errors) {
+  return std::accumulate(errors.begin(), errors.end(), 0.0);
+}
+
+PairedDifference paired(const SquaredErrors& worse, const SquaredErrors& better) {
+  const double n = static_cast<double>(worse.size());
+  PairedDifference difference;
+  for (std::size_t i = 0; i < worse.size(); ++i) difference.mean += (worse[i] - better[i]) / n;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < worse.size(); ++i) squares += std::pow(worse[i] - better[i] - difference.mean, 2);
+  difference.standard_error = n > 1 ? std::sqrt(squares / (n - 1) / n) : std::numeric_limits<double>::infinity();
+  return difference;
+}
+
+PoseEvaluator::PoseEvaluator(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot)
+    : data_(data) {
+  for (const std::size_t index : poses) {
+    const MeasuredPose& pose = data.poses[index];
+    const MeasurementRows measured = rows_of(pose);
+    if (measured.position + measured.distances == 0) continue;
+    rows_ += measured.position > 0 ? measured.position : measured.distances;
+    poses_.push_back(index);
+    motions_.push_back(robot.motions(Stop(pose), pose.target));
+  }
+}
+
+std::vector<JointVector> PoseEvaluator::corrected(const CorrectedRobot& robot) const {
+  std::vector<JointVector> joints;
+  joints.reserve(poses_.size());
+  for (const std::size_t pose : poses_) joints.push_back(robot.corrected_joints(data_.poses[pose].joints));
+  return joints;
+}
+
+std::vector<JointVector> PoseEvaluator::with(std::vector<JointVector> corrected, std::size_t joint,
+                                             const JointCorrection& correction) const {
+  const auto at = static_cast<Eigen::Index>(joint);
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const double commanded = data_.poses[poses_[i]].joints[at];
+    corrected[i][at] = commanded + correction(commanded);
+  }
+  return corrected;
+}
+
+SquaredErrors PoseEvaluator::squared_errors(const CorrectedRobot& robot,
+                                            const std::vector<JointVector>& corrected) const {
+  SquaredErrors errors;
+  errors.reserve(poses_.size());
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const MeasuredPose& pose = data_.poses[poses_[i]];
+    const Eigen::Isometry3d predicted = robot.predict(corrected[i], motions_[i], pose.target);
+    errors.push_back(std::pow(millimetres(tool_error_m(predicted, data_, pose)), 2));
+  }
+  return errors;
+}
+
+void add_short_forms(JointCandidates& candidates, const GpParameters& parameters) {
   BriefForms forms(candidates.training.table, parameters);
-  candidates.brief.clear();
+  candidates.short_forms.clear();
   for (const Individual& individual : candidates.front) {
-    candidates.brief.push_back(forms.simplified(individual.tree));
-    candidates.brief.push_back(forms.fitted(candidates.brief.back()));
+    candidates.short_forms.push_back(forms.simplified(individual.tree));
+    candidates.short_forms.push_back(forms.fitted(candidates.short_forms.back()));
   }
 }
 
@@ -176,22 +238,22 @@ bool is_bounded(const JointCorrection& correction, const JointTraining& training
 }
 
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
-                             std::span<const std::size_t> deciding, const CorrectedRobot& declared,
+                             std::span<const std::size_t> selecting, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates) {
-  const Juries juries{{data, deciding, declared}, {data, fitted, declared}};
+  const PoseEvaluators evaluators{{data, selecting, declared}, {data, fitted, declared}};
   Selection start{declared, {}};
   for (const JointCandidates& joint : candidates) {
     start.choices.push_back(
-        {static_cast<int>(joint.training.joint), false, joint.front.size() + joint.others.size(), 0.0, 0.0});
+        {static_cast<int>(joint.training.joint), false, joint.front.size() + joint.alternatives.size(), 0.0, 0.0});
   }
   Selection best = start;
-  double least = sum(juries.deciding.squared_errors(declared));
-  for (CorrectedRobot& from : starts_of(declared, candidates)) {
+  double least = sum(evaluators.selecting.squared_errors(declared));
+  for (CorrectedRobot& from : starting_points(declared, candidates)) {
     start.robot = std::move(from);
-    const Selection settled = settle(juries, start, candidates);
-    const double left = sum(juries.deciding.squared_errors(settled.robot));
+    const Selection swept = sweep(evaluators, start, candidates);
+    const double left = sum(evaluators.selecting.squared_errors(swept.robot));
     if (left < least) {
-      best = settled;
+      best = swept;
       least = left;
     }
   }

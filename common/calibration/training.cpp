@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "calibration/correction_limit.hpp"
 #include "errors/check.hpp"
+#include "expression/simplify.hpp"
+#include "fitting/median.hpp"
 
 namespace demecal {
 namespace {
@@ -48,6 +50,21 @@ const Tree& product_of(const JointCorrection& correction) {
       product.size() > 2 && product[0].primitive == Primitive::multiply && product[1].primitive == Primitive::constant,
       "a formula of " << product.size() << " nodes");
   return product;
+}
+
+constexpr double kMostOverTarget = 3.0;
+
+/// The largest target errors are often those of poses near a singularity.
+double large_target_rad(const JointTraining& training) {
+  std::vector<double> sizes;
+  const double least = training.table.loss == Loss::squared ? median(training.table.weight) : 1.0;
+  for (std::size_t row = 0; row < training.table.target.size(); ++row) {
+    if (training.table.weight[row] >= least) sizes.push_back(std::abs(training.table.target[row]));
+  }
+  if (sizes.empty()) return 0.0;
+  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return *place * training.scale_rad;
 }
 
 }  // namespace
@@ -97,6 +114,37 @@ Tree evolved_tree(const JointCorrection& correction) {
 
 double evolved_scale_rad(const JointCorrection& correction) {
   return product_of(correction)[1].value;
+}
+
+double correction_limit_rad(const JointTraining& training) {
+  return std::min(kMostOverTarget * large_target_rad(training), training.largest_rad);
+}
+
+void limit_formulas(JointTraining& training) {
+  training.table.limit = correction_limit_rad(training) / training.scale_rad;
+}
+
+JointCorrection shortened(const JointCorrection& correction) {
+  if (correction.is_neutral()) return correction;
+  constexpr int kGrid = 512;
+  std::vector<std::vector<double>> angles_rad(1);
+  const auto [lower, upper] = correction.range_rad();
+  for (int i = 0; i <= kGrid; ++i) angles_rad[0].push_back(std::lerp(lower, upper, static_cast<double>(i) / kGrid));
+  return {simplified_over(correction.formula(), angles_rad), correction.branch(), correction.range_rad()};
+}
+
+CorrectedRobot with_shortened_corrections(CorrectedRobot robot) {
+  for (JointCorrection& correction : robot.corrections) correction = shortened(correction);
+  return robot;
+}
+
+bool has_corrections(const CorrectedRobot& robot) {
+  return !std::ranges::all_of(robot.corrections, &JointCorrection::is_neutral);
+}
+
+CorrectedRobot without_corrections(CorrectedRobot robot) {
+  std::ranges::fill(robot.corrections, JointCorrection{});
+  return robot;
 }
 
 }  // namespace demecal

@@ -5,8 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "calibration/correction_options.hpp"
+#include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
+#include "effects/corrected_robot.hpp"
 #include "evolution/fitness.hpp"
 
 namespace demecal {
@@ -41,5 +42,25 @@ JointCorrection correction_from(const JointTraining& training, const Tree& evolv
 Tree evolved_tree(const JointCorrection& correction);
 /// The scale that correction_from() made it with, rad.
 double evolved_scale_rad(const JointCorrection& correction);
+
+/// Three times the size of target errors that one row in twenty exceeds, but at most `largest_rad` of the training.
+/// Over rows of full weight; in tables of squared errors, over those that count no less than the median one.
+double correction_limit_rad(const JointTraining& training);
+
+/// Sets the limit of the training's table, from which islands know what to refuse.
+void limit_formulas(JointTraining& training);
+
+/// The correction with its formula simplified and its terms collected, as far as that keeps its values to 1e-9 of the
+/// largest over its range (see simplified_over).
+JointCorrection shortened(const JointCorrection& correction);
+
+/// The robot with all its corrections shortened.
+CorrectedRobot with_shortened_corrections(CorrectedRobot robot);
+
+/// Whether any joint's correction is not neutral.
+bool has_corrections(const CorrectedRobot& robot);
+
+/// The robot with all its corrections neutral.
+CorrectedRobot without_corrections(CorrectedRobot robot);
 
 }  // namespace demecal

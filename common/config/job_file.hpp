@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/correction_options.hpp"
 #include "calibration/job.hpp"
 #include "evolution/parameters.hpp"
 #include "fitting/declared_model.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "calibration/shared_calls.hpp"
+#include "calibration/shared_functions.hpp"
 #include "config/job_file.hpp"
 #include "config/robot_file.hpp"
 #include "errors/input_error.hpp"
@@ -176,7 +176,7 @@ std::string model_text(const CalibratedModel& model) {
           "g is in\n"
        << "# rad of theta in rad, coefficients of effects are in SI units\n"
        << "demecal_model: 1\njob: " << yaml_text(model.job) << "\nversion: " << yaml_text(model.version)
-       << "\nmethod: " << word_of(model.method) << "\nseed: " << model.seed
+       << "\nmethod: " << to_string(model.method) << "\nseed: " << model.seed
        << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256) << "}\n";
   text << "robot:\n" << robot_text(model.nominal, 2);
   text << "declared: " << declared_text(model.declared) << '\n';

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibrated_model.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "effects/effect.hpp"
 #include "yaml/yaml_node.hpp"
 

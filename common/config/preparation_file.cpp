@@ -5,7 +5,7 @@
 #include "config/robot_file.hpp"
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
-#include "preparation/marked_names.hpp"
+#include "preparation/readings.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "preparation/raw_measurements.hpp"
+#include "preparation/prepared.hpp"
 #include "preparation/readings.hpp"
 #include "yaml/yaml_node.hpp"
 

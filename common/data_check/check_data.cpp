@@ -7,11 +7,8 @@
 #include <set>
 
 #include "data/read_poses.hpp"
-#include "data_check/contradictions.hpp"
-#include "data_check/coverage.hpp"
-#include "data_check/instrument.hpp"
-#include "data_check/single_poses.hpp"
-#include "data_check/tools_and_base.hpp"
+#include "data_check/explanations.hpp"
+#include "data_check/searches.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
@@ -21,9 +18,9 @@ namespace {
 constexpr std::size_t kTrialRows = 240;  ///< calibration rows that explanations are tried on
 constexpr std::size_t kFewestRows = 6;   ///< below which base and tool alone explain anything
 
-class Check {
+class DataChecker {
  public:
-  explicit Check(const DataSet& data) : data_(data) {
+  explicit DataChecker(const DataSet& data) : data_(data) {
     whole_.chain = data.robot.chain;
     for (const MeasuredPose& pose : data.poses) {
       if (target_of_.try_emplace(pose.target, static_cast<int>(whole_.tools_m.size())).second)
@@ -168,7 +165,7 @@ Finding in_other_frame(const OtherSet& other) {
 }  // namespace
 
 DataCheck check_data(const DataSet& data) {
-  return Check(data).run();
+  return DataChecker(data).run();
 }
 
 void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& check) {

@@ -1,13 +1,9 @@
-#include "data_check/contradictions.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "data_check/axes.hpp"
 #include "data_check/explanations.hpp"
-#include "data_check/instrument.hpp"
-#include "data_check/row_order.hpp"
+#include "data_check/searches.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 

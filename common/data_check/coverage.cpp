@@ -1,5 +1,3 @@
-#include "data_check/coverage.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,6 +8,7 @@
 #include <string>
 
 #include "data/text.hpp"
+#include "data_check/searches.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {

@@ -1,11 +1,14 @@
-// What may be wrong with a data set as a whole: each explanation changes how the arm or its poses are read.
+// What may be wrong with a data set as a whole: how the arm or its poses are read, the axes of positions, the order of
+// rows, or an instrument that moved.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
 
@@ -35,5 +38,60 @@ struct Explained {
 /// median, pairs of joint explanations and, one after the other, up to four are tried too. `placed`: the trial's own
 /// fit of base and tools. Nothing where none lowers its median.
 std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& placed, double good_m);
+
+/// How a mirrored or exchanged pair of axes reads, by where the base then stands: `sensor_from_base` is that of a fit
+/// to points whose y is negated. In a frame that is the base's own, `is_base`, the axes can be named.
+Explanation axes_explanation(const Eigen::Isometry3d& sensor_from_base, bool is_base);
+
+/// Whether the map from a base to positions said to be in it is no identity: exchanged axes, a turned first joint, or
+/// another frame. Nothing where it is.
+std::optional<Explanation> base_frame_explanation(const Eigen::Isometry3d& sensor_from_base);
+
+/// Rows that fit the arm otherwise than in the order given.
+struct Reordered {
+  std::string clause;  ///< what fits: "each measured point is taken from the row before"
+  double median_m = 0.0;
+  std::vector<std::size_t> poses{};  ///< those it concerns; empty: all
+};
+
+/// The shift of measured points against joints, by up to 30 rows either way, at which an arm fits best; `whole` has all
+/// rows in the file's order. Where only the rows behind or before a certain one are shifted it says so.
+std::optional<Reordered> best_shift(const Trial& whole);
+
+/// The shift, by up to 3 rows, of only the rows behind a certain one, or only of those before it.
+std::optional<Reordered> shift_of_rest(const Trial& whole);
+
+/// Whether the measured points are those of the arm in another order: the two clouds of points, brought together from
+/// many turns by nearest neighbours (iterative closest point, Besl and McKay 1992), lie within `near_m` of each other
+/// and closer by far than points of a cloud do.
+std::optional<Reordered> as_shuffled(const Trial& whole, double near_m);
+
+/// A move of the instrument (or of the base) between two rows.
+struct InstrumentMove {
+  std::size_t first_row = 0;  ///< of the trial, from which it stood elsewhere
+  double shift_m = 0.0;       ///< how far measured points jump, root mean square over the rows behind
+  double as_given_m = 0.0;    ///< median error of the rows on the shorter side with one place of the instrument
+  double if_changed_m = 0.0;  ///< with two
+};
+
+/// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, and
+/// looks again on either side; `trial` comes back with a station for every place, `fit` fitted to it.
+std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit);
+
+/// How a set of poses differs from the others by its frame or by its tool.
+struct OtherSet {
+  bool by_tool = false;       ///< another tool point explains it as well as another frame
+  double shift_m = 0.0;       ///< how far the points, or the tool point, are off
+  double as_given_m = 0.0;    ///< median error of the set
+  double if_changed_m = 0.0;  ///< the same in its own frame, or with its own tool
+};
+
+/// Whether `rows`, of one set, fit `fit` only in another frame or with another tool. A set that does is brought into
+/// the fit's frame (or its predicted points are): its rows come back with their points moved.
+std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow>& rows);
+
+/// Whether measured points fit predicted ones only after a rigid motion, as after the instrument was set up anew.
+std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& predicted,
+                                         const std::vector<Eigen::Vector3d>& measured);
 
 }  // namespace demecal

@@ -1,11 +1,10 @@
-#include "data_check/instrument.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 
+#include "data_check/explanations.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 
@@ -15,12 +14,12 @@ namespace {
 constexpr std::size_t kFewestBehind = 5;  ///< rows on either side of a move: fewer could be outliers
 constexpr std::size_t kPlaces = 80;       ///< places that a move is first looked for at
 constexpr int kMostMoves = 3;
-constexpr double kCap = 6.0;              ///< deviations beyond which an error says no more
-constexpr double kLeastGain = 50.0;       ///< log likelihood that another place of the instrument must gain
-constexpr double kLeastShift = 5.0;       ///< deviations that points must jump by: drift within a run is smaller
-constexpr double kLeastFall = 0.4;        ///< ratio of median errors that is far better
-constexpr double kFarOff = 6.0;           ///< deviations at a set's median that ask for a reason; 1.5 are expected
-constexpr double kOtherFrameFall = 0.25;  ///< the same where a fitted model must hold in another frame
+constexpr double kCap = 6.0;               ///< deviations beyond which an error says no more
+constexpr double kLeastGain = 50.0;        ///< log likelihood that another place of the instrument must gain
+constexpr double kLeastShift = 5.0;        ///< deviations that points must jump by: drift within a run is smaller
+constexpr double kLeastFall = 0.4;         ///< ratio of median errors that is far better
+constexpr double kFarDeviationsOff = 6.0;  ///< deviations at a set's median that ask for a reason; 1.5 are expected
+constexpr double kOtherFrameFall = 0.25;   ///< the same where a fitted model must hold in another frame
 constexpr double kSmallestShift_m = 1e-4;
 
 /// Points of the arm in its base, and as they were measured.
@@ -77,15 +76,15 @@ std::vector<Segment> segments_of(const Trial& trial) {
   return segments;
 }
 
-struct Split {
+struct StationSplit {
   std::size_t row = 0;
   double cost = std::numeric_limits<double>::infinity();
 };
 
 /// The best of the rows first, first + step ... at which a segment may be split.
-Split best_split(const PointPairs& pairs, const Segment& segment, std::size_t first, std::size_t last, std::size_t step,
-                 double cap_m) {
-  Split best;
+StationSplit best_split(const PointPairs& pairs, const Segment& segment, std::size_t first, std::size_t last,
+                        std::size_t step, double cap_m) {
+  StationSplit best;
   for (std::size_t row = std::max(first, segment.begin + kFewestBehind);
        row <= last && row + kFewestBehind <= segment.end; row += step) {
     const double cost = capped_cost(pairs, segment.begin, row, registration(pairs, segment.begin, row), cap_m) +
@@ -95,22 +94,22 @@ Split best_split(const PointPairs& pairs, const Segment& segment, std::size_t fi
   return best;
 }
 
-Split best_split(const PointPairs& pairs, const Segment& segment, double cap_m) {
+StationSplit best_split(const PointPairs& pairs, const Segment& segment, double cap_m) {
   const std::size_t step = std::max<std::size_t>(1, (segment.end - segment.begin) / kPlaces);
-  const Split rough = best_split(pairs, segment, segment.begin, segment.end, step, cap_m);
+  const StationSplit rough = best_split(pairs, segment, segment.begin, segment.end, step, cap_m);
   if (step == 1 || !std::isfinite(rough.cost)) return rough;
   const std::size_t first = rough.row > step ? rough.row - step : 0;
   return best_split(pairs, segment, first, rough.row + step, 1, cap_m);
 }
 
 /// The split of any segment that lowers the cost most.
-Split best_split(const Trial& trial, const TrialFit& fit) {
+StationSplit best_split(const Trial& trial, const TrialFit& fit) {
   const PointPairs pairs = pairs_of(trial, fit);
   const double cap_m = kCap * fit.deviation_m;
-  Split best;
+  StationSplit best;
   double most = 0.0;
   for (const Segment& segment : segments_of(trial)) {
-    const Split split = best_split(pairs, segment, cap_m);
+    const StationSplit split = best_split(pairs, segment, cap_m);
     const double one =
         capped_cost(pairs, segment.begin, segment.end, registration(pairs, segment.begin, segment.end), cap_m);
     if (one - split.cost <= most) continue;
@@ -145,14 +144,14 @@ double gain(const std::vector<double>& before, const std::vector<double>& after,
 double root_mean_square_shift(const TrialFit& fit, std::span<const TrialRow> rows) {
   double squares = 0.0;
   for (TrialRow row : rows) {
-    const Eigen::Vector3d here = predicted_point(fit, row);
+    const Eigen::Vector3d predicted = predicted_point(fit, row);
     --row.station;
-    squares += (here - predicted_point(fit, row)).squaredNorm();
+    squares += (predicted - predicted_point(fit, row)).squaredNorm();
   }
   return std::sqrt(squares / static_cast<double>(rows.size()));
 }
 
-bool comes_after(const InstrumentMove& one, const InstrumentMove& other) {
+bool is_earlier(const InstrumentMove& one, const InstrumentMove& other) {
   return one.first_row < other.first_row;
 }
 
@@ -201,12 +200,12 @@ double root_mean_square(const std::vector<Eigen::Vector3d>& from, const std::vec
 std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
   std::vector<InstrumentMove> moves;
   while (std::ssize(moves) < kMostMoves && trial.rows.size() > 2 * kFewestBehind) {
-    const Split split = best_split(trial, fit);
+    const StationSplit split = best_split(trial, fit);
     if (!std::isfinite(split.cost)) break;
     Trial moved = split_at(trial, split.row);
     TrialFit both = fit_arm(moved, fit_base_and_tools(moved));
     // Where the arm was fitted to a mixture of two places the split is found better with the arm of two.
-    if (const Split again = best_split(trial, both); std::isfinite(again.cost) && again.row != split.row) {
+    if (const StationSplit again = best_split(trial, both); std::isfinite(again.cost) && again.row != split.row) {
       moved = split_at(trial, again.row);
       both = fit_arm(moved, both);
     }
@@ -235,7 +234,7 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
     trial = std::move(moved);
     fit = std::move(both);
   }
-  std::ranges::sort(moves, comes_after);
+  std::ranges::sort(moves, is_earlier);
   return moves;
 }
 
@@ -246,7 +245,7 @@ std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow
   const double as_given_m = median_error(given, rows);
   std::vector<double> off;
   for (const TrialRow& row : rows) off.push_back(fit.deviations_off(row));
-  if (median(off) < kFarOff || as_given_m < kSmallestShift_m) return std::nullopt;
+  if (median(off) < kFarDeviationsOff || as_given_m < kSmallestShift_m) return std::nullopt;
 
   TrialFit with_tools = fit;
   with_tools.tools_m = own_tools(fit, rows);

@@ -1,5 +1,3 @@
-#include "data_check/row_order.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "data_check/explanations.hpp"
 #include "fitting/base_candidates.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"

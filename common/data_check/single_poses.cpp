@@ -1,11 +1,10 @@
-#include "data_check/single_poses.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "data_check/searches.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
@@ -20,7 +19,7 @@ constexpr std::size_t kMostSearched = 60;  ///< poses whose joints are searched 
 constexpr std::size_t kLongestCycle = 4;
 constexpr int kSamplesPerTurn = 360;
 
-struct Misfit {
+struct FarPose {
   std::size_t row;
   double error_m;
 };
@@ -36,9 +35,9 @@ std::string amount_at(const Joint& joint, double value) {
                                            : fmt::format("{:.3f} mm", millimetres(value));
 }
 
-class Search {
+class OutlierSearch {
  public:
-  Search(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict, double least_m)
+  OutlierSearch(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict, double least_m)
       : data_(data), rows_(rows), predict_(predict) {
     std::vector<double> errors, off;
     for (const TrialRow& row : rows) {
@@ -57,7 +56,7 @@ class Search {
     for (std::size_t i = 0; i < far_.size(); ++i)
       if (!explained[i]) add_cycle(i, explained, found);
     for (std::size_t i = 0; i < far_.size(); ++i)
-      if (!explained[i]) found.push_back(alone(far_[i], i < kMostSearched));
+      if (!explained[i]) found.push_back(single_pose_finding(far_[i], i < kMostSearched));
     return found;
   }
 
@@ -74,10 +73,10 @@ class Search {
     double least = 0.0;
     for (std::size_t j = 0; j < far_.size(); ++j) {
       if (j == i) continue;
-      TrialRow there = rows_[far_[j].row];
-      there.point_m = rows_[far_[i].row].point_m;
-      const double error_m = error(there);
-      if ((place && error_m >= least) || !fits(there, far_[i].error_m)) continue;
+      TrialRow moved = rows_[far_[j].row];
+      moved.point_m = rows_[far_[i].row].point_m;
+      const double error_m = error(moved);
+      if ((place && error_m >= least) || !fits(moved, far_[i].error_m)) continue;
       place = j;
       least = error_m;
     }
@@ -101,9 +100,9 @@ class Search {
       explained[i] = true;
       finding.poses.push_back(id(far_[i].row));
       finding.as_given_mm = std::max(finding.as_given_mm, millimetres(far_[i].error_m));
-      TrialRow there = rows_[far_[cycle[(k + 1) % cycle.size()]].row];
-      there.point_m = rows_[far_[i].row].point_m;
-      finding.if_changed_mm = std::max(finding.if_changed_mm, millimetres(error(there)));
+      TrialRow moved = rows_[far_[cycle[(k + 1) % cycle.size()]].row];
+      moved.point_m = rows_[far_[i].row].point_m;
+      finding.if_changed_mm = std::max(finding.if_changed_mm, millimetres(error(moved)));
       names += (k == 0 ? "" : k + 1 == cycle.size() ? " and " : ", ") + id(far_[i].row);
     }
     finding.sentence =
@@ -125,9 +124,9 @@ class Search {
   };
 
   double error_at(const TrialRow& row, int joint, double value) const {
-    TrialRow there = row;
-    there.joints[joint] = value;
-    return error(there);
+    TrialRow moved = row;
+    moved.joints[joint] = value;
+    return error(moved);
   }
 
   /// The value of one joint at which the row fits best: samples of its whole range, the best one refined.
@@ -154,9 +153,9 @@ class Search {
   std::optional<OtherJoints> typing_error(const TrialRow& row, double before_m) const {
     std::optional<OtherJoints> best;
     const auto take = [&](const OtherJoints& one, const JointVector& joints) {
-      TrialRow there = row;
-      there.joints = joints;
-      if ((!best || one.error_m < best->error_m) && fits(there, before_m)) best = one;
+      TrialRow moved = row;
+      moved.joints = joints;
+      if ((!best || one.error_m < best->error_m) && fits(moved, before_m)) best = one;
     };
     for (int joint = 0; joint < data_.robot.chain.size(); ++joint) {
       const OtherJoints one = best_value(row, joint);
@@ -169,15 +168,15 @@ class Search {
       for (int other = one + 1; other < data_.robot.chain.size(); ++other) {
         JointVector joints = row.joints;
         std::swap(joints[one], joints[other]);
-        TrialRow there = row;
-        there.joints = joints;
-        take({one, other, joints[one], error(there)}, joints);
+        TrialRow moved = row;
+        moved.joints = joints;
+        take({one, other, joints[one], error(moved)}, joints);
       }
     }
     return best;
   }
 
-  Finding alone(const Misfit& misfit, bool searched) const {
+  Finding single_pose_finding(const FarPose& misfit, bool searched) const {
     const TrialRow& row = rows_[misfit.row];
     Finding finding{
         .kind = FindingKind::outlier, .poses = {id(misfit.row)}, .as_given_mm = millimetres(misfit.error_m)};
@@ -212,7 +211,7 @@ class Search {
   const std::vector<TrialRow>& rows_;
   const PointPrediction& predict_;
   double median_m_ = 0.0;
-  std::vector<Misfit> far_;
+  std::vector<FarPose> far_;
 };
 
 }  // namespace
@@ -221,7 +220,7 @@ std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<Tr
                                        const PointPrediction& predict, double least_m) {
   constexpr std::size_t kFewest = 6;
   if (rows.size() < kFewest) return {};
-  return Search(data, rows, predict, least_m).findings();
+  return OutlierSearch(data, rows, predict, least_m).findings();
 }
 
 }  // namespace demecal

@@ -74,7 +74,7 @@ void measure_errors(const Trial& trial, TrialFit& fit) {
 }
 
 /// Where the parameters of a trial stand in its normal equations: stations' bases, tools, links.
-struct Places {
+struct ParameterPlaces {
   int stations, tools, joints;
   bool links;
 
@@ -87,13 +87,13 @@ double link_deviation(LinkParameter parameter) {
   return parameter == LinkParameter::d || parameter == LinkParameter::a ? kLinkDeviation_m : kLinkDeviation_rad;
 }
 
-struct NormalEquations {
+struct WeightedEquations {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
 };
 
 /// The tool point's derivative with respect to all parameters, 3 x places.size().
-Eigen::MatrixXd jacobian_of(const TrialFit& fit, const TrialRow& row, const Places& places) {
+Eigen::MatrixXd jacobian_of(const TrialFit& fit, const TrialRow& row, const ParameterPlaces& places) {
   const Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(row.station)];
   const Eigen::Vector3d& tool = fit.tools_m[static_cast<std::size_t>(row.target)];
   const Kinematics kinematics = differential_kinematics(fit.chain, row.joints, tool);
@@ -106,14 +106,15 @@ Eigen::MatrixXd jacobian_of(const TrialFit& fit, const TrialRow& row, const Plac
   return jacobian;
 }
 
-void add_row(const TrialFit& fit, const TrialRow& row, const Places& places, double weight, NormalEquations& normal) {
+void add_row(const TrialFit& fit, const TrialRow& row, const ParameterPlaces& places, double weight,
+             WeightedEquations& normal) {
   const Eigen::MatrixXd jacobian = jacobian_of(fit, row, places);
   const Eigen::Vector3d error = row.point_m - predicted_point(fit, row);
   normal.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose(), weight);
   normal.gradient.noalias() += weight * jacobian.transpose() * error;
 }
 
-void add_priors(const Trial& trial, const TrialFit& fit, const Places& places, NormalEquations& normal) {
+void add_priors(const Trial& trial, const TrialFit& fit, const ParameterPlaces& places, WeightedEquations& normal) {
   const auto pull = [&normal](int at, double deviation, double off) {
     normal.information(at, at) += 1.0 / (deviation * deviation);
     normal.gradient[at] -= off / (deviation * deviation);
@@ -134,7 +135,7 @@ void add_priors(const Trial& trial, const TrialFit& fit, const Places& places, N
   }
 }
 
-void move(TrialFit& fit, const Places& places, const Eigen::VectorXd& step) {
+void move(TrialFit& fit, const ParameterPlaces& places, const Eigen::VectorXd& step) {
   for (int station = 0; station < places.stations; ++station) {
     Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(station)];
     base.translation() += step.segment<3>(6 * station);
@@ -149,8 +150,8 @@ void move(TrialFit& fit, const Places& places, const Eigen::VectorXd& step) {
 }
 
 /// Takes a Gauss-Newton step, with Tukey's weights if it is to be robust; false where none can be taken.
-bool step_down(const Trial& trial, const Places& places, bool robust, TrialFit& fit) {
-  NormalEquations normal{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
+bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, TrialFit& fit) {
+  WeightedEquations normal{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
     const double share = robust ? tukey_weight(fit.error_m[i], fit.deviation_m) : 1.0;
     if (share > 0.0) add_row(fit, trial.rows[i], places, share / (fit.deviation_m * fit.deviation_m), normal);
@@ -169,7 +170,7 @@ bool step_down(const Trial& trial, const Places& places, bool robust, TrialFit& 
 
 /// Steps as long as they lower the median, twice over at most where they do not.
 TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
-  const Places places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), links};
+  const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), links};
   TrialFit best = fit;
   int worse = 0;
   for (int i = 0; i < steps && worse < 2; ++i) {
@@ -198,8 +199,8 @@ double Trial::rows_per_pose() const {
 
 Eigen::Matrix3d TrialFit::prediction_covariance(const TrialRow& row) const {
   if (covariance.size() == 0) return Eigen::Matrix3d::Zero();
-  const Places places{static_cast<int>(sensor_from_base.size()), static_cast<int>(tools_m.size()), chain.size(),
-                      has_links()};
+  const ParameterPlaces places{static_cast<int>(sensor_from_base.size()), static_cast<int>(tools_m.size()),
+                               chain.size(), has_links()};
   const Eigen::MatrixXd jacobian = jacobian_of(*this, row, places);
   return jacobian * covariance * jacobian.transpose();
 }
@@ -241,7 +242,7 @@ TrialFit fit_arm(const Trial& trial, const TrialFit& placed) {
 }
 
 TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed) {
-  const Places places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
+  const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
   TrialFit fit = placed;
   for (int i = 0; i < kArmSteps && step_down(trial, places, false, fit); ++i) continue;
   return fit;

@@ -1,12 +1,10 @@
-#include "preparation/false_targets.hpp"
-
 #include <algorithm>
 #include <sstream>
 
 #include "data/csv.hpp"
 #include "kinematics/units.hpp"
-#include "preparation/programmed_poses.hpp"
-#include "preparation/statistic.hpp"
+#include "preparation/prepared.hpp"
+#include "preparation/results.hpp"
 #include "programs/correct_program.hpp"
 
 namespace demecal {
@@ -24,7 +22,7 @@ void add_mm(std::vector<std::string>& fields, const Eigen::Vector3d& lengths_m) 
   for (const double length_m : lengths_m) fields.push_back(mm_text(length_m));
 }
 
-std::string text_of(const CsvTable& table) {
+std::string to_text(const CsvTable& table) {
   std::ostringstream text;
   write_csv(text, table);
   return text.str();
@@ -37,15 +35,15 @@ bool has_axes(const RawMeasurements& raw, const PreparedPose& pose) {
 }
 
 /// One VAL II file with the false targets of every set that has its poses there.
-struct CorrectedText {
+struct CorrectedFile {
   const PointFile* source;
   std::size_t entry;  ///< the first set
   std::vector<CorrectedTarget> targets;
 };
 
-CorrectedText& text_for(std::vector<CorrectedText>& texts, const RawMeasurements& raw, std::size_t entry) {
+CorrectedFile& program_for(std::vector<CorrectedFile>& texts, const RawMeasurements& raw, std::size_t entry) {
   const PointFile& source = file_of_poses(raw.sets[entry]);
-  const auto known = std::find_if(texts.begin(), texts.end(), [&](const CorrectedText& text) {
+  const auto known = std::find_if(texts.begin(), texts.end(), [&](const CorrectedFile& text) {
     return text.source->program.file == source.program.file;
   });
   if (known != texts.end()) return *known;
@@ -69,7 +67,7 @@ std::string free_name(const std::vector<WrittenFile>& files, const std::string& 
 std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepared& prepared, FrameKind kind) {
   const std::vector<Eigen::Vector3d> errors_m = differences(prepared, kind);
   CsvTable table{"", 0, {"set", "pose", "x_mm", "y_mm", "z_mm"}, {}};
-  std::vector<CorrectedText> texts;
+  std::vector<CorrectedFile> texts;
   for (std::size_t i = 0; i < prepared.poses.size(); ++i) {
     const PreparedPose& pose = prepared.poses[i];
     const Eigen::Vector3d false_m = pose.nominal_m - errors_m[i];
@@ -78,7 +76,7 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
       add_mm(table.rows.back().fields, false_m);
       continue;
     }
-    CorrectedText& text = text_for(texts, raw, pose.entry);
+    CorrectedFile& text = program_for(texts, raw, pose.entry);
     const Target& target = text.source->program.targets[*pose.pose_target];
     std::vector<std::string>& cells = text.targets[*pose.pose_target].texts;
     cells.clear();
@@ -87,11 +85,11 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
     }
   }
   std::vector<WrittenFile> files;
-  for (const CorrectedText& text : texts) {
+  for (const CorrectedFile& text : texts) {
     files.push_back({free_name(files, std::string(to_string(raw.sets[text.entry].set))),
                      replaced(text.source->text, text.source->program, text.targets)});
   }
-  if (!table.rows.empty()) files.push_back({"corrected.csv", text_of(table)});
+  if (!table.rows.empty()) files.push_back({"corrected.csv", to_text(table)});
   return files;
 }
 
@@ -119,7 +117,7 @@ WrittenFile errors_file(const Prepared& prepared, FrameKind kind) {
     if (stated) add_mm(fields, *pose.measured.standard_error_m);
     table.rows.push_back({0, std::move(fields)});
   }
-  return {"errors.csv", text_of(table)};
+  return {"errors.csv", to_text(table)};
 }
 
 }  // namespace demecal

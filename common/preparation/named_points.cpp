@@ -10,13 +10,13 @@ namespace demecal {
 namespace {
 
 /// In small letters, without the mark of a precision point.
-std::string plain(std::string_view name) {
+std::string normalized(std::string_view name) {
   if (name.starts_with('#')) name.remove_prefix(1);
   return lower_case(name);
 }
 
 NamedPoint point_of(const Target& target, std::size_t index, std::size_t ordinal) {
-  const std::string name = plain(target.name);
+  const std::string name = normalized(target.name);
   NamedPoint point{.target = index, .name = target.name, .array = name, .key = name};
   const std::size_t bracket = name.find('[');
   if (bracket != std::string::npos && name.ends_with(']')) {
@@ -37,7 +37,7 @@ bool same_numbers(const Target& one, const Target& other) {
   return same_numbers(one.joints, other.joints) && same_numbers(one.position, other.position);
 }
 
-[[noreturn]] void fail_none(const Program& program, PointKind kind, const std::string& points) {
+[[noreturn]] void throw_no_points(const Program& program, PointKind kind, const std::string& points) {
   std::vector<std::string> arrays;
   for (const Target& target : program.targets) {
     if (target.is_pose() == (kind == PointKind::poses)) arrays.push_back(point_of(target, 0, 0).array);
@@ -61,8 +61,8 @@ std::vector<NamedPoint> named_points(const Program& program, PointKind kind, con
     const Target& target = program.targets[i];
     if (target.is_pose() != (kind == PointKind::poses)) continue;
     NamedPoint point = point_of(target, i, found.size() + 1);
-    if (!points.empty() && point.array != plain(points)) continue;
-    const auto [before, is_new] = seen.emplace(plain(point.name), i);
+    if (!points.empty() && point.array != normalized(points)) continue;
+    const auto [before, is_new] = seen.emplace(normalized(point.name), i);
     if (is_new) {
       found.push_back(std::move(point));
     } else if (!same_numbers(target, program.targets[before->second])) {
@@ -71,7 +71,7 @@ std::vector<NamedPoint> named_points(const Program& program, PointKind kind, con
           "stands with other numbers in line " + std::to_string(program.targets[before->second].place.line));
     }
   }
-  if (found.empty()) fail_none(program, kind, points);
+  if (found.empty()) throw_no_points(program, kind, points);
   return found;
 }
 
@@ -91,12 +91,12 @@ std::vector<std::vector<std::size_t>> rows_of_points(const Readings& readings, c
   std::map<std::string, std::size_t> by_name, by_key;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    by_name.emplace(plain(points[i].name), i);
+    by_name.emplace(normalized(points[i].name), i);
     if (!by_key.emplace(points[i].key, i).second) by_key[points[i].key] = points.size();  // of several arrays
     names.push_back(points[i].name);
   }
   for (std::size_t row = 0; row < readings.rows.size(); ++row) {
-    const std::string pose = plain(readings.rows[row].pose);
+    const std::string pose = normalized(readings.rows[row].pose);
     const auto named = by_name.find(pose), keyed = by_key.find(pose);
     const std::size_t point = named != by_name.end() ? named->second : keyed != by_key.end() ? keyed->second : ~0ul;
     if (point < points.size()) {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "preparation/readings.hpp"
 #include "languages/program.hpp"
+#include "preparation/readings.hpp"
 
 namespace demecal {
 

@@ -7,10 +7,42 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
-#include "preparation/programmed_poses.hpp"
 
 namespace demecal {
 namespace {
+
+using PosesByKey = std::map<std::string, std::size_t>;
+
+PosesByKey by_key(const std::vector<NamedPoint>& points, const std::string& file) {
+  PosesByKey found;
+  for (const NamedPoint& point : points) {
+    if (!found.emplace(point.key, point.target).second) {
+      throw InputError({file, 0}, point.name,
+                       "is not the only pose of number " + point.key + "; name the array with pose_points");
+    }
+  }
+  return found;
+}
+
+bool cover(const PosesByKey& poses, const std::vector<NamedPoint>& joints) {
+  return std::all_of(joints.begin(), joints.end(), [&](const NamedPoint& point) { return poses.contains(point.key); });
+}
+
+/// The one array of poses beside the precision points that has a pose for every one of them, where there is just one.
+std::optional<PosesByKey> poses_beside(const Program& program, const std::vector<NamedPoint>& joints) {
+  const bool any = std::any_of(program.targets.begin(), program.targets.end(),
+                               [](const Target& target) { return target.is_pose(); });
+  if (!any) return std::nullopt;
+  std::map<std::string, std::vector<NamedPoint>> arrays;
+  for (NamedPoint& point : named_points(program, PointKind::poses, "")) arrays[point.array].push_back(point);
+  std::vector<PosesByKey> candidates;
+  for (const auto& [array, points] : arrays) {
+    PosesByKey poses = by_key(points, program.file);
+    if (cover(poses, joints)) candidates.push_back(std::move(poses));
+  }
+  if (candidates.size() != 1) return std::nullopt;
+  return candidates.front();
+}
 
 Eigen::Vector3d position_of(const Target& target) {
   return {target.position[0].inside(), target.position[1].inside(), target.position[2].inside()};
@@ -60,7 +92,7 @@ void add_set(const RawMeasurements& raw, std::size_t entry, Prepared& prepared) 
 }
 
 /// Names that several sets use get the number of their set before them.
-void tell_apart(std::vector<PreparedPose>& poses) {
+void make_ids_unique(std::vector<PreparedPose>& poses) {
   std::map<std::string, std::size_t> uses;
   for (const PreparedPose& pose : poses) ++uses[pose.id];
   const bool shared = std::any_of(uses.begin(), uses.end(), [](const auto& use) { return use.second > 1; });
@@ -69,30 +101,30 @@ void tell_apart(std::vector<PreparedPose>& poses) {
   }
 }
 
-struct Pairs {
+struct PointLists {
   std::vector<Eigen::Vector3d> measured_m, nominal_m;
 };
 
-Pairs pairs_of(const Prepared& prepared, bool calibration_only) {
-  Pairs pairs;
+PointLists point_lists(const Prepared& prepared, bool calibration_only) {
+  PointLists lists;
   for (const PreparedPose& pose : prepared.poses) {
     if (calibration_only && pose.commanded.set != PoseSet::calibration) continue;
-    pairs.measured_m.push_back(pose.measured.point_m);
-    pairs.nominal_m.push_back(pose.nominal_m);
+    lists.measured_m.push_back(pose.measured.point_m);
+    lists.nominal_m.push_back(pose.nominal_m);
   }
-  return pairs;
+  return lists;
 }
 
 void fit(const RawMeasurements& raw, Prepared& prepared) {
-  const Pairs all = pairs_of(prepared, false), calibration = pairs_of(prepared, true);
-  if (mirrored(all.measured_m, all.nominal_m)) {
+  const PointLists every_set = point_lists(prepared, false), calibration = point_lists(prepared, true);
+  if (is_mirrored(every_set.measured_m, every_set.nominal_m)) {
     throw InputError({raw.file, 0}, "",
                      "the measured points are the nominal ones in a mirror; check instrument.cords.side, which cord "
                      "is a, b and c, and that coordinates are right-handed");
   }
   prepared.best_fit = best_fit(calibration.measured_m, calibration.nominal_m);
   prepared.fitted_to_calibration = prepared.best_fit.has_value();
-  if (!prepared.best_fit) prepared.best_fit = best_fit(all.measured_m, all.nominal_m);
+  if (!prepared.best_fit) prepared.best_fit = best_fit(every_set.measured_m, every_set.nominal_m);
 }
 
 /// Whether every pose has it.
@@ -104,21 +136,41 @@ bool all_have(const Prepared& prepared, Member member) {
 
 }  // namespace
 
-std::string_view word_of(FrameKind kind) {
+std::vector<std::optional<std::size_t>> programmed_poses(const RawSet& set, const std::vector<NamedPoint>& joints) {
+  std::optional<PosesByKey> poses;
+  const PointFile& file = file_of_poses(set);
+  const bool is_named = set.poses || !set.pose_points.empty();
+  if (is_named) {
+    poses = by_key(named_points(file.program, PointKind::poses, set.pose_points), file.program.file);
+  } else {
+    poses = poses_beside(file.program, joints);
+  }
+  std::vector<std::optional<std::size_t>> targets(joints.size());
+  for (std::size_t i = 0; poses && i < joints.size(); ++i) {
+    const auto pose = poses->find(joints[i].key);
+    if (pose == poses->end()) {
+      throw InputError({file.program.file, 0}, joints[i].name, "has no programmed pose of the same number");
+    }
+    targets[i] = pose->second;
+  }
+  return targets;
+}
+
+std::string_view to_string(FrameKind kind) {
   return kind == FrameKind::three_points ? "three_points" : "best_fit";
 }
 
 Prepared prepare_measurements(const RawMeasurements& raw) {
   Prepared prepared;
   for (std::size_t entry = 0; entry < raw.sets.size(); ++entry) add_set(raw, entry, prepared);
-  tell_apart(prepared.poses);
+  make_ids_unique(prepared.poses);
   if (raw.local_frame) prepared.three_points = raw.local_frame->base_from_instrument();
   fit(raw, prepared);
   return prepared;
 }
 
 std::vector<Eigen::Vector3d> differences(const Prepared& prepared, FrameKind kind) {
-  DEMECAL_CHECK(prepared.frame(kind), "no frame by " << word_of(kind));
+  DEMECAL_CHECK(prepared.frame(kind), "no frame by " << to_string(kind));
   std::vector<Eigen::Vector3d> found;
   for (const PreparedPose& pose : prepared.poses) {
     found.emplace_back(*prepared.frame(kind) * pose.measured.point_m - pose.nominal_m);
@@ -126,7 +178,7 @@ std::vector<Eigen::Vector3d> differences(const Prepared& prepared, FrameKind kin
   return found;
 }
 
-DataSet data_set_of(const RawMeasurements& raw, const Prepared& prepared, std::optional<FrameKind> kind) {
+DataSet prepared_data_set(const RawMeasurements& raw, const Prepared& prepared, std::optional<FrameKind> kind) {
   DataSet data;
   data.name = raw.name;
   data.robot = raw.robot;

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
+#include <string_view>
 
 #include "data/columns.hpp"
 #include "errors/check.hpp"
@@ -13,20 +17,39 @@
 namespace demecal {
 namespace {
 
-enum class Kind { counts, cords, points };
-struct KindColumns {
-  Kind kind;
+constexpr double kFlattest = 1e-3;  // of the longest side
+
+Eigen::Vector3d corner_b(const CordCorners& corners) {
+  return {corners.b_x_m, 0.0, 0.0};
+}
+Eigen::Vector3d corner_c(const CordCorners& corners) {
+  return {corners.c_x_m, corners.c_y_m, 0.0};
+}
+
+/// By the implicit function theorem: each sphere's gradient at the point, over its radius, is the direction of its
+/// cord, so that the derivative is the inverse of the matrix of these directions.
+Eigen::Matrix3d derivative_at(const CordCorners& corners, const Eigen::Vector3d& point_m) {
+  Eigen::Matrix3d directions;
+  directions.row(0) = point_m.normalized();
+  directions.row(1) = (point_m - corner_b(corners)).normalized();
+  directions.row(2) = (point_m - corner_c(corners)).normalized();
+  return directions.inverse();
+}
+
+enum class ReadingKind { counts, cords, points };
+struct ReadingColumns {
+  ReadingKind kind;
   std::array<const char*, 3> names;
 };
-constexpr std::array<KindColumns, 3> kKinds{{{Kind::counts, {"a_counts", "b_counts", "c_counts"}},
-                                             {Kind::cords, {"a_mm", "b_mm", "c_mm"}},
-                                             {Kind::points, {"x_mm", "y_mm", "z_mm"}}}};
+constexpr std::array<ReadingColumns, 3> kReadingColumns{{{ReadingKind::counts, {"a_counts", "b_counts", "c_counts"}},
+                                                         {ReadingKind::cords, {"a_mm", "b_mm", "c_mm"}},
+                                                         {ReadingKind::points, {"x_mm", "y_mm", "z_mm"}}}};
 constexpr std::array<const char*, 3> kPoseColumns{"pose", "pose_id", "point"};
 
 /// The kind of readings whose columns the table has.
-const KindColumns& kind_of(const CsvTable& table) {
-  const KindColumns* found = nullptr;
-  for (const KindColumns& kind : kKinds) {
+const ReadingColumns& kind_of(const CsvTable& table) {
+  const ReadingColumns* found = nullptr;
+  for (const ReadingColumns& kind : kReadingColumns) {
     for (const char* name : kind.names) {
       if (!table.find(name) || found == &kind) continue;
       if (found != nullptr) {
@@ -43,20 +66,20 @@ const KindColumns& kind_of(const CsvTable& table) {
                    "or x_mm, y_mm, z_mm");
 }
 
-class ReadingRows {
+class ReadingTable {
  public:
-  ReadingRows(const CsvTable& table, const std::optional<CordInstrument>& cords)
+  ReadingTable(const CsvTable& table, const std::optional<CordInstrument>& cords)
       : table_(table), cords_(cords), kind_(kind_of(table)) {
     const InputError::Where header{table.file, table.header_line};
     for (const char* name : kind_.names) columns_.emplace_back(table, ColumnName{name, header});
     for (const char* name : kPoseColumns) {
       if (!pose_ && table.find(name)) pose_.emplace(table, ColumnName{name, header});
     }
-    if (kind_.kind == Kind::points) return;
+    if (kind_.kind == ReadingKind::points) return;
     if (!cords_) {
       throw InputError(header, kind_.names[0], "is of a cord, but the preparation file describes no instrument.cords");
     }
-    if (kind_.kind == Kind::counts && !cords_->counts_per_m) {
+    if (kind_.kind == ReadingKind::counts && !cords_->counts_per_m) {
       throw InputError(header, kind_.names[0],
                        "is in counts, but the preparation file has no instrument.cords.encoders");
     }
@@ -69,18 +92,18 @@ class ReadingRows {
   }
 
  private:
-  Reading read(const CsvRow& row) const {
-    Reading reading{.line = row.line};
+  InstrumentReading read(const CsvRow& row) const {
+    InstrumentReading reading{.line = row.line};
     if (pose_) {
       reading.pose = pose_->text(row);
       if (reading.pose.empty()) pose_->fail(row, "is empty where the name or number of a pose is expected");
     }
     Eigen::Vector3d values;
     for (Eigen::Index i = 0; i < 3; ++i) values[i] = columns_[static_cast<std::size_t>(i)].number(row);
-    if (kind_.kind == Kind::points) {
+    if (kind_.kind == ReadingKind::points) {
       reading.point_m = metres(1.0) * values;
     } else {
-      meet(row, values, reading);
+      trilaterate_row(row, values, reading);
     }
     return reading;
   }
@@ -88,7 +111,8 @@ class ReadingRows {
   /// Lengths of the whole cords, m.
   Eigen::Vector3d whole_cords(const CsvRow& row, const Eigen::Vector3d& values) const {
     Eigen::Vector3d lengths_m = metres(1.0) * values;
-    if (kind_.kind == Kind::counts) lengths_m = (values - cords_->zero_counts).cwiseQuotient(*cords_->counts_per_m);
+    if (kind_.kind == ReadingKind::counts)
+      lengths_m = (values - cords_->zero_counts).cwiseQuotient(*cords_->counts_per_m);
     lengths_m += cords_->top_cords_m;
     for (Eigen::Index i = 0; i < 3; ++i) {
       if (lengths_m[i] > 0.0) continue;
@@ -98,7 +122,7 @@ class ReadingRows {
     return lengths_m;
   }
 
-  void meet(const CsvRow& row, const Eigen::Vector3d& values, Reading& reading) const {
+  void trilaterate_row(const CsvRow& row, const Eigen::Vector3d& values, InstrumentReading& reading) const {
     const Eigen::Vector3d lengths_m = whole_cords(row, values);
     const CordPoint point = trilaterate(cords_->corners, lengths_m, cords_->side);
     if (!point.meets()) {
@@ -116,15 +140,55 @@ class ReadingRows {
 
   const CsvTable& table_;
   const std::optional<CordInstrument>& cords_;
-  const KindColumns& kind_;
+  const ReadingColumns& kind_;
   std::vector<TableColumn> columns_;
   std::optional<TableColumn> pose_;
 };
 
+/// The length of "#name[i]" that a line begins with and a comma follows; 0 where there is none.
+std::size_t marked_name(std::string_view line) {
+  const std::size_t comma = line.find(',');
+  if (!line.starts_with('#') || comma == std::string_view::npos) return 0;
+  const std::string_view name = line.substr(0, comma);
+  const bool indexed = name.ends_with(']') && name.find('[') > 1 && name.find_first_of(" \t\"") == name.npos;
+  return indexed ? comma : 0;
+}
+
 }  // namespace
 
+std::optional<CordCorners> cord_corners(const CordTriangle& triangle) {
+  const double ab = triangle.ab_m, bc = triangle.bc_m, ca = triangle.ca_m;
+  const double longest = std::max({ab, bc, ca});
+  if (!(ab > 0.0 && bc > 0.0 && ca > 0.0)) return std::nullopt;
+  const double g = (ca * ca - bc * bc + ab * ab) / (2.0 * ab);
+  const double h_squared = ca * ca - g * g;
+  if (!(h_squared > kFlattest * kFlattest * longest * longest)) return std::nullopt;
+  return CordCorners{ab, g, std::sqrt(h_squared)};
+}
+
+CordPoint trilaterate(const CordCorners& corners, const Eigen::Vector3d& cords_m, PlaneSide side) {
+  const double l = corners.b_x_m, g = corners.c_x_m, h = corners.c_y_m;
+  const Eigen::Vector3d squares = cords_m.cwiseAbs2();
+  const double x = (squares[0] - squares[1] + l * l) / (2.0 * l);
+  const double y = (squares[0] - squares[2] - 2.0 * g * x + g * g + h * h) / (2.0 * h);
+  CordPoint found{.height_squared_m2 = squares[0] - x * x - y * y};
+  if (!found.meets()) return found;
+  const double z = std::sqrt(found.height_squared_m2);
+  found.point_m = {x, y, side == PlaneSide::above ? z : -z};
+  found.derivative = derivative_at(corners, found.point_m);
+  return found;
+}
+
+Eigen::Vector3d cord_lengths(const CordCorners& corners, const Eigen::Vector3d& point_m) {
+  return {point_m.norm(), (point_m - corner_b(corners)).norm(), (point_m - corner_c(corners)).norm()};
+}
+
+Eigen::Matrix3d covariance_of(const CordPoint& point, double cord_m) {
+  return cord_m * cord_m * point.derivative * point.derivative.transpose();
+}
+
 Readings read_readings(const CsvTable& table, const std::optional<CordInstrument>& cords) {
-  return ReadingRows(table, cords).read();
+  return ReadingTable(table, cords).read();
 }
 
 std::optional<double> AveragedReading::spread_m() const {
@@ -146,6 +210,27 @@ AveragedReading average(const Readings& readings, const std::vector<std::size_t>
   for (const std::size_t row : rows) mean.squares_m2 += (readings.rows[row].point_m - mean.point_m).squaredNorm();
   if (stated) mean.standard_error_m = variances.cwiseSqrt();
   return mean;
+}
+
+std::string with_marked_names(const std::string& text, const std::string& file) {
+  std::istringstream lines(text);
+  std::string quoted;
+  std::size_t number = 0, first_marked = 0, plain = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (const std::size_t name = marked_name(line); name > 0) {
+      if (first_marked == 0) first_marked = number;
+      line.insert(name, "\"").insert(0, "\"");
+    } else if (line.find_first_not_of(" \t\r") != std::string::npos && line[0] != '#') {
+      ++plain;
+    }
+    quoted += line + '\n';
+  }
+  if (first_marked == 0) return text;
+  if (plain <= 1) return quoted;  // the header
+  throw InputError({file, first_marked}, "",
+                   "begins with # as comments do, and other rows do not; leave the # of its name out, or put a space "
+                   "after it where a comment is meant");
 }
 
 }  // namespace demecal

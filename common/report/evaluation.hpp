@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibrated_model.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "data_check/finding.hpp"
 #include "effects/measurement.hpp"
 #include "report/report.hpp"

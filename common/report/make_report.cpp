@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "calibration/joint_summaries.hpp"
-#include "calibration/shared_calls.hpp"
+#include "calibration/calibration.hpp"
+#include "calibration/shared_functions.hpp"
 #include "diagnosis/structure.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
@@ -152,7 +152,7 @@ Report make_report(const Conclusions& run) {
   Report report;
   report.job = model.job;
   report.robot = model.nominal.name;
-  report.method = word_of(model.method);
+  report.method = to_string(model.method);
   report.seed = model.seed;
   report.data_sha256 = model.data_sha256;
   report.version = model.version;

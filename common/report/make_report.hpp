@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibrated_model.hpp"
-#include "calibration/distal_steps.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
+#include "distal/steps.hpp"
 #include "report/report.hpp"
-#include "structure/found_transform.hpp"
+#include "structure/structure_fit.hpp"
 
 namespace demecal {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinematics/units.hpp"
+
 namespace demecal {
 namespace {
 
@@ -133,10 +135,16 @@ bool take_step(const StructureProblem& problem, StructureFit& fit) {
   return false;
 }
 
+constexpr const char kAxes[] = {'x', 'y', 'z'};
+
+char axis_of(const Gene& gene) {
+  return kAxes[static_cast<std::size_t>(gene.axis)];
+}
+
 }  // namespace
 
 StructureProblem structure_problem(const DataSet& data, const StructureFreedom& freedom, const CorrectedRobot& start,
-                                   std::vector<std::size_t> fitted, std::vector<std::size_t> judged) {
+                                   std::vector<std::size_t> fitted, std::vector<std::size_t> selection_poses) {
   double shifts = 0.0, turns = 0.0;
   int shift_rows = 0, turn_rows = 0;
   for (const std::size_t index : fitted) {
@@ -148,7 +156,7 @@ StructureProblem structure_problem(const DataSet& data, const StructureFreedom& 
     turn_rows += rows.orientation;
     shift_rows += rows.position + rows.distances;
   }
-  StructureProblem problem{data, freedom, start, std::move(fitted), std::move(judged)};
+  StructureProblem problem{data, freedom, start, std::move(fitted), std::move(selection_poses)};
   if (shifts > 0.0) problem.position_scale_m = std::sqrt(shifts / shift_rows);
   if (turns > 0.0) problem.orientation_scale_rad = std::sqrt(turns / turn_rows);
   if (!freedom.tool_turns && problem.orientation_scale_rad > kMountedOtherwise_rad) problem.orientation_scale_rad = 0.0;
@@ -168,15 +176,15 @@ StructureFit fit_structure(const StructureProblem& problem, const Genome& genome
   StructureFit fit;
   fit.arm = {problem.start, genome, std::vector<double>(gene_count(genome), 0.0)};
   fit.numbers = problem.freedom.before_genes() + static_cast<int>(gene_count(genome));
-  fit.judgement = std::numeric_limits<double>::infinity();
+  fit.selection_cost = std::numeric_limits<double>::infinity();
   fit.cost = cost_of(problem, fit.arm, problem.fitted);
   if (fit.numbers >= rows_in_use(problem, problem.fitted)) return fit;
   for (int step = 0; step < kMostSteps && fit.numbers > 0; ++step) {
     if (!take_step(problem, fit)) break;
   }
-  const double judgement = cost_of(problem, fit.arm, problem.judged);
-  fit.solved = std::isfinite(judgement) && std::isfinite(fit.cost);
-  if (fit.solved) fit.judgement = judgement;
+  const double selection_cost = cost_of(problem, fit.arm, problem.selection_poses);
+  fit.solved = std::isfinite(selection_cost) && std::isfinite(fit.cost);
+  if (fit.solved) fit.selection_cost = selection_cost;
   return fit;
 }
 
@@ -189,6 +197,29 @@ Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& 
   const Eigen::MatrixXd inverse = lengths.cwiseInverse().asDiagonal() * decomposition.pseudoInverse();
   const int freedom = std::max(1, rows_in_use(problem, problem.fitted) - static_cast<int>(decomposition.rank()));
   return fit.cost / freedom * inverse * inverse.transpose();
+}
+
+std::string FoundTransform::name() const {
+  return "after link " + std::to_string(link + 1) + (gene.rotates ? " R" : " T") + axis_of(gene) +
+         (gene.rotates ? "_deg" : "_mm");
+}
+
+double FoundTransform::at_border(double amount) const {
+  return gene.rotates ? degrees(amount) : millimetres(amount);
+}
+
+std::vector<FoundTransform> found_transforms(const StructureProblem& problem, const StructureFit& fit) {
+  const Eigen::MatrixXd all_covariances = covariance(problem, fit);
+  std::vector<FoundTransform> found;
+  Eigen::Index column = problem.freedom.before_genes();
+  for (std::size_t section = 0; section < fit.arm.genome.size(); ++section) {
+    for (const Gene& gene : fit.arm.genome[section]) {
+      const double variance = all_covariances(column, column);
+      ++column;
+      found.push_back({static_cast<int>(section), gene, fit.arm.values[found.size()], std::sqrt(variance)});
+    }
+  }
+  return found;
 }
 
 }  // namespace demecal

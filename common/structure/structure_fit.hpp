@@ -3,34 +3,36 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "effects/measurement.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal {
 
-/// What structures are fitted to and judged by.
+/// What structures are fitted to and selected by.
 struct StructureProblem {
   const DataSet& data;
   StructureFreedom freedom;
-  CorrectedRobot start;                ///< base and tools near where they are
-  std::vector<std::size_t> fitted;     ///< poses that amounts come from
-  std::vector<std::size_t> judged;     ///< poses that decide between structures
-  double position_scale_m = 1.0;       ///< by which rows are divided; positions and distances
-  double orientation_scale_rad = 0.0;  ///< 0: orientations are not used
+  CorrectedRobot start;                      ///< base and tools near where they are
+  std::vector<std::size_t> fitted;           ///< poses that amounts come from
+  std::vector<std::size_t> selection_poses;  ///< poses that decide between structures
+  double position_scale_m = 1.0;             ///< by which rows are divided; positions and distances
+  double orientation_scale_rad = 0.0;        ///< 0: orientations are not used
 };
 
 /// Scales are the residuals of `start`; orientations far from its tool's, where no tool is free to turn, are not used.
 StructureProblem structure_problem(const DataSet& data, const StructureFreedom& freedom, const CorrectedRobot& start,
-                                   std::vector<std::size_t> fitted, std::vector<std::size_t> judged);
+                                   std::vector<std::size_t> fitted, std::vector<std::size_t> selection_poses);
 
 struct StructureFit {
   StructuredArm arm;
-  bool solved = false;     ///< the numbers are finite and fewer than the rows
-  double cost = 0.0;       ///< sum of squared scaled residuals of the fitted poses
-  double judgement = 0.0;  ///< the same of the judged poses; infinite where not solved
-  int rank = 0;            ///< of the Jacobian
-  int numbers = 0;         ///< free
+  bool solved = false;          ///< the numbers are finite and fewer than the rows
+  double cost = 0.0;            ///< sum of squared scaled residuals of the fitted poses
+  double selection_cost = 0.0;  ///< the same of the selection poses; infinite where not solved
+  int rank = 0;                 ///< of the Jacobian
+  int numbers = 0;              ///< free
 };
 
 /// From amounts of zero, which are believed to be within 5 mm and 17.5 mrad (a standard deviation; what the poses show
@@ -45,5 +47,20 @@ Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& 
 
 /// How many rows the poses have that are in use.
 int rows_in_use(const StructureProblem& problem, std::span<const std::size_t> poses);
+
+struct FoundTransform {
+  int link = 0;  ///< it stands after this one, from 0
+  Gene gene;
+  double value = 0.0;           ///< rad or m
+  double standard_error = 0.0;  ///< rad or m
+
+  /// "after link 2 Ry_deg", "after link 3 Tx_mm".
+  std::string name() const;
+  /// rad or m to the unit of the name.
+  double at_border(double amount) const;
+};
+
+/// In the order in which they stand along the arm.
+std::vector<FoundTransform> found_transforms(const StructureProblem& problem, const StructureFit& fit);
 
 }  // namespace demecal

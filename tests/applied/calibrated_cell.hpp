@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "calibration/model_posterior.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "effects/random_robot.hpp"
 #include "kinematics/rotation_vector.hpp"
 #include "programs/correct_program.hpp"

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/closed_calibration.hpp"
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
 #include "evolution/island.hpp"
 
 namespace demecal {

@@ -1,6 +1,6 @@
 // Joint errors told from the measured rows alone: where the truth is known, where an arm is stretched out, and of arms
 // with more joints than rows.
-#include "calibration/joint_posterior.hpp"
+#include "calibration/joint_targets.hpp"
 
 #include <gtest/gtest.h>
 

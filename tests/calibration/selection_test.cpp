@@ -23,17 +23,18 @@ JointCandidates candidates(std::uint32_t joint, const std::vector<std::string>& 
 TEST(Selection, KeepsTheTrueErrorsAndLeavesTheRestNeutral) {
   const DataSet data =
       measure(true_puma({"", "0.001*SIN(theta)", "0.0012*COS(theta)", "", "", ""}), 90, 5e-5, 1, false);
-  const std::vector<std::size_t> deciding = poses_of(data, PoseSet::validation);
+  const std::vector<std::size_t> selecting = poses_of(data, PoseSet::validation);
   const CorrectedRobot nominal = nominal_robot(data);
   const std::vector<JointCandidates> joints{candidates(0, {"0.0005*COS(theta)", "0.0001*theta"}),
                                             candidates(1, {"0.0003", "0.001*SIN(theta)"}),
                                             candidates(2, {"0.0012*COS(theta)", "0.002*theta"})};
-  const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration), deciding, nominal, joints);
+  const Selection selection =
+      select_corrections(data, poses_of(data, PoseSet::calibration), selecting, nominal, joints);
   EXPECT_FALSE(selection.choices[0].kept);
   EXPECT_TRUE(selection.choices[1].kept);
   EXPECT_TRUE(selection.choices[2].kept);
   EXPECT_TRUE(selection.robot.corrections[0].is_neutral());
-  EXPECT_LT(error_figures(selection.robot, data, deciding).rms_mm, 0.12);
+  EXPECT_LT(error_figures(selection.robot, data, selecting).rms_mm, 0.12);
 }
 
 TEST(Selection, TakesTheShorterOfTwoThatDoEquallyWell) {
@@ -48,15 +49,15 @@ TEST(Selection, TakesTheShorterOfTwoThatDoEquallyWell) {
 TEST(Selection, NeverMakesTheDecidingPosesWorse) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, 1e-4, seed, false);
-    const std::vector<std::size_t> deciding = poses_of(data, PoseSet::validation);
+    const std::vector<std::size_t> selecting = poses_of(data, PoseSet::validation);
     const CorrectedRobot nominal = nominal_robot(data);
     std::vector<JointCandidates> joints;
     for (std::uint32_t joint = 0; joint < 6; ++joint) {
       joints.push_back(candidates(joint, {"0.00002*SIN(theta)", "0.00003*COS(3*theta)", "0-0.00002*SIN(theta)"}));
     }
     const Selection selection =
-        select_corrections(data, poses_of(data, PoseSet::calibration), deciding, nominal, joints);
-    EXPECT_LE(error_figures(selection.robot, data, deciding).rms_mm, error_figures(nominal, data, deciding).rms_mm);
+        select_corrections(data, poses_of(data, PoseSet::calibration), selecting, nominal, joints);
+    EXPECT_LE(error_figures(selection.robot, data, selecting).rms_mm, error_figures(nominal, data, selecting).rms_mm);
   }
 }
 
@@ -86,13 +87,54 @@ TEST(Selection, CorrectionsFromElsewhereCompeteAndBelongTogether) {
       measure(true_puma({"", "0.001*SIN(theta)", "0.0012*COS(theta)", "", "", ""}), 90, 5e-5, 5, false);
   std::vector<JointCandidates> joints{candidates(1, {"0.0003"}), candidates(2, {"0.002*theta"})};
   const Interval range{-M_PI, M_PI};
-  joints[0].others = {JointCorrection(parse("0.001*SIN(theta)"), {}, range), JointCorrection{}};
-  joints[1].others = {JointCorrection(parse("0.0012*COS(theta)"), {}, range), JointCorrection{}};
+  joints[0].alternatives = {JointCorrection(parse("0.001*SIN(theta)"), {}, range), JointCorrection{}};
+  joints[1].alternatives = {JointCorrection(parse("0.0012*COS(theta)"), {}, range), JointCorrection{}};
   const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
                                                  poses_of(data, PoseSet::validation), nominal_robot(data), joints);
-  EXPECT_EQ(selection.robot.corrections[1].formula(), joints[0].others[0].formula());
-  EXPECT_EQ(selection.robot.corrections[2].formula(), joints[1].others[0].formula());
+  EXPECT_EQ(selection.robot.corrections[1].formula(), joints[0].alternatives[0].formula());
+  EXPECT_EQ(selection.robot.corrections[2].formula(), joints[1].alternatives[0].formula());
   EXPECT_EQ(selection.choices[0].candidates, 3U);
+}
+
+CorrectedRobot model_of(const DataSet& data) {
+  CorrectedRobot robot = nominal_robot(data);
+  robot.effects = {{.kind = "gain", .joint = 1, .values = {3e-4}},
+                   {.kind = "eccentricity", .joint = 2, .settings = {{"order", 1.0}}, .values = {1e-3, -5e-4}}};
+  robot.corrections[0] = {parse("0.001*SIN(theta)"), {}, {-2.0, 2.0}};
+  return robot;
+}
+
+TEST(PoseEvaluator, FindsTheModelsErrors) {
+  const DataSet data = measure(true_puma({"", "0.001", "", "", "", ""}), 30, 1e-4, 1, false);
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::validation);
+  const CorrectedRobot robot = model_of(data);
+  const SquaredErrors errors = PoseEvaluator(data, poses, robot).squared_errors(robot);
+  ASSERT_EQ(errors.size(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_NEAR(std::sqrt(errors[i]), 1e3 * tool_error_m(robot, data, data.poses[poses[i]]), 1e-9);
+  }
+}
+
+TEST(PoseEvaluator, TriesACorrectionAsIfItWereInTheModel) {
+  const DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, 1e-4, 2, false);
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  CorrectedRobot robot = model_of(data);
+  const PoseEvaluator evaluator(data, poses, robot);
+  const JointCorrection correction(parse("0.002*COS(theta)"), {}, {-2.0, 3.0});
+  const SquaredErrors tried =
+      evaluator.squared_errors(robot, evaluator.with(evaluator.corrected(robot), 3, correction));
+  robot.corrections[3] = correction;
+  EXPECT_EQ(tried, evaluator.squared_errors(robot));
+}
+
+TEST(PoseEvaluator, LeavesOutPosesWithoutAPosition) {
+  DataSet data = measure(true_puma({"", "", "", "", "", ""}), 30, 1e-4, 3, true);
+  for (std::size_t i = 0; i < data.poses.size(); i += 2) data.poses[i].position_m.reset();
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  const CorrectedRobot robot = nominal_robot(data);
+  const SquaredErrors errors = PoseEvaluator(data, poses, robot).squared_errors(robot);
+  EXPECT_EQ(errors.size(), poses.size() / 2);
+  EXPECT_TRUE(std::isfinite(sum(errors)));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(ModelFile, KeepsHowTheModelWasFound) {
   CalibratedModel model = random_model(stream);
   for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural}) {
     model.method = method;
-    EXPECT_EQ(written_and_read(model).method, method) << word_of(method);
+    EXPECT_EQ(written_and_read(model).method, method) << to_string(method);
   }
 }
 

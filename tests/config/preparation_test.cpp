@@ -11,7 +11,7 @@
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
-#include "preparation/statistic.hpp"
+#include "preparation/results.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 
@@ -28,7 +28,7 @@ TEST(Preparation, ThatIsShippedGivesADataSetThatLoads) {
   const Prepared prepared = prepare_measurements(raw);
   for (const auto frame : {std::optional<FrameKind>(), {FrameKind::three_points}, {FrameKind::best_fit}}) {
     const TemporaryFolder folder;
-    const DataSet data = data_set_of(raw, prepared, frame);
+    const DataSet data = prepared_data_set(raw, prepared, frame);
     const DataSet back = load_data_set(write_data_set(data, folder.path(), "prepared"));
     ASSERT_EQ(back.poses.size(), 36u);
     EXPECT_EQ(back.frame, frame ? Frame::base : Frame::sensor);
@@ -38,7 +38,7 @@ TEST(Preparation, ThatIsShippedGivesADataSetThatLoads) {
     }
   }
   EXPECT_LT(prepared.programmed_from_joints_m, 1e-4);
-  const Statistic statistic = statistic_of(raw, prepared);
+  const Statistic statistic = error_statistic(raw, prepared);
   ASSERT_EQ(statistic.sets.size(), 2u);
   EXPECT_EQ(statistic.sets[0].readings, 72u);
   EXPECT_GT(statistic.sets[0].best_fit->error.rms_mm, 0.3);
@@ -75,7 +75,7 @@ TEST(Preparation, ReadsTablesOfJointsAndInstrumentsThatGiveCoordinates) {
                    "sets: [{set: accept, joints: joints.csv, readings: seen.csv}]\n");
   const RawMeasurements raw = load_preparation(file);
   const Prepared prepared = prepare_measurements(raw);
-  const DataSet data = data_set_of(raw, prepared, FrameKind::three_points);
+  const DataSet data = prepared_data_set(raw, prepared, FrameKind::three_points);
   ASSERT_EQ(data.poses.size(), 10u);
   for (std::size_t row = 0; row < 10; ++row) {
     const MeasuredPose& pose = data.poses[row];
@@ -86,7 +86,7 @@ TEST(Preparation, ReadsTablesOfJointsAndInstrumentsThatGiveCoordinates) {
     EXPECT_LT((error - Eigen::Vector3d(0, 0, row % 2 == 0 ? 0.0 : 1e-3)).norm(), 1e-9);
   }
   EXPECT_FALSE(prepared.fitted_to_calibration);
-  EXPECT_NEAR(*statistic_of(raw, prepared).sets.at(0).spread_mm, std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(*error_statistic(raw, prepared).sets.at(0).spread_mm, std::sqrt(0.5), 1e-6);
 }
 
 /// A change to one of the files, and what the user must be told.

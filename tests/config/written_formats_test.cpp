@@ -16,8 +16,7 @@
 #include "languages/named_languages.hpp"
 #include "monitor/events.hpp"
 #include "monitor/made_up_run.hpp"
-#include "preparation/false_targets.hpp"
-#include "preparation/statistic.hpp"
+#include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
 #include "programs/summary.hpp"
 #include "report/evaluation.hpp"
@@ -167,7 +166,7 @@ TEST(WrittenFormats, PreparationsHaveTheKeysAndColumnsOfThePage) {
   const ExampleFolder examples;
   const RawMeasurements raw = load_preparation(examples.path() / "preparation.yaml");
   const Prepared prepared = prepare_measurements(raw);
-  const std::string statistic = statistic_json(statistic_of(raw, prepared), raw.name, "best_fit", {"dataset.yaml"});
+  const std::string statistic = statistic_json(error_statistic(raw, prepared), raw.name, "best_fit", {"dataset.yaml"});
   expect_json("prepare --json", {statistic}, {{"sets", "SET"}});
   expect_columns("errors.csv", {errors_file(prepared, FrameKind::best_fit).text});
 }

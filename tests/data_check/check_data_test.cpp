@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../errors/complaint.hpp"
-#include "data_check/coverage.hpp"
+#include "data_check/searches.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
 #include "mistaken_case.hpp"

@@ -4,8 +4,7 @@
 
 #include "../errors/complaint.hpp"
 #include "measured_arm.hpp"
-#include "preparation/false_targets.hpp"
-#include "preparation/statistic.hpp"
+#include "preparation/results.hpp"
 
 namespace demecal {
 namespace {
@@ -19,9 +18,9 @@ TEST(Prepared, GivesBackWhatTheArmDidInAllThreeFrames) {
     const MeasuredArm arm = measured_arm(stream, 12, 2e-3);
     const RawMeasurements raw = raw_of(arm);
     const Prepared prepared = prepare_measurements(raw);
-    const DataSet seen = data_set_of(raw, prepared, std::nullopt);
-    const DataSet based = data_set_of(raw, prepared, FrameKind::three_points);
-    const DataSet fitted = data_set_of(raw, prepared, FrameKind::best_fit);
+    const DataSet seen = prepared_data_set(raw, prepared, std::nullopt);
+    const DataSet based = prepared_data_set(raw, prepared, FrameKind::three_points);
+    const DataSet fitted = prepared_data_set(raw, prepared, FrameKind::best_fit);
     ASSERT_THAT(seen.poses, SizeIs(12));
     EXPECT_EQ(seen.frame, Frame::sensor);
     EXPECT_EQ(based.frame, Frame::base);
@@ -39,7 +38,7 @@ TEST(Prepared, GivesBackWhatTheArmDidInAllThreeFrames) {
 TEST(Prepared, FindsNoErrorWhereThereIsNone) {
   RandomStream stream{64, 2};
   const RawMeasurements raw = raw_of(measured_arm(stream, 10, 0.0));
-  const Statistic statistic = statistic_of(raw, prepare_measurements(raw));
+  const Statistic statistic = error_statistic(raw, prepare_measurements(raw));
   EXPECT_LT(statistic.sets.at(0).three_points->error.max_mm, 1e-6);
   EXPECT_LT(statistic.sets.at(0).best_fit->error.max_mm, 1e-6);
   EXPECT_LT(statistic.apart->max_mm, 1e-6);
@@ -49,7 +48,7 @@ TEST(Prepared, ShowsThatTheThreePointFrameCarriesTheErrorOfItsPoints) {
   RandomStream stream{64, 3};
   RawMeasurements raw = raw_of(measured_arm(stream, 40, 1e-3));
   raw.local_frame->in_instrument_m[2] += Eigen::Vector3d(0, 0, 4e-3);
-  const Statistic statistic = statistic_of(raw, prepare_measurements(raw));
+  const Statistic statistic = error_statistic(raw, prepare_measurements(raw));
   const SetStatistic& set = statistic.sets.at(0);
   EXPECT_GT(set.three_points->error.rms_mm, set.best_fit->error.rms_mm + 0.3);
   EXPECT_GT(statistic.apart->max_mm, 1.0);
@@ -82,15 +81,15 @@ TEST(Prepared, KeepsRepeatsOrAveragesThem) {
   }
   raw.sets[0].readings = read_readings(table_of(text), arm.cords);
   const Prepared prepared = prepare_measurements(raw);
-  const DataSet averaged = data_set_of(raw, prepared, std::nullopt);
+  const DataSet averaged = prepared_data_set(raw, prepared, std::nullopt);
   ASSERT_THAT(averaged.poses, SizeIs(6));
   for (std::size_t p = 0; p < 6; ++p) EXPECT_LT((*averaged.poses[p].position_m - sums_m[p] / 3.0).norm(), 1e-9);
   raw.repeats = Repeats::keep;
-  const DataSet kept = data_set_of(raw, prepared, std::nullopt);
+  const DataSet kept = prepared_data_set(raw, prepared, std::nullopt);
   ASSERT_THAT(kept.poses, SizeIs(18));
   EXPECT_EQ(kept.poses[0].pose_id, kept.poses[2].pose_id);
   EXPECT_NE(*kept.poses[0].position_m, *kept.poses[2].position_m);
-  const SetStatistic set = statistic_of(raw, prepared).sets.at(0);
+  const SetStatistic set = error_statistic(raw, prepared).sets.at(0);
   EXPECT_EQ(set.readings, 18u);
   EXPECT_GT(*set.spread_mm, 0.03);
   EXPECT_LT(*set.spread_mm, 0.2);
@@ -101,7 +100,7 @@ TEST(Prepared, TellsPosesOfSeveralSetsApart) {
   RawMeasurements raw = raw_of(measured_arm(stream, 6, 1e-3));
   raw.sets.push_back(raw.sets[0]);
   raw.sets[1].set = PoseSet::validation;
-  const DataSet data = data_set_of(raw, prepare_measurements(raw), FrameKind::best_fit);
+  const DataSet data = prepared_data_set(raw, prepare_measurements(raw), FrameKind::best_fit);
   EXPECT_EQ(data.poses.front().pose_id, "1:#cp[1]");
   EXPECT_EQ(data.poses.back().pose_id, "2:#cp[6]");
   EXPECT_THAT(poses_of(data, PoseSet::validation), SizeIs(6));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/csv.hpp"
-#include "preparation/trilateration.hpp"
+#include "preparation/readings.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

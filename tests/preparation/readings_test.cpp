@@ -4,7 +4,6 @@
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
-#include "preparation/marked_names.hpp"
 #include "preparation/readings.hpp"
 #include "random_measurements.hpp"
 
@@ -70,7 +69,7 @@ TEST(Readings, OfOnePoseAreAveragedWithTheirSpread) {
   }
   const AveragedReading mean = average(readings, rows);
   double squares = 0.0;
-  for (const Reading& reading : readings.rows) squares += (reading.point_m - sum / 7.0).squaredNorm();
+  for (const InstrumentReading& reading : readings.rows) squares += (reading.point_m - sum / 7.0).squaredNorm();
   EXPECT_TRUE(mean.point_m.isApprox(sum / 7.0, 1e-14));
   EXPECT_NEAR(*mean.spread_m(), std::sqrt(squares / 6.0), 1e-14);
   EXPECT_TRUE(mean.standard_error_m->isApprox(Eigen::Vector3d(0.3, 0.2, 0.1) / std::sqrt(7.0), 1e-14));

@@ -1,7 +1,7 @@
 // Trilateration inverts distances on any triangle, and its derivative is that of its differences.
 #include <gtest/gtest.h>
 
-#include "preparation/trilateration.hpp"
+#include "preparation/readings.hpp"
 #include "random_measurements.hpp"
 
 namespace demecal {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "random_structure.hpp"
-#include "structure/equivalent_links.hpp"
+#include "structure/structured_arm.hpp"
 
 namespace demecal {
 namespace {

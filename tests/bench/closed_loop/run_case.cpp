@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "calibration/prediction_scores.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/final_fit.hpp"
 #include "diagnosis/loop.hpp"
 #include "draw_truth.hpp"

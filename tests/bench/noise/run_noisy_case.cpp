@@ -11,7 +11,7 @@
 #include "closed_loop/truth.hpp"
 #include "coordinator/diagnose.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/coverage.hpp"
+#include "data_check/searches.hpp"
 #include "effects/measurement.hpp"
 #include "engine/thread_seconds.hpp"
 #include "errors/input_error.hpp"

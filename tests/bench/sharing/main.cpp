@@ -6,7 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "calibration/function_stages.hpp"
+#include "calibration/shared_functions.hpp"
 #include "evolution/brief_forms.hpp"
 #include "evolution/island.hpp"
 #include "expression/evaluate.hpp"

@@ -1,0 +1,63 @@
+// What a calibration leaves to be used: the model, where it came from, how surely its numbers are known, and how far
+// its predictions err.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
+#include "fitting/observation.hpp"
+#include "fitting/posterior.hpp"
+
+namespace demecal {
+
+struct CalibratedModel {
+  std::string job;
+  Robot nominal;  ///< the robot as its maker describes it
+  Method method = Method::direct;
+  DeclaredModel declared;
+  CorrectedRobot robot;
+  std::vector<ParameterEstimate> estimates;
+  std::vector<JointSummary> joints;
+  std::optional<Posterior> posterior{};          ///< nothing in models of old versions
+  std::optional<PredictionInterval> interval{};  ///< nothing in models of old versions
+  std::vector<Interval> measured{};  ///< of every joint, where it stood in the fitted poses; none in old models
+  /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
+  KnownFunctions functions{};
+  std::string data_name;
+  std::string data_sha256;
+  std::uint64_t seed = 0;
+  std::string version;
+};
+
+/// The covariance of the model's numbers over the poses it was fitted to: of base, links, tools and effects, and of
+/// what smooth terms could still change in corrections that are declared. Along what the poses do not show it is as
+/// wide as makers' figures are uncertain (FitOptions), 10 mm and 0.1 rad for tools.
+Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration);
+
+/// The posterior of a robot that was fitted to `poses`, and how far their rows scatter about it (standard deviations
+/// for the degrees of freedom that the model leaves; m, rad, m).
+struct FittedPosterior {
+  Posterior posterior;
+  RowScales scatter{};
+};
+FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& robot,
+                                 const std::vector<std::size_t>& poses);
+
+/// The lowest and highest value (rad or m) of every joint over the same poses.
+std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration);
+
+/// From the validation poses, which must be unseen by the fit that `fitted` (of `robot`) comes from: split conformal
+/// prediction of scores |error| / deviation, the deviation that of posterior, noise and model error together. Poses are
+/// exchangeable but for repeats: those of one id share one vote. Scores beyond ten times their median are gross errors,
+/// and left out. With fewer than 19 distinct poses the quantile is that of normal errors. Without validation poses the
+/// calibration poses tell, as far as the fit left their errors visible.
+PredictionInterval prediction_interval(const DataSet& data, const FittedPosterior& fitted, const CorrectedRobot& robot);
+
+/// Of a finished calibration: from the validation poses while they were unseen.
+PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration);
+
+}  // namespace demecal

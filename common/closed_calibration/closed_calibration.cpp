@@ -1,0 +1,217 @@
+#include "closed_calibration/closed_calibration.hpp"
+
+#include "closed_calibration/closing.hpp"
+#include "closed_calibration/loop_passes.hpp"
+#include "diagnosis/evidence.hpp"
+#include "distal/learning.hpp"
+#include "formula_search/formula_search.hpp"
+#include "random/random_purpose.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kMostPasses = 3;
+constexpr int kRefinementSteps = 12;  ///< of Gauss and Newton
+
+class LoopPasses {
+ public:
+  LoopPasses(const DataSet& data, const Job& job, const Preparation& preparation, const Calibration& first,
+             Evolver& evolver, const KnownFunctions& known)
+      : data_(data),
+        job_(job),
+        evolver_(evolver),
+        known_(known),
+        preparation_(preparation),
+        first_(first),
+        selection_poses_(selection_poses(data)),
+        closed_{first.robot, first, {}} {}
+
+  ClosedCalibration run(const RoundWatcher& watch);
+
+ private:
+  void adopt(DiagnosedModel model);
+  bool run_pass(const RoundWatcher& watch);
+  Fit loop_start_from(const CorrectedRobot& robot) const;
+  LoopResult run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
+  void run_formula_pass(const RoundWatcher& watch);
+  void restart_if_better(const DiagnosisData& diagnosis_data, DiagnosedModel& model) const;
+  std::vector<Candidate> catalogue_candidates() const;
+  EvolvedJoints learn(const Preparation& preparation);
+  bool evolve_corrections_again();
+  void refit_with_validation();
+  bool is_better(const CorrectedRobot& robot) const;
+  bool allows_another_pass() const {
+    const auto held = static_cast<int>(closed_.calibration.robot.effects.size());
+    return pass_ < kMostPasses && held < job_.closed_loop.max_effects;
+  }
+
+  const DataSet& data_;
+  const Job& job_;
+  Evolver& evolver_;
+  const KnownFunctions& known_;
+  const Preparation& preparation_;
+  const Calibration& first_;
+  std::vector<std::size_t> selection_poses_;
+  ClosedCalibration closed_;
+  DiagnosedModel before_;                  ///< that of closed_.before
+  std::optional<DiagnosedModel> adopted_;  ///< that of closed_.calibration, where it is the loop's
+  int pass_ = 1;
+  bool stopped_ = false;  ///< by the watcher
+};
+
+/// Whether the robot does better on the selection poses than the model that is kept.
+bool LoopPasses::is_better(const CorrectedRobot& robot) const {
+  return performance_index_mm2(robot, data_, selection_poses_) <
+         performance_index_mm2(closed_.calibration.robot, data_, selection_poses_);
+}
+
+void LoopPasses::adopt(DiagnosedModel model) {
+  closed_.calibration = calibration_of(data_, job_.declared, preparation_, model);
+  adopted_ = std::move(model);
+}
+
+Fit LoopPasses::loop_start_from(const CorrectedRobot& robot) const {
+  const Fit& declared = preparation_.declared;
+  return loop_start(data_, declared, better_start(data_, job_.declared, declared, robot));
+}
+
+/// One pass of the loop; `stopped_` is set where the watcher ends it.
+LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch) {
+  const auto watched = [&](const Round& round) {
+    Round numbered = round;
+    numbered.number += static_cast<int>(closed_.loop.rounds.size());
+    stopped_ = watch && !watch(numbered);
+    return !stopped_;
+  };
+  LoopOptions options = loop_options(job_);
+  options.evolved = std::move(evolved.formulas);
+  options.evolved_luck = std::move(evolved.null_nats);
+  LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
+  drop_negligible_terms(found.before);
+  drop_negligible_terms(found.model);
+  return found;
+}
+
+/// One pass from the model that is kept; whether it added anything and another may follow.
+bool LoopPasses::run_pass(const RoundWatcher& watch) {
+  LoopResult found = run_loop(closed_.calibration.robot, {}, watch);
+  const bool first = pass_ == 1, added = added_any(found.outcome);
+  if (first) {
+    closed_.before = found.before.robot;
+    before_ = found.before;
+  }
+  closed_.loop = first ? std::move(found.outcome) : joined(std::move(closed_.loop), std::move(found.outcome));
+  if ((first && added) || is_better(found.model.robot)) adopt(std::move(found.model));
+  return added && !stopped_;
+}
+
+/// Candidates for the joint corrections, by the job's method.
+EvolvedJoints LoopPasses::learn(const Preparation& preparation) {
+  evolver_.announce(Purpose::corrections);
+  if (job_.method != Method::distal) {
+    return evolver_.evolve(preparation.training, {.seed = job_.seed,
+                                                  .generations = job_.gp.number_generations,
+                                                  .functions = known_.value_or(std::vector<SharedFunction>{})});
+  }
+  DistalOutcome outcome = learn_distally(data_, job_, preparation, evolver_, known_);
+  return {std::move(outcome.candidates), outcome.is_complete};
+}
+
+/// Whether the model with the corrections evolved anew is the better one, and kept.
+bool LoopPasses::evolve_corrections_again() {
+  const CorrectedRobot& present = closed_.calibration.robot;
+  const Preparation again = prepare_again(data_, preparation_, present);
+  if (again.training.empty()) return false;
+  EvolvedJoints candidates = learn(again);
+  if (!candidates.is_complete) return false;
+  for (JointCandidates& joint : candidates.joints) {
+    const std::size_t at = joint.training.joint;
+    joint.alternatives.push_back(present.corrections[at]);
+    joint.alternatives.push_back(first_.robot.corrections[at]);
+  }
+  Calibration evolved = conclude(data_, job_, again, candidates.joints);
+  keep_first_figures(first_, evolved);
+  if (!is_better(evolved.robot)) return false;
+  closed_.calibration = std::move(evolved);
+  adopted_.reset();
+  return true;
+}
+
+/// All choices made, the numbers are fitted to the validation poses as well where accept poses can tell the error.
+void LoopPasses::refit_with_validation() {
+  const DeclaredModel& declared = job_.declared;
+  LoopModels ends;
+  ends.after =
+      adopted_ ? *adopted_ : with_fixed_corrections(data_, declared, preparation_.declared, closed_.calibration.robot);
+  ends.before = added_any(closed_.loop) ? before_ : ends.after;
+  std::optional<LastFit> last = last_fit(data_, declared, std::move(ends));
+  if (!last) return;
+  closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);
+  closed_.calibration.unseen = last->unseen;
+  closed_.before = std::move(last->ends.before.robot);
+  update_rounds(closed_.loop, closed_.calibration.robot, data_.robot);
+}
+
+/// What competes in every pass, at its price.
+std::vector<Candidate> LoopPasses::catalogue_candidates() const {
+  Evidence evidence = evidence_of(data_, poses_of(data_, PoseSet::calibration));
+  evidence.highest_ratio = job_.closed_loop.highest_ratio;
+  evidence.stated_ratios = job_.closed_loop.ratios;
+  return candidates_for(data_.robot, evidence, job_.declared,
+                        {.kinds = job_.closed_loop.candidates, .formulas = true, .decoys = false});
+}
+
+/// Corrections that were fitted around a residual which a formula explains since may do better begun anew.
+void LoopPasses::restart_if_better(const DiagnosisData& diagnosis_data, DiagnosedModel& model) const {
+  DiagnosedModel again =
+      refined(diagnosis_data, diagnosed_model(diagnosis_data, loop_start_from(model.robot)), kRefinementSteps);
+  drop_negligible_terms(again);
+  const double present_mm2 = performance_index_mm2(model.robot, data_, selection_poses_);
+  if (performance_index_mm2(again.robot, data_, selection_poses_) < present_mm2) model = std::move(again);
+}
+
+/// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
+/// begins there. Its model is kept where it is the better description.
+void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
+  const DiagnosisData diagnosis_data{data_, job_.declared, poses_of(data_, PoseSet::calibration),
+                                     poses_of(data_, PoseSet::validation)};
+  const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
+  const DiagnosedModel model =
+      refined(diagnosis_data, diagnosed_model(diagnosis_data, loop_start_from(bare)), kRefinementSteps);
+  FormulaSearch search =
+      search_formulas(diagnosis_data, model, evolver_, {job_.seed, job_.gp.number_generations},
+                      job_.closed_loop.family_error, RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
+  if (search.formulas.empty()) return;
+  std::vector<Candidate> candidates = catalogue_candidates();
+  candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());
+  ++pass_;
+  LoopResult found = run_loop(bare, std::move(search), watch);
+  restart_if_better(diagnosis_data, found.model);
+  if (!describes_better(found.model.robot, closed_.calibration.robot, data_, candidates)) {
+    append_rejected_rounds(found.outcome, closed_.calibration.robot, closed_.loop);
+    return;
+  }
+  closed_.loop = joined(std::move(closed_.loop), std::move(found.outcome));
+  adopt(std::move(found.model));
+}
+
+ClosedCalibration LoopPasses::run(const RoundWatcher& watch) {
+  while (run_pass(watch) && job_.declared.joint_corrections && evolve_corrections_again() && allows_another_pass())
+    ++pass_;
+  const bool asked = needs_formula_search(closed_.loop, closed_.calibration.robot, job_.closed_loop);
+  if (asked && !stopped_) run_formula_pass(watch);
+  update_rounds(closed_.loop, closed_.calibration.robot, data_.robot);
+  if (!added_any(closed_.loop)) closed_.before = closed_.calibration.robot;
+  refit_with_validation();
+  return std::move(closed_);
+}
+
+}  // namespace
+
+ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
+                                    const Calibration& first, Evolver& evolver, const RoundWatcher& watch,
+                                    const KnownFunctions& known) {
+  return LoopPasses(data, job, preparation, first, evolver, known).run(watch);
+}
+
+}  // namespace demecal

@@ -1,0 +1,135 @@
+#include "closed_calibration/closing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/training.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "diagnosis/final_fit.hpp"
+#include "effects/measurement.hpp"
+#include "fitting/scatter.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kSmallestCoefficient = 1e-8;  ///< rad
+
+/// The declared numbers of the model with their standard errors; effects bring their own.
+std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
+                                            const DiagnosedModel& model) {
+  const Linearised linearization = linearise({data, declared, poses_of_last_fit(data), {}}, model);
+  const ParameterSpace space(model.robot, linearization.ids);
+  const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
+  const Eigen::MatrixXd covariance =
+      to_values * linearization.covariance.topLeftCorner(space.size(), space.size()) * to_values.transpose();
+  const CorrectedRobot nominal = nominal_robot(data);
+  std::vector<ParameterEstimate> estimates;
+  for (int i = 0; i < space.size(); ++i) {
+    const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
+    if (id.kind == ParameterId::Kind::effect) continue;
+    estimates.push_back({id, parameter_value(nominal, id), parameter_value(model.robot, id),
+                         std::sqrt(std::max(0.0, covariance(i, i)))});
+  }
+  return estimates;
+}
+
+std::string why_neutral(const DeclaredModel& declared, const Joint& joint) {
+  if (!declared.joint_corrections) return "joint corrections are not declared";
+  if (joint.type != JointType::revolute) return "a prismatic joint";
+  return "no correction earned its place, or the joint hardly moves";
+}
+
+}  // namespace
+
+LoopOptions loop_options(const Job& job, std::size_t held) {
+  LoopOptions options;
+  options.kinds = job.closed_loop.candidates;
+  options.max_effects = job.closed_loop.max_effects + static_cast<int>(held);
+  options.family_error = job.closed_loop.family_error;
+  options.highest_ratio = job.closed_loop.highest_ratio;
+  options.stated_ratios = job.closed_loop.ratios;
+  options.seed = job.seed;
+  return options;
+}
+
+CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
+                            const CorrectedRobot& robot) {
+  constexpr int kSteps = 12;
+  if (!declared.joint_corrections || !has_corrections(robot)) return robot;
+  const DiagnosisData diagnosis_data{data, declared, poses_of(data, PoseSet::calibration),
+                                     poses_of(data, PoseSet::validation)};
+  const std::vector<std::size_t> selecting = selection_poses(data);
+  const auto index_mm2 = [&](const CorrectedRobot& start) {
+    const DiagnosedModel model = diagnosed_model(diagnosis_data, loop_start(data, fit, start));
+    return performance_index_mm2(refined(diagnosis_data, model, kSteps).robot, data, selecting);
+  };
+  CorrectedRobot bare = without_corrections(robot);
+  return index_mm2(bare) < index_mm2(robot) ? bare : robot;
+}
+
+void drop_negligible_terms(DiagnosedModel& model) {
+  for (double& coefficient : model.smooth.coefficients) {
+    if (std::abs(coefficient) < kSmallestCoefficient) coefficient = 0.0;
+  }
+  model.robot.corrections = model.smooth.corrections();
+}
+
+Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
+                           const DiagnosedModel& model) {
+  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  Calibration result{.robot = with_shortened_corrections(model.robot),
+                     .estimates = estimates_of(data, declared, model),
+                     .joints = {},
+                     .unseen = {}};
+  JointTargets now;
+  if (has_corrections(result.robot)) now = targets_about(data, preparation, result.robot);
+  result.joints = joint_summaries(preparation.targets, now, result.robot);
+  for (JointSummary& summary : result.joints) {
+    if (summary.kept) continue;
+    summary.note = why_neutral(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
+  }
+  result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
+  result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);
+  return result;
+}
+
+Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
+  Preparation again = first;
+  again.declared.robot = without_corrections(model);
+  again.targets = targets_about(data, first, model);
+  again.training = training_tables(again.declared.robot.chain, again.targets, first.corrections);
+  return again;
+}
+
+void keep_first_figures(const Calibration& first, Calibration& calibration) {
+  calibration.index_before_mm2 = first.index_before_mm2;
+  for (std::size_t i = 0; i < calibration.joints.size(); ++i) {
+    calibration.joints[i].before_rad = first.joints[i].before_rad;
+  }
+}
+
+DiagnosedModel with_fixed_corrections(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
+                                      const CorrectedRobot& robot) {
+  DeclaredModel without_terms = declared;
+  without_terms.joint_corrections = false;
+  const DiagnosisData diagnosis_data{data, without_terms, poses_of(data, PoseSet::calibration), {}};
+  return diagnosed_model(diagnosis_data, loop_start(data, fit, robot));
+}
+
+std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends) {
+  if (poses_of_last_fit(data) == poses_of(data, PoseSet::calibration)) return std::nullopt;
+  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+  const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
+  UnseenValidation unseen{error_figures(ends.before.robot, data, validation).rms_mm,
+                          error_figures(ends.after.robot, data, validation).rms_mm,
+                          {}};
+  unseen.interval =
+      prediction_interval(data, fitted_posterior(data, declared, ends.after.robot, calibration), ends.after.robot);
+  for (DiagnosedModel* model : {&ends.before, &ends.after}) {
+    *model = final_fit(data, declared, std::move(*model));
+    drop_negligible_terms(*model);
+  }
+  return LastFit{std::move(ends), unseen};
+}
+
+}  // namespace demecal

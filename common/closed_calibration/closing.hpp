@@ -1,0 +1,51 @@
+// The closed loop around a calibration: what it starts from, what the model it leaves means for the joints, and the
+// last fit, when all choices are made.
+#pragma once
+
+#include "calibration/calibration.hpp"
+#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
+
+namespace demecal {
+
+/// How the job wants the loop run on a model that holds `held` effects already.
+LoopOptions loop_options(const Job& job, std::size_t held = 0);
+
+/// The robot whose corrections the loop is best started from: `robot`, or the same without any, whichever does better
+/// on the selection poses once smooth terms are fitted beside them. Where joint corrections are not declared, `robot`.
+CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
+                            const CorrectedRobot& robot);
+
+/// Leaves terms out of a model's corrections that move nothing by a hundredth of a micrometre.
+void drop_negligible_terms(DiagnosedModel& model);
+
+/// A calibration whose robot is a model of the loop: its numbers with standard errors, and what is left of the joints'
+/// errors with the corrections in place.
+Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
+                           const DiagnosedModel& model);
+
+/// What stands before corrections are evolved anew: the declared model is `model` without its corrections, and the
+/// joints learn what its effects leave.
+Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model);
+
+/// Copies the figures "before" of the first calibration to a later one.
+void keep_first_figures(const Calibration& first, Calibration& calibration);
+
+/// `robot` as a model whose corrections a fit leaves as they are.
+DiagnosedModel with_fixed_corrections(const DataSet& data, const DeclaredModel& declared, const Fit& fit,
+                                      const CorrectedRobot& robot);
+
+/// What the closed loop started from, and what it ended with.
+struct LoopModels {
+  DiagnosedModel before, after;
+};
+
+struct LastFit {
+  LoopModels ends;          ///< fitted once more as final_fit() says, negligible terms dropped
+  UnseenValidation unseen;  ///< of the ends before that
+};
+
+/// Nothing where it would change neither end.
+std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends);
+
+}  // namespace demecal

@@ -1,0 +1,68 @@
+// The searches that a check runs one after another; each returns what it finds.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "data_check/trial_fit.hpp"
+
+namespace demecal {
+
+// What a real arm may leave. Base, tools and links are fitted, links held near their description (5 mm and 1 degree
+// standard deviation): five measured series of the shared data then leave .011 to .19 % of their reach at the median, a
+// cable-driven arm the most; simulated arms .002 to .023 %; mistakes of a whole set 2.8 % and more. Thus:
+inline constexpr double kImplausibleShare = 0.006;  ///< of the reach: more than this no real arm leaves
+inline constexpr double kNotableShare = 0.0008;  ///< of the reach: from here on explanations are tried, and poses named
+
+/// The rows of a data set for the check: all of them, and those calibration rows that explanations are tried on.
+struct CheckedRows {
+  Trial whole;  ///< in the file's order
+  Trial trial;
+};
+
+/// What contradicts the robot's description, if anything does: `fit` is that of links to `rows.trial`, `placed` that of
+/// base and tools alone. Where the median error is notable the explanations of whole_set_explanations(), shifts of rows
+/// and moves of the instrument are tried; one that halves the error is named (a move is not: no contradiction). An
+/// error that is implausible, and that nothing explains, means shuffled rows or another robot. Where most rows fit and
+/// many do not a shift of the others is looked for.
+std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows& rows, const TrialFit& placed,
+                                         const TrialFit& fit);
+
+/// In data said to be in the base's frame: axes, a turn of joint 1, or another frame where the fitted base is not
+/// there.
+std::vector<Finding> find_other_base(const DataSet& data, const TrialFit& fit);
+
+/// Tools that the points put elsewhere than their description does, by more than 10 mm and than 5 standard deviations:
+/// a quarter turn of the last joint, or another tool. `target_of`: the number of each target's tool in `trial`.
+std::vector<Finding> find_other_tools(const Trial& trial, const std::map<std::string, int>& target_of,
+                                      const TrialFit& fit);
+
+/// What is known of the rows of a data set by a fit.
+struct PointPrediction {
+  std::function<Eigen::Vector3d(const TrialRow&)> point;  ///< tool point at the row's joints, m, instrument's frame
+  std::function<double(const TrialRow&)> deviations_off;  ///< how far off the row is, in standard deviations
+};
+
+/// A finding for each pose among `rows` (of any sets) that lies farther out than 8 standard deviations, than 3.5
+/// times what four in five poses keep, and than `least_m`, which good poses may err by: rows whose points fit each
+/// other's joints (a cycle of up to four), points that stand beside other joints too, one joint with another value (or
+/// two exchanged) by which the pose fits to within the noise and ten times better, and what is left as outliers, each
+/// with its error.
+std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<TrialRow>& rows,
+                                       const PointPrediction& predict, double least_m);
+
+/// Joints that move by less than 2 degrees (5 mm) over the calibration poses, and measured points on a line or plane.
+std::vector<Finding> find_lacking_spread(const DataSet& data);
+
+/// Of data without positions: joint angles said to be in degrees that are all as small as radians are.
+std::vector<Finding> find_small_angles(const DataSet& data);
+
+/// Takes rows out that repeat another to the last digit of what was measured, joints included, and names each: a repeat
+/// with noise does not, unless its digits are as coarse as the noise.
+std::vector<Finding> take_out_copies(DataSet& data);
+
+}  // namespace demecal

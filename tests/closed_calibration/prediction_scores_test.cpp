@@ -1,0 +1,134 @@
+// Radii that are to hold 95 % of the errors hold them: on poses that nothing was fitted to, of arms that the model does
+// not quite describe.
+#include "closed_calibration/calibrated_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "calibration/erring_arm.hpp"
+#include "closed_calibration/closing.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr DeclaredModel kIntervalDeclared{.registration = true, .tool = true, .joint_offset = true};
+
+struct ArmNoise {
+  double sigma_m = 5e-5;
+  double gross_share = 0.0;
+  double gross_m = 0.1;
+};
+
+/// Calibration, validation and 60 accept poses of a PUMA with small joint errors that no model declares.
+DataSet judged_arm(int calibration, int validation, const ArmNoise& noise, std::uint64_t seed) {
+  constexpr int kAccept = 60;
+  const std::vector<std::string> errors{"", "0.0001*SIN(2*theta)", "", "0.00015*COS(3*theta)", "", ""};
+  const int all = calibration + validation + kAccept;
+  DataSet data = measure(true_puma(errors), all, noise.sigma_m, seed, false);
+  RandomStream random{seed, 4712};
+  for (int i = 0; i < all; ++i) {
+    MeasuredPose& pose = data.poses[static_cast<std::size_t>(i)];
+    pose.set = i < calibration                ? PoseSet::calibration
+               : i < calibration + validation ? PoseSet::validation
+                                              : PoseSet::accept;
+    if (pose.set != PoseSet::accept && random.real(0.0, 1.0) < noise.gross_share) pose.position_m->x() += noise.gross_m;
+  }
+  return data;
+}
+
+struct IntervalTrial {
+  PredictionInterval interval;
+  int inside = 0, accept = 0;
+  double mean_radius_m = 0.0;
+};
+
+/// Fitted to the calibration poses, told by the validation poses; then fitted to both, where there are any.
+IntervalTrial interval_trial(const DataSet& data) {
+  const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration), last = poses_of_last_fit(data);
+  const auto fitted = [&](const std::vector<std::size_t>& poses) {
+    return fit_declared(data, poses, kIntervalDeclared, nominal_robot(data)).robot;
+  };
+  const CorrectedRobot unseen = fitted(calibration), robot = fitted(last);
+  IntervalTrial told;
+  told.interval = prediction_interval(data, fitted_posterior(data, kIntervalDeclared, unseen, calibration), unseen);
+  const Posterior posterior = fitted_posterior(data, kIntervalDeclared, robot, last).posterior;
+  for (const std::size_t pose : poses_of(data, PoseSet::accept)) {
+    const double radius_m = radius95_m(told.interval, posterior, robot, data, data.poses[pose]);
+    told.inside += tool_error_m(robot, data, data.poses[pose]) <= radius_m ? 1 : 0;
+    told.mean_radius_m += radius_m / 60.0;
+    ++told.accept;
+  }
+  return told;
+}
+
+/// Of the accept poses of 40 arms.
+double accept_coverage(int calibration, int validation, const ArmNoise& noise, std::uint64_t first_seed) {
+  int inside = 0, accept = 0;
+  for (std::uint64_t seed = first_seed; seed < first_seed + 40; ++seed) {
+    const IntervalTrial told = interval_trial(judged_arm(calibration, validation, noise, seed));
+    inside += told.inside;
+    accept += told.accept;
+  }
+  return static_cast<double>(inside) / accept;
+}
+
+TEST(PredictionInterval, HoldsNinetyFivePercentOfAcceptPoses) {
+  const double share = accept_coverage(60, 39, {}, 600);
+  RecordProperty("coverage", std::to_string(share));
+  EXPECT_GT(share, 0.93);
+  EXPECT_LT(share, 0.97);
+}
+
+TEST(PredictionInterval, HoldsThemWithFewPosesAndWithoutValidationPoses) {
+  const double few = accept_coverage(25, 10, {}, 700), none = accept_coverage(60, 0, {}, 800);
+  EXPECT_GT(few, 0.93);
+  EXPECT_LT(few, 0.98);
+  EXPECT_GT(none, 0.93);
+  EXPECT_LT(none, 0.97);
+}
+
+TEST(PredictionInterval, IsNotWidenedByGrossErrorsAndCountsThem) {
+  const IntervalTrial clean = interval_trial(judged_arm(60, 39, {}, 900)),
+                      spoilt = interval_trial(judged_arm(60, 39, {.gross_share = 0.05}, 900));
+  EXPECT_EQ(clean.interval.gross_errors, 0U);
+  EXPECT_GT(spoilt.interval.gross_errors, 0U);
+  EXPECT_LT(spoilt.mean_radius_m, 2.0 * clean.mean_radius_m);
+}
+
+TEST(PredictionInterval, SaysWhoseErrorsItComesFrom) {
+  const IntervalTrial told = interval_trial(judged_arm(60, 39, {}, 901)),
+                      fitted = interval_trial(judged_arm(60, 0, {}, 902));
+  EXPECT_FALSE(told.interval.fitted);
+  EXPECT_EQ(told.interval.poses, 39U);
+  EXPECT_TRUE(fitted.interval.fitted);
+  EXPECT_EQ(fitted.interval.poses, 60U);
+}
+
+TEST(PredictionInterval, TheRealArmIsNearerThanItsMeasurements) {
+  const DataSet data = judged_arm(60, 39, {.sigma_m = 3e-4}, 903);
+  const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
+  const CorrectedRobot robot = fit_declared(data, calibration, kIntervalDeclared, nominal_robot(data)).robot;
+  const FittedPosterior fitted = fitted_posterior(data, kIntervalDeclared, robot, calibration);
+  const PredictionInterval interval = prediction_interval(data, fitted, robot);
+  const MeasuredPose& pose = data.poses.back();
+  EXPECT_LT(real_radius95_m(interval, fitted.posterior, robot, Stop(pose)),
+            0.8 * radius95_m(interval, fitted.posterior, robot, data, pose));
+}
+
+/// The last fit takes validation poses in: what they said before is what counts.
+TEST(PredictionInterval, IsToldBeforeTheLastFit) {
+  const DataSet data = judged_arm(40, 39, {}, 904);
+  const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
+  const Fit fit = fit_declared(data, calibration, kIntervalDeclared, nominal_robot(data));
+  const DiagnosisData of{data, kIntervalDeclared, calibration, {}};
+  const DiagnosedModel model = refined(of, diagnosed_model(of, fit), 12);
+  const std::optional<LastFit> last = last_fit(data, kIntervalDeclared, {model, model});
+  ASSERT_TRUE(last);
+  const PredictionInterval expected =
+      prediction_interval(data, fitted_posterior(data, kIntervalDeclared, model.robot, calibration), model.robot);
+  EXPECT_EQ(last->unseen.interval.quantile, expected.quantile);
+  EXPECT_EQ(last->unseen.interval.noise_m, expected.noise_m);
+  EXPECT_FALSE(last->unseen.interval.fitted);
+}
+
+}  // namespace
+}  // namespace demecal
