@@ -48,10 +48,10 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
 JointTargets first_targets(const DataSet& data, const Job& job, const Preparation& preparation) {
   const CorrectedRobot& declared = preparation.declared.robot;
   if (job.targets.kind == TargetKind::exact) return targets_about(data, preparation, declared);
-  const DiagnosisData diagnosis_data{data, job.declared, poses_of(data, PoseSet::calibration),
-                                     poses_of(data, PoseSet::validation)};
-  const DiagnosedModel smooth = refined(
-      diagnosis_data, diagnosed_model(diagnosis_data, loop_start(data, preparation.declared, declared)), kSmoothSteps);
+  const DiagnosisData problem{data, job.declared, poses_of(data, PoseSet::calibration),
+                              poses_of(data, PoseSet::validation)};
+  const DiagnosedModel smooth =
+      refined(problem, diagnosed_model(problem, loop_start(data, preparation.declared, declared)), kSmoothSteps);
   CorrectedRobot about = declared;
   about.corrections = smooth.robot.corrections;
   return targets_about(data, preparation, about);

@@ -16,11 +16,11 @@ constexpr int kRefinementSteps = 12;  ///< of Gauss and Newton
 class LoopPasses {
  public:
   LoopPasses(const DataSet& data, const Job& job, const Preparation& preparation, const Calibration& first,
-             Evolver& evolver, const KnownFunctions& known)
+             Evolver& evolver, const KnownFunctions& functions)
       : data_(data),
         job_(job),
         evolver_(evolver),
-        known_(known),
+        functions_(functions),
         preparation_(preparation),
         first_(first),
         selection_poses_(selection_poses(data)),
@@ -34,7 +34,7 @@ class LoopPasses {
   Fit loop_start_from(const CorrectedRobot& robot) const;
   LoopResult run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
   void run_formula_pass(const RoundWatcher& watch);
-  void restart_if_better(const DiagnosisData& diagnosis_data, DiagnosedModel& model) const;
+  void restart_if_better(const DiagnosisData& problem, DiagnosedModel& model) const;
   std::vector<Candidate> catalogue_candidates() const;
   EvolvedJoints learn(const Preparation& preparation);
   bool evolve_corrections_again();
@@ -48,7 +48,7 @@ class LoopPasses {
   const DataSet& data_;
   const Job& job_;
   Evolver& evolver_;
-  const KnownFunctions& known_;
+  const KnownFunctions& functions_;
   const Preparation& preparation_;
   const Calibration& first_;
   std::vector<std::size_t> selection_poses_;
@@ -111,9 +111,9 @@ EvolvedJoints LoopPasses::learn(const Preparation& preparation) {
   if (job_.method != Method::distal) {
     return evolver_.evolve(preparation.training, {.seed = job_.seed,
                                                   .generations = job_.gp.number_generations,
-                                                  .functions = known_.value_or(std::vector<SharedFunction>{})});
+                                                  .functions = functions_.value_or(std::vector<SharedFunction>{})});
   }
-  DistalOutcome outcome = learn_distally(data_, job_, preparation, evolver_, known_);
+  DistalOutcome outcome = learn_distally(data_, job_, preparation, evolver_, functions_);
   return {std::move(outcome.candidates), outcome.is_complete};
 }
 
@@ -162,9 +162,8 @@ std::vector<Candidate> LoopPasses::catalogue_candidates() const {
 }
 
 /// Corrections that were fitted around a residual which a formula explains since may do better begun anew.
-void LoopPasses::restart_if_better(const DiagnosisData& diagnosis_data, DiagnosedModel& model) const {
-  DiagnosedModel again =
-      refined(diagnosis_data, diagnosed_model(diagnosis_data, loop_start_from(model.robot)), kRefinementSteps);
+void LoopPasses::restart_if_better(const DiagnosisData& problem, DiagnosedModel& model) const {
+  DiagnosedModel again = refined(problem, diagnosed_model(problem, loop_start_from(model.robot)), kRefinementSteps);
   drop_negligible_terms(again);
   const double present_mm2 = performance_index_mm2(model.robot, data_, selection_poses_);
   if (performance_index_mm2(again.robot, data_, selection_poses_) < present_mm2) model = std::move(again);
@@ -173,20 +172,19 @@ void LoopPasses::restart_if_better(const DiagnosisData& diagnosis_data, Diagnose
 /// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
 /// begins there. Its model is kept where it is the better description.
 void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
-  const DiagnosisData diagnosis_data{data_, job_.declared, poses_of(data_, PoseSet::calibration),
-                                     poses_of(data_, PoseSet::validation)};
+  const DiagnosisData problem{data_, job_.declared, poses_of(data_, PoseSet::calibration),
+                              poses_of(data_, PoseSet::validation)};
   const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
-  const DiagnosedModel model =
-      refined(diagnosis_data, diagnosed_model(diagnosis_data, loop_start_from(bare)), kRefinementSteps);
+  const DiagnosedModel model = refined(problem, diagnosed_model(problem, loop_start_from(bare)), kRefinementSteps);
   FormulaSearch search =
-      search_formulas(diagnosis_data, model, evolver_, {job_.seed, job_.gp.number_generations},
-                      job_.closed_loop.family_error, RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
+      search_formulas(problem, model, evolver_, {job_.seed, job_.gp.number_generations}, job_.closed_loop.family_error,
+                      RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
   if (search.formulas.empty()) return;
   std::vector<Candidate> candidates = catalogue_candidates();
   candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());
   ++pass_;
   LoopResult found = run_loop(bare, std::move(search), watch);
-  restart_if_better(diagnosis_data, found.model);
+  restart_if_better(problem, found.model);
   if (!describes_better(found.model.robot, closed_.calibration.robot, data_, candidates)) {
     append_rejected_rounds(found.outcome, closed_.calibration.robot, closed_.loop);
     return;
@@ -210,8 +208,8 @@ ClosedCalibration LoopPasses::run(const RoundWatcher& watch) {
 
 ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
                                     const Calibration& first, Evolver& evolver, const RoundWatcher& watch,
-                                    const KnownFunctions& known) {
-  return LoopPasses(data, job, preparation, first, evolver, known).run(watch);
+                                    const KnownFunctions& functions) {
+  return LoopPasses(data, job, preparation, first, evolver, functions).run(watch);
 }
 
 }  // namespace demecal

@@ -19,10 +19,10 @@ struct ClosedCalibration {
 /// evolved anew the loop looks at it again, at most three times in all. Where structure is left that no effect
 /// explains, formulas over all that a joint's error may depend on are evolved on it, and compete in one more pass. At
 /// the end the numbers are fitted once more, to the validation poses as well where there are accept poses to tell the
-/// error by. Corrections are evolved anew by the job's method, with the functions of `known` where joints share any.
-/// Ends early when `watch` returns false.
+/// error by. Corrections are evolved anew by the job's method, with `functions` where joints share any. Ends early when
+/// `watch` returns false.
 ClosedCalibration close_calibration(const DataSet& data, const Job& job, const Preparation& preparation,
                                     const Calibration& first, Evolver& evolver, const RoundWatcher& watch,
-                                    const KnownFunctions& known = std::nullopt);
+                                    const KnownFunctions& functions = std::nullopt);
 
 }  // namespace demecal

@@ -7,7 +7,6 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/final_fit.hpp"
 #include "effects/measurement.hpp"
-#include "fitting/scatter.hpp"
 
 namespace demecal {
 namespace {
@@ -56,12 +55,12 @@ CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, 
                             const CorrectedRobot& robot) {
   constexpr int kSteps = 12;
   if (!declared.joint_corrections || !has_corrections(robot)) return robot;
-  const DiagnosisData diagnosis_data{data, declared, poses_of(data, PoseSet::calibration),
-                                     poses_of(data, PoseSet::validation)};
-  const std::vector<std::size_t> selecting = selection_poses(data);
+  const DiagnosisData problem{data, declared, poses_of(data, PoseSet::calibration),
+                              poses_of(data, PoseSet::validation)};
+  const std::vector<std::size_t> poses = selection_poses(data);
   const auto index_mm2 = [&](const CorrectedRobot& start) {
-    const DiagnosedModel model = diagnosed_model(diagnosis_data, loop_start(data, fit, start));
-    return performance_index_mm2(refined(diagnosis_data, model, kSteps).robot, data, selecting);
+    const DiagnosedModel model = diagnosed_model(problem, loop_start(data, fit, start));
+    return performance_index_mm2(refined(problem, model, kSteps).robot, data, poses);
   };
   CorrectedRobot bare = without_corrections(robot);
   return index_mm2(bare) < index_mm2(robot) ? bare : robot;
@@ -112,8 +111,8 @@ DiagnosedModel with_fixed_corrections(const DataSet& data, const DeclaredModel& 
                                       const CorrectedRobot& robot) {
   DeclaredModel without_terms = declared;
   without_terms.joint_corrections = false;
-  const DiagnosisData diagnosis_data{data, without_terms, poses_of(data, PoseSet::calibration), {}};
-  return diagnosed_model(diagnosis_data, loop_start(data, fit, robot));
+  const DiagnosisData problem{data, without_terms, poses_of(data, PoseSet::calibration), {}};
+  return diagnosed_model(problem, loop_start(data, fit, robot));
 }
 
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends) {

@@ -14,10 +14,10 @@
 namespace demecal {
 
 /// Learns by distal supervision (thesis 4.3, 4.4) in the form that the job asks for, from where `preparation` stands,
-/// over its targets' poses. What comes out is what was reached. `known` are the functions that the joints share;
+/// over its targets' poses. What comes out is what was reached. `functions` are those that the joints share;
 /// without any list, those that it finds, where the job asks for any.
 DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparation& preparation, Evolver& evolver,
-                             const KnownFunctions& known = std::nullopt);
+                             const KnownFunctions& functions = std::nullopt);
 
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
 /// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
@@ -25,7 +25,7 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
 /// Ends with the rounds, or where evolution is cut off. Where the job has joints share functions, these are the known
 /// ones or, without any such list, found anew after every round. A function of data, job and what `evolver` finds.
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
-                              Evolver& evolver, const KnownFunctions& known = std::nullopt);
+                              Evolver& evolver, const KnownFunctions& functions = std::nullopt);
 
 /// The outcome's candidates: of every training's joint what is best of each length among `trees`, by the table against
 /// what the final model leaves, and the model's own correction.

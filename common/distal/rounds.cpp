@@ -19,14 +19,15 @@ std::vector<Tree> trees_of(const Population& front) {
 
 class DistalRounds {
  public:
-  DistalRounds(const DistalIndex& index, const Preparation& preparation, const Job& job, const KnownFunctions& known)
+  DistalRounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
+               const KnownFunctions& functions)
       : index_(index),
         job_(job),
-        seeks_functions_(!known),
+        seeks_functions_(!functions),
         trainings_(preparation.training),
         outcome_{without_corrections(preparation.declared.robot), 0.0} {
     outcome_.index_mm2 = index_(outcome_.robot);
-    if (known) outcome_.functions = *known;
+    if (functions) outcome_.functions = *functions;
     trees_.resize(trainings_.size());
   }
 
@@ -99,8 +100,8 @@ DistalOutcome DistalRounds::run(Evolver& evolver) {
 }  // namespace
 
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
-                              Evolver& evolver, const KnownFunctions& known) {
-  return DistalRounds(index, preparation, job, known).run(evolver);
+                              Evolver& evolver, const KnownFunctions& functions) {
+  return DistalRounds(index, preparation, job, functions).run(evolver);
 }
 
 void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,

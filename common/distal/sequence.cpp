@@ -148,9 +148,9 @@ SequenceOutcome learn_in_sequence(const DistalIndex& index, const Preparation& p
 }
 
 DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparation& preparation, Evolver& evolver,
-                             const KnownFunctions& known) {
+                             const KnownFunctions& functions) {
   const DistalIndex index(data, preparation.targets.poses, preparation.declared);
-  if (job.distal.form == DistalForm::parallel) return learn_in_rounds(index, preparation, job, evolver, known);
+  if (job.distal.form == DistalForm::parallel) return learn_in_rounds(index, preparation, job, evolver, functions);
   SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [&] { return !evolver.is_interrupted(); });
   evolver.add_effort(outcome.generations, outcome.evaluations);
   outcome.learnt.is_complete = !evolver.is_interrupted();

@@ -22,7 +22,7 @@ struct StructureOptions {
 
 /// Asked after every generation with its number and what the best structure leaves of the squares of the selection
 /// poses, as a share of what an arm without transforms leaves; the search ends where it says false.
-using StructureWatch = std::function<bool(int generation, double left)>;
+using StructureWatch = std::function<bool(int generation, double remaining_share)>;
 
 struct StructureFound {
   StructureFit fit;  ///< of what is left of the best genome, to all fitted poses
