@@ -1,18 +1,18 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <string>
 
-#include "yaml/files.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
+#include "library/conversion.hpp"
 #include "programs/summary.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -26,23 +26,10 @@ struct ApplyRequest {
   std::vector<double> near;
 };
 
-/// The bounds that the model states of its joint corrections.
-std::vector<double> bounds_of(const CalibratedModel& model) {
-  std::vector<double> bounds(model.joints.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (model.joints[i].kept && model.joints[i].bound_rad > 0.0) bounds[i] = model.joints[i].bound_rad;
-  }
-  return bounds;
-}
-
 CommandModel command_model_of(const CalibratedModel& model, const ApplyRequest& request) {
   std::optional<Eigen::Vector3d> tool_m;
   if (!request.tool_mm.empty()) tool_m = 1e-3 * Eigen::Map<const Eigen::Vector3d>(request.tool_mm.data());
-  const bool registration = model.declared.registration;
-  const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
-  CommandModel commands = with_posterior(command_model(model.nominal, robot, bounds_of(model), tool_m), robot,
-                                         model.posterior, model.measured, registration);
-  commands.interval = model.interval;
+  CommandModel commands = to_command_model(model, tool_m);
   if (!model.posterior || model.measured.empty()) {
     commands.notes.push_back(
         request.model_file +

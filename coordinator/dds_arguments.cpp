@@ -26,7 +26,7 @@ std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
 void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
   command.add_option("--workers", fleet.workers, "local worker processes; 0 waits for workers started elsewhere")
       ->check(CLI::Range(0, 256))
-      ->capture_default_str();
+      ->default_str("one per core");  // not their number: the manual page is of every machine
   fleet.dds = add_dds_arguments(command);
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
-#include "config/data_set_file.hpp"
 #include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/diagnose.hpp"
@@ -18,7 +18,7 @@
 #include "coordinator/loop_display.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/text.hpp"
-#include "diagnosis/proposal.hpp"
+#include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
 #include "terminal/report_text.hpp"
 
@@ -74,10 +74,11 @@ Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
 
 /// The poses that would tell most, in a file beside the results.
 void write_proposed(const DiagnoseRequest& request, const DataSet& data, const Diagnosis& diagnosis) {
-  const DiagnosisData of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
-                         poses_of(data, PoseSet::validation)};
-  const std::vector<Stop> stops = propose_poses(of, diagnosis.model, diagnosis.result.loop.rounds, request.proposed,
-                                                RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
+  const DiagnosisProblem of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
+                            poses_of(data, PoseSet::validation)};
+  const std::vector<Stop> stops =
+      propose_poses(of, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
+                    RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
   write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_file, data, stops));
 }
 

@@ -1,14 +1,28 @@
 // demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <string>
 
 #include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
+#include "manual/manual.hpp"
+
+namespace {
+
+constexpr const char* kExitStatus =
+    "0: done. 10: wrong arguments. 11: a file is missing or invalid; the message names file, line, value and rule. 12: "
+    "the "
+    "data and the robot file contradict each other; the message says what would fit, and --force goes on. 20: no "
+    "worker "
+    "came. 21: the run failed. 130: interrupted; what was reached is saved and named.";
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using demecal::ExitCode;
-  CLI::App app{"demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it"};
+  CLI::App app{"demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it",
+               "demecal"};
   app.require_subcommand(1);
   app.set_version_flag("--version", DEMECAL_VERSION);
   ExitCode exit_code = ExitCode::done;
@@ -23,6 +37,7 @@ int main(int argc, char** argv) {
   demecal::add_report(app, exit_code);
   demecal::add_study(app, exit_code);
   demecal::add_monitor(app, exit_code);
+  demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

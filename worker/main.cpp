@@ -12,12 +12,15 @@
 
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
+#include "manual/manual.hpp"
 #include "protocol/printable.hpp"
 #include "worker/worker.hpp"
 
 namespace {
 
 constexpr unsigned kLongestStop_s = 2;
+constexpr const char* kExitStatus =
+    "0: asked to end. 10: wrong arguments. 11: wrong options or certificates. 21: it failed. 130: asked to end twice.";
 
 std::atomic<bool> stop{false};
 sem_t stop_asked;
@@ -76,7 +79,7 @@ std::string unique_name(const std::string& host) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"demecal-worker: evolves islands for whichever coordinator serves its domain"};
+  CLI::App app{"demecal-worker: evolves islands for whichever coordinator serves its domain", "demecal-worker"};
   demecal::DdsOptions dds;
   demecal::WorkerOptions options;
   bool network = false;
@@ -96,6 +99,7 @@ int main(int argc, char** argv) {
       ->excludes("--discovery-server");
   app.add_option("--only-run", options.only_run, "serve the coordinator of this run alone");
   app.set_version_flag("--version", DEMECAL_VERSION);
+  demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "calibration/calibration.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/scatter.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 namespace {
@@ -48,8 +48,8 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
 JointTargets first_targets(const DataSet& data, const Job& job, const Preparation& preparation) {
   const CorrectedRobot& declared = preparation.declared.robot;
   if (job.targets.kind == TargetKind::exact) return targets_about(data, preparation, declared);
-  const DiagnosisData problem{data, job.declared, poses_of(data, PoseSet::calibration),
-                              poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem problem{data, job.declared, poses_of(data, PoseSet::calibration),
+                                 poses_of(data, PoseSet::validation)};
   const DiagnosedModel smooth =
       refined(problem, diagnosed_model(problem, loop_start(data, preparation.declared, declared)), kSmoothSteps);
   CorrectedRobot about = declared;

@@ -7,11 +7,11 @@
 #include <map>
 #include <numeric>
 
-#include "diagnosis/final_fit.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/loop.hpp"
 #include "effects/measurement.hpp"
 #include "fitting/median.hpp"
 #include "fitting/scatter.hpp"
+#include "residuals/structure.hpp"
 
 namespace demecal {
 namespace {
@@ -49,7 +49,7 @@ double row_variance(const Projection& projection) {
 
 /// Adds what base and tool could share out between them unseen: nothing is believed of either, so that least squares
 /// holds one of them fast.
-void widen(const Linearised& linearization, Eigen::MatrixXd& covariance) {
+void widen(const Linearization& linearization, Eigen::MatrixXd& covariance) {
   constexpr double kUnseen = 1e-9, kTool_m = 1e-2, kTool_rad = 0.1, kBase = 10.0;
   std::vector<Eigen::Index> places;
   std::vector<double> usual;
@@ -204,7 +204,7 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
   model.robot = robot;
   model.smooth = smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset);
   model.scales = scatter_of(data, robot, observe(data, poses, robot));
-  const Linearised linearization = linearise({data, declared, poses, {}}, model);
+  const Linearization linearization = linearize({data, declared, poses, {}}, model);
   const double variance = row_variance(linearization.projection);
   Eigen::MatrixXd covariance = variance * linearization.covariance;
   widen(linearization, covariance);

@@ -2,7 +2,7 @@
 
 #include "closed_calibration/closing.hpp"
 #include "closed_calibration/loop_passes.hpp"
-#include "diagnosis/evidence.hpp"
+#include "diagnosis/candidates.hpp"
 #include "distal/learning.hpp"
 #include "formula_search/formula_search.hpp"
 #include "random/random_purpose.hpp"
@@ -34,7 +34,7 @@ class LoopPasses {
   Fit loop_start_from(const CorrectedRobot& robot) const;
   LoopResult run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
   void run_formula_pass(const RoundWatcher& watch);
-  void restart_if_better(const DiagnosisData& problem, DiagnosedModel& model) const;
+  void restart_if_better(const DiagnosisProblem& problem, DiagnosedModel& model) const;
   std::vector<Candidate> catalogue_candidates() const;
   EvolvedJoints learn(const Preparation& preparation);
   bool evolve_corrections_again();
@@ -85,7 +85,7 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
   };
   LoopOptions options = loop_options(job_);
   options.evolved = std::move(evolved.formulas);
-  options.evolved_luck = std::move(evolved.null_nats);
+  options.evolved_null_gains = std::move(evolved.null_nats);
   LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
   drop_negligible_terms(found.before);
   drop_negligible_terms(found.model);
@@ -162,7 +162,7 @@ std::vector<Candidate> LoopPasses::catalogue_candidates() const {
 }
 
 /// Corrections that were fitted around a residual which a formula explains since may do better begun anew.
-void LoopPasses::restart_if_better(const DiagnosisData& problem, DiagnosedModel& model) const {
+void LoopPasses::restart_if_better(const DiagnosisProblem& problem, DiagnosedModel& model) const {
   DiagnosedModel again = refined(problem, diagnosed_model(problem, loop_start_from(model.robot)), kRefinementSteps);
   drop_negligible_terms(again);
   const double present_mm2 = performance_index_mm2(model.robot, data_, selection_poses_);
@@ -172,8 +172,8 @@ void LoopPasses::restart_if_better(const DiagnosisData& problem, DiagnosedModel&
 /// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
 /// begins there. Its model is kept where it is the better description.
 void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
-  const DiagnosisData problem{data_, job_.declared, poses_of(data_, PoseSet::calibration),
-                              poses_of(data_, PoseSet::validation)};
+  const DiagnosisProblem problem{data_, job_.declared, poses_of(data_, PoseSet::calibration),
+                                 poses_of(data_, PoseSet::validation)};
   const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
   const DiagnosedModel model = refined(problem, diagnosed_model(problem, loop_start_from(bare)), kRefinementSteps);
   FormulaSearch search =

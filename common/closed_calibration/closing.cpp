@@ -5,7 +5,7 @@
 
 #include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
-#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
 #include "effects/measurement.hpp"
 
 namespace demecal {
@@ -16,7 +16,7 @@ constexpr double kSmallestCoefficient = 1e-8;  ///< rad
 /// The declared numbers of the model with their standard errors; effects bring their own.
 std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
                                             const DiagnosedModel& model) {
-  const Linearised linearization = linearise({data, declared, poses_of_last_fit(data), {}}, model);
+  const Linearization linearization = linearize({data, declared, poses_of_last_fit(data), {}}, model);
   const ParameterSpace space(model.robot, linearization.ids);
   const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
   const Eigen::MatrixXd covariance =
@@ -55,8 +55,8 @@ CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, 
                             const CorrectedRobot& robot) {
   constexpr int kSteps = 12;
   if (!declared.joint_corrections || !has_corrections(robot)) return robot;
-  const DiagnosisData problem{data, declared, poses_of(data, PoseSet::calibration),
-                              poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem problem{data, declared, poses_of(data, PoseSet::calibration),
+                                 poses_of(data, PoseSet::validation)};
   const std::vector<std::size_t> poses = selection_poses(data);
   const auto index_mm2 = [&](const CorrectedRobot& start) {
     const DiagnosedModel model = diagnosed_model(problem, loop_start(data, fit, start));
@@ -111,7 +111,7 @@ DiagnosedModel with_fixed_corrections(const DataSet& data, const DeclaredModel& 
                                       const CorrectedRobot& robot) {
   DeclaredModel without_terms = declared;
   without_terms.joint_corrections = false;
-  const DiagnosisData problem{data, without_terms, poses_of(data, PoseSet::calibration), {}};
+  const DiagnosisProblem problem{data, without_terms, poses_of(data, PoseSet::calibration), {}};
   return diagnosed_model(problem, loop_start(data, fit, robot));
 }
 

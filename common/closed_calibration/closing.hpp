@@ -3,7 +3,6 @@
 #pragma once
 
 #include "calibration/calibration.hpp"
-#include "diagnosis/final_fit.hpp"
 #include "diagnosis/loop.hpp"
 
 namespace demecal {

@@ -15,7 +15,7 @@ std::vector<Decoy> joined(std::vector<Decoy> earlier, const std::vector<Decoy>& 
       earlier.push_back(decoy);
       continue;
     }
-    same->best_fall_nats = std::max(same->best_fall_nats, decoy.best_fall_nats);
+    same->best_gain_nats = std::max(same->best_gain_nats, decoy.best_gain_nats);
     same->won = same->won || decoy.won;
   }
   return earlier;
@@ -68,7 +68,7 @@ void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robo
     if (round.verdict != Verdict::added) continue;
     if (const Effect* effect = held_effect(model, round.effect)) {
       round.effect = *effect;
-      if (!effect->standard_errors.empty()) round.interval = intervals_of(*effect);
+      if (!effect->standard_errors.empty()) round.interval = confidence_intervals(*effect);
       round.diagnosis = law_of(*effect).diagnosis(*effect, described);
       round.formula = law_of(*effect).formula(*effect, described);
     } else {
@@ -98,7 +98,7 @@ double description_nats(const CorrectedRobot& robot, const DataSet& data, std::s
   double nats = 0.5 * evaluator.rows() * std::log(std::max(squares, 1e-300));
   for (const Effect& effect : robot.effects) {
     nats += 0.5 * static_cast<double>(effect.values.size()) * std::log(static_cast<double>(poses.size())) +
-            price_nats(effect, candidates);
+            naming_cost_nats(effect, candidates);
   }
   return nats;
 }

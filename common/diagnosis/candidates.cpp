@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-
-#include "diagnosis/formula_library.hpp"
+#include <optional>
 
 namespace demecal {
 namespace {
@@ -34,28 +34,64 @@ bool has_kind(const std::vector<Candidate>& candidates, std::string_view kind) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.effect.kind == kind; });
 }
 
-/// A copy of every candidate of a kind (of the first of every joint) in a disguise.
-void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, Disguise disguise, double ratio) {
+/// A copy of every candidate of a kind (of the first of every joint) as a decoy.
+void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, DecoyKind decoy_kind, double ratio) {
   std::vector<Candidate> decoys;
   int last = -2;
   for (const Candidate& candidate : candidates) {
-    if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.disguise != Disguise::none)
+    if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.decoy_kind != DecoyKind::none)
       continue;
     if (candidate.effect.form == "seated" || candidate.effect.form == "coupled") continue;
     last = candidate.effect.joint;
     decoys.push_back(candidate);
-    decoys.back().disguise = disguise;
-    if (disguise == Disguise::wrong_ratio) decoys.back().effect.settings["ratio"] = ratio;
+    decoys.back().decoy_kind = decoy_kind;
+    if (decoy_kind == DecoyKind::wrong_ratio) decoys.back().effect.settings["ratio"] = ratio;
   }
   candidates.insert(candidates.end(), decoys.begin(), decoys.end());
 }
 
+constexpr double kVaried = 1e-9;
+
+struct RecordedRange {
+  bool everywhere = true;
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = -std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+
+  void take(const std::optional<double>& value) {
+    if (!value) {
+      everywhere = false;
+      return;
+    }
+    lower = std::min(lower, *value);
+    upper = std::max(upper, *value);
+    sum += *value;
+  }
+  bool varied() const { return everywhere && upper - lower > kVaried; }
+};
+
+bool came_from_both_sides(const DataSet& data, std::span<const std::size_t> poses) {
+  std::vector<bool> up(data.robot.chain.joints.size()), down(up.size());
+  for (const std::size_t pose : poses) {
+    if (!data.poses[pose].approach) continue;
+    for (std::size_t i = 0; i < up.size(); ++i) {
+      const double sign = (*data.poses[pose].approach)[static_cast<Eigen::Index>(i)];
+      up[i] = up[i] || sign > 0;
+      down[i] = down[i] || sign < 0;
+    }
+  }
+  for (std::size_t i = 0; i < up.size(); ++i) {
+    if (up[i] && down[i]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-double price_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
+double naming_cost_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
   const auto same = std::find_if(candidates.begin(), candidates.end(),
                                  [&](const Candidate& candidate) { return candidate.effect.same_law_as(effect); });
-  return same == candidates.end() ? 0.0 : same->name_nats;
+  return same == candidates.end() ? 0.0 : same->naming_cost_nats;
 }
 
 void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence) {
@@ -78,52 +114,93 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
       const double nats = std::log(alike[effect.form]) + (symbolic ? kOutsideCatalogue_nats : 0.0);
       if (is_in_correction(effect, robot, declared)) continue;
       set_measured_ranges(effect, robot, evidence);
-      candidates.push_back({std::move(effect), Disguise::none, nats});
+      candidates.push_back({std::move(effect), DecoyKind::none, nats});
     }
   }
   if (!options.decoys) return candidates;
   const bool harmonics = has_kind(candidates, "gear_harmonic"), sides = has_kind(candidates, "backlash");
   const bool heat = has_kind(candidates, "thermal_offset");
   if (harmonics) {
-    add_decoys(candidates, "gear_harmonic", Disguise::wrong_ratio, kImpossibleRatio * evidence.highest_ratio);
+    add_decoys(candidates, "gear_harmonic", DecoyKind::wrong_ratio, kImpossibleRatio * evidence.highest_ratio);
   }
-  if (sides && evidence.approach) add_decoys(candidates, "backlash", Disguise::shuffled_approach, 0.0);
-  if (heat) add_decoys(candidates, "thermal_offset", Disguise::shuffled_temperature, 0.0);
+  if (sides && evidence.approach) add_decoys(candidates, "backlash", DecoyKind::shuffled_approach, 0.0);
+  if (heat) add_decoys(candidates, "thermal_offset", DecoyKind::shuffled_temperature, 0.0);
   return candidates;
 }
 
-std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise disguise, RandomStream random) {
+std::vector<ArmState> with_shuffled(const std::vector<ArmState>& states, DecoyKind decoy_kind, RandomStream random) {
   std::vector<ArmState> changed = states;
   std::vector<std::size_t> from(states.size());
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = i;
   for (std::size_t i = from.size(); i > 1; --i) std::swap(from[i - 1], from[random.index(i)]);
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Stop& other = states[from[i]].stop;
-    if (disguise == Disguise::shuffled_approach) changed[i].stop.approach = other.approach;
-    if (disguise == Disguise::shuffled_temperature) changed[i].stop.temperature_celsius = other.temperature_celsius;
+    if (decoy_kind == DecoyKind::shuffled_approach) changed[i].stop.approach = other.approach;
+    if (decoy_kind == DecoyKind::shuffled_temperature) changed[i].stop.temperature_celsius = other.temperature_celsius;
   }
   return changed;
 }
 
 std::string decoy_name(const Candidate& candidate) {
   std::string name = candidate.effect.kind + " of joint " + std::to_string(candidate.effect.joint + 1);
-  switch (candidate.disguise) {
-    case Disguise::wrong_ratio:
+  switch (candidate.decoy_kind) {
+    case DecoyKind::wrong_ratio:
       return name + " at a ratio no gear has (" + std::to_string(candidate.effect.setting("ratio")) + ")";
-    case Disguise::shuffled_approach:
+    case DecoyKind::shuffled_approach:
       return name + " by shuffled approach signs";
-    case Disguise::shuffled_temperature:
+    case DecoyKind::shuffled_temperature:
       return name + " by shuffled temperatures";
-    case Disguise::none:
+    case DecoyKind::none:
       break;
   }
   return name;
 }
 
-std::vector<double> prices_nats(const std::vector<Candidate>& candidates) {
+std::vector<double> naming_costs_nats(const std::vector<Candidate>& candidates) {
   std::vector<double> nats;
-  for (const Candidate& candidate : candidates) nats.push_back(candidate.name_nats);
+  for (const Candidate& candidate : candidates) nats.push_back(candidate.naming_cost_nats);
   return nats;
+}
+
+Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses) {
+  Evidence evidence;
+  RecordedRange payload, temperature, time;
+  std::vector<RecordedRange> joints(data.robot.chain.joints.size());
+  for (const std::size_t index : poses) {
+    const MeasuredPose& pose = data.poses[index];
+    payload.take(pose.payload_kg);
+    temperature.take(pose.temperature_celsius);
+    time.take(pose.time_s);
+    evidence.orientation = evidence.orientation || pose.orientation.has_value();
+    for (std::size_t i = 0; i < joints.size(); ++i) joints[i].take(pose.joints[static_cast<Eigen::Index>(i)]);
+  }
+  evidence.approach = came_from_both_sides(data, poses);
+  evidence.payload = payload.varied();
+  evidence.temperature = temperature.varied();
+  evidence.time = time.varied();
+  evidence.masses = !data.robot.masses.empty();
+  for (const RecordedRange& joint : joints) evidence.joint_ranges.push_back({joint.lower, joint.upper});
+  const auto count = static_cast<double>(poses.size());
+  if (evidence.temperature) evidence.mean_temperature_celsius = temperature.sum / count;
+  if (evidence.time) evidence.mean_time_s = time.sum / count;
+  return evidence;
+}
+
+std::vector<UntestableKind> untestable_kinds(const Evidence& evidence, const std::vector<std::string>& kinds) {
+  std::vector<UntestableKind> untestable;
+  const auto add = [&](const char* kind, bool seen, const char* reason) {
+    const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    if (wanted && !seen) untestable.push_back({kind, reason});
+  };
+  const char* approach = "no approach columns, or every joint always came from one side";
+  add("backlash", evidence.approach, approach);
+  add("hysteresis", evidence.approach, approach);
+  const char* temperature = "no temperature column, or one temperature only";
+  add("thermal_offset", evidence.temperature, temperature);
+  add("thermal_length", evidence.temperature, temperature);
+  add("drift", evidence.time, "no time column");
+  add("link_bending", evidence.masses, "no link masses in the robot's file");
+  return untestable;
 }
 
 }  // namespace demecal

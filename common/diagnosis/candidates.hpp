@@ -1,23 +1,32 @@
-// The effects that are tried in every round, and those among them that cannot be true.
+// The effects that are tried in every round: what the data can show, and decoys that cannot be true.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "diagnosis/outcome.hpp"
 #include "effects/effect.hpp"
 #include "fitting/declared_model.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
 
+/// The evidence of `poses`. A circumstance counts where every pose has it and not all poses have the same; a joint's
+/// approach where it came from both sides.
+Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses);
+
+/// The kinds of `kinds` (empty: all) that such data cannot show, each with the reason.
+std::vector<UntestableKind> untestable_kinds(const Evidence& evidence, const std::vector<std::string>& kinds);
+
 /// From what a decoy's columns are made.
-enum class Disguise { none, wrong_ratio, shuffled_approach, shuffled_temperature };
+enum class DecoyKind { none, wrong_ratio, shuffled_approach, shuffled_temperature };
 
 struct Candidate {
   Effect effect;
-  Disguise disguise = Disguise::none;
-  double name_nats = 0.0;  ///< the price of naming it: log of the number of its kind and form
-  bool evolved = false;    ///< a formula that a search found in the very data it is tried on
+  DecoyKind decoy_kind = DecoyKind::none;
+  double naming_cost_nats = 0.0;  ///< the price of naming it: log of the number of its kind and form
+  bool evolved = false;           ///< a formula that a search found in the very data it is tried on
 };
 
 /// What a formula without a physical name must explain beyond an effect that has a name, nats.
@@ -36,18 +45,24 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
                                       const CandidateOptions& options);
 
 /// The price of an effect among candidates; 0 where it is none of them.
-double price_nats(const Effect& effect, const std::vector<Candidate>& candidates);
+double naming_cost_nats(const Effect& effect, const std::vector<Candidate>& candidates);
 
 /// The evidence's ranges of the joints on whose values the effect depends: beyond them it is not known.
 void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evidence);
 
-/// The states that a disguise sees: `states` with approach signs or temperatures dealt out anew over the poses.
-std::vector<ArmState> disguised(const std::vector<ArmState>& states, Disguise disguise, RandomStream random);
+/// The states that a decoy sees: `states` with approach signs or temperatures dealt out anew over the poses.
+std::vector<ArmState> with_shuffled(const std::vector<ArmState>& states, DecoyKind decoy_kind, RandomStream random);
 
 /// "gear_harmonic of joint 2 at ratio 347.3", for people.
 std::string decoy_name(const Candidate& candidate);
 
 /// What it costs to name each of them.
-std::vector<double> prices_nats(const std::vector<Candidate>& candidates);
+std::vector<double> naming_costs_nats(const std::vector<Candidate>& candidates);
+
+/// Symbolic effects of every revolute joint: sines and cosines of m q_a + n q_b and of q_a +- q_b +- q_c, the same
+/// waves with a phase that is to be found, products of joint values with each other and with sines and cosines, and
+/// what the approach sign, the warming and gravity's torque multiply. Only circumstances that the evidence holds and
+/// joints that move take part. What evolution finds most often where it is let loose, tried without evolving.
+std::vector<Effect> formula_library(const Robot& robot, const Evidence& evidence);
 
 }  // namespace demecal

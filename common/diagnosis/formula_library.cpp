@@ -1,4 +1,4 @@
-#include "diagnosis/formula_library.hpp"
+#include "diagnosis/candidates.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,19 +1,19 @@
-// One group of rounds: effects added one after another to one linearised model, until luck could do as much.
+// One group of rounds: effects added one after another to one linearized model, until noise alone could do as much.
 #pragma once
 
 #include <functional>
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
 #include "random/random_purpose.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 
-/// What judging a candidate takes.
+/// What the evaluation of a candidate takes.
 struct GroupRules {
   double family_error = 0.05;
   int permutations = 999;
@@ -23,65 +23,67 @@ struct GroupRules {
   int group = 1;
   int first_round = 1;  ///< number of the group's first round
   double p_structure = 1.0;
-  std::vector<double> evolved_luck{};  ///< of LoopOptions
+  std::vector<double> evolved_null_gains{};  ///< of LoopOptions
 };
 
 /// The share of a null distribution (ascending), the found value counted among it, that explains as much.
-double family_p_value(const std::vector<double>& null_maxima, double fall_nats);
+double family_p_value(const std::vector<double>& null_maxima, double gain_nats);
 
 struct GroupOutcome {
   std::vector<Round> rounds;
   std::vector<Effect> added;                 ///< as the rounds' verdicts say
   std::optional<std::string> winning_decoy;  ///< its name, where one explained more than any real effect
   bool stopped = false;                      ///< by the watcher
-  bool luck = false;                         ///< the best candidate left explains no more than luck could
+  bool not_significant = false;              ///< noise alone explains as much as the best candidate left
 };
 
 class Group {
  public:
-  /// `columns` are the candidates'; `out` marks those not to be tried; `null_maxima` is the latest null distribution,
-  /// renewed where the best candidate is not far beyond it.
-  Group(const DiagnosisData& of, const DiagnosedModel& model, const Linearised& at,
-        const std::vector<Candidate>& candidates, const EffectColumns& columns, std::vector<bool> out,
+  /// `columns` are the candidates'; `excluded` marks those not to be tried; `null_maxima` is the latest null
+  /// distribution, renewed where the best candidate is not far beyond it.
+  Group(const DiagnosisProblem& problem, const DiagnosedModel& model, const Linearization& linearization,
+        const std::vector<Candidate>& candidates, const EffectColumns& columns, std::vector<bool> excluded,
         std::vector<double>& null_maxima, const GroupRules& rules);
 
-  /// Tries candidates, the best first. One is added that luck explains too rarely, that shortens the description, whose
-  /// sign is stable and whose size is physical, and that lowers the validation error; added ones stay up to the
-  /// last that the validation poses confirm.
+  /// Tries candidates, the best first. One is added that noise alone explains too rarely, that shortens the
+  /// description, whose sign is stable and whose size is physical, and that lowers the validation error; added ones
+  /// stay up to the last that the validation poses confirm.
   GroupOutcome run(const std::function<bool(const Round&)>& watch);
-  /// The best fall in description length of every decoy, in candidates' order.
-  const std::vector<double>& decoy_falls() const { return decoy_falls_; }
+  /// The description length gained by the best form of every decoy, in candidates' order.
+  const std::vector<double>& decoy_gains() const { return decoy_gains_; }
   /// In the same order: how often noise alone explains as much as the decoy does beside what run() added.
-  std::vector<double> decoys_p_left() const;
+  std::vector<double> decoy_p_values() const;
 
  private:
-  std::optional<std::size_t> best() const;
-  std::size_t by_name(std::size_t formula) const;
-  std::size_t simplest_like(std::size_t index) const;
-  bool searched(std::size_t index) const;
-  void renew_null(std::size_t index);
-  Round judge(std::size_t index, Projection::Trial& trial);
-  Confirmation confirmed(const Eigen::VectorXd& before, const Eigen::VectorXd& after, RandomPurpose purpose) const;
-  std::string objection(const Round& round, const Projection::Trial& trial) const;
-  void take(Round round, const Projection::Trial& trial);
-  void leave_out_alike(const Round& round);
-  void drop_unsure();
+  std::optional<std::size_t> best_candidate() const;
+  std::vector<Rival> rivals(std::size_t index) const;
+  std::size_t named_equivalent(std::size_t formula) const;
+  std::size_t simplest_equivalent(std::size_t index) const;
+  bool found_by_search(std::size_t index) const;
+  void update_null_maxima(std::size_t index);
+  Round evaluate(std::size_t index, Projection::Trial& trial);
+  Confirmation confirmation_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                               RandomPurpose purpose) const;
+  std::string rejection_reason(const Round& round, const Projection::Trial& trial) const;
+  void add(Round round, const Projection::Trial& trial);
+  void exclude_equivalents(const Round& round);
+  void drop_unconfirmed();
   RandomStream random(RandomPurpose purpose) const;
 
-  const DiagnosisData& of_;
+  const DiagnosisProblem& problem_;
   const DiagnosedModel& model_;
-  const Linearised& at_;
+  const Linearization& linearization_;
   const std::vector<Candidate>& candidates_;
   const EffectColumns& columns_;
-  std::vector<bool> out_;
+  std::vector<bool> excluded_;
   std::vector<double>& null_maxima_;
   GroupRules rules_;
   Projection projection_;
   Scan scan_;
   std::vector<Score> scores_;
-  Eigen::VectorXd sure_left_;    ///< of the validation rows with what they confirmed so far
-  std::size_t sure_rounds_ = 0;  ///< rounds up to which they did
-  std::vector<double> decoy_falls_;
+  Eigen::VectorXd confirmed_residual_;  ///< of the validation rows with what they confirmed so far
+  std::size_t confirmed_rounds_ = 0;    ///< rounds up to which they did
+  std::vector<double> decoy_gains_;
   GroupOutcome outcome_;
 };
 

@@ -3,9 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numeric>
 
+#include "effects/measurement.hpp"
+#include "fitting/fit.hpp"
 #include "fitting/median.hpp"
 
 namespace demecal {
@@ -76,6 +79,54 @@ Motions motions_of(const Effect& effect, const Robot& robot, const std::vector<A
   return motions;
 }
 
+constexpr double kLargestTurn_rad = 0.02;  ///< gears, bearings and links that give way more are broken
+constexpr double kLargestShift_m = 0.02;
+constexpr double kUnitShare = 0.02;  ///< off a whole share: the arm's own errors may hide that much of it
+
+std::string with_three_places(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", value);
+  return text;
+}
+
+double rms_m(const DataSet& data, const std::vector<std::size_t>& poses, const CorrectedRobot& robot) {
+  double squares = 0.0;
+  for (const std::size_t pose : poses) squares += std::pow(tool_error_m(robot, data, data.poses[pose]), 2);
+  return std::sqrt(squares / static_cast<double>(poses.size()));
+}
+
+/// The whole share, nearly, that explains most of the error where the joint turns with the other; 0 where none does.
+/// Motions of radians are beyond what one linear step can tell: the arm is fitted anew to joints that are sums.
+double whole_share(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model) {
+  constexpr int kSteps = 12;
+  constexpr double kLeft = 0.2;  ///< of the error, at most
+  const auto from = static_cast<Eigen::Index>(std::lround(effect.setting("from"))) - 1;
+  for (const double whole : {1.0, -1.0}) {
+    DataSet summed = problem.data;
+    for (MeasuredPose& pose : summed.poses) pose.joints[effect.joint] += whole * pose.joints[from];
+    const DiagnosisProblem with{summed, problem.declared, problem.fitted, problem.validation};
+    const Fit fit = fit_declared(summed, problem.fitted, problem.declared, nominal_robot(summed));
+    if (fit.status != FitStatus::converged ||
+        rms_m(summed, problem.fitted, fit.robot) > kLeft * rms_m(problem.data, problem.fitted, model.robot))
+      continue;
+    DiagnosedModel rest = diagnosed_model(with, fit);
+    rest.robot.effects.push_back(effect);
+    rest.robot.effects.back().values = {0.0};
+    const double share = whole + refined(with, std::move(rest), kSteps).robot.effects.back().value(0);
+    if (std::abs(share - whole) < kUnitShare) return share;
+  }
+  return 0.0;
+}
+
+/// Controllers that report a joint against the horizontal, or through a parallelogram, give its angle as a sum.
+std::string unit_coupling(const Effect& effect, double share) {
+  const std::string joint = std::to_string(effect.joint + 1),
+                    from = std::to_string(std::lround(effect.setting("from")));
+  return "the data show a unit coupling: joint " + joint + " turns with joint " + from + ", by " +
+         with_three_places(share) + " of its motion; that is how joint " + joint +
+         " is reported, not an error of the arm: write its column as q" + joint + (share > 0 ? " + q" : " - q") + from;
+}
+
 }  // namespace
 
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
@@ -93,7 +144,7 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
   return errors;
 }
 
-std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales) {
+std::vector<double> pose_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales) {
   const double unit_mm = 1e3 * (scales[kPosition] > 0 ? scales[kPosition] : std::max(scales[kDistance], 1e-9));
   std::vector<double> errors;
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
@@ -181,6 +232,24 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
   for (std::vector<double>& values : drawn)
     result.interval.push_back({quantile(values, 0.025), quantile(values, 0.975)});
   return result;
+}
+
+bool tilt_is_implausible(const Effect& effect) {
+  constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
+  if (effect.kind != "compliance" || effect.form != "tilted") return false;
+  return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
+}
+
+std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
+                           const std::vector<ArmState>& states) {
+  const LargestMotion largest = largest_motion(effect, problem.data.robot, states);
+  if (largest.turn_rad <= kLargestTurn_rad && largest.shift_m <= kLargestShift_m)
+    return tilt_is_implausible(effect) ? "mounting tilt implausible (> 20 deg)" : "";
+  if (effect.kind == "coupling" && effect.form == "linear") {
+    if (const double share = whole_share(effect, problem, model); share != 0.0) return unit_coupling(effect, share);
+  }
+  return "implausibly large for a real arm (> " +
+         std::string(largest.turn_rad > kLargestTurn_rad ? "20 mrad" : "20 mm") + "): check signs, units and row order";
 }
 
 }  // namespace demecal

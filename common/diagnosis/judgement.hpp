@@ -1,25 +1,27 @@
-// Whether a candidate's gain is real: on poses it was not fitted to, and under resampling of those it was.
+// Whether a candidate is real: on validation poses, under resampling, and by how far it would move the arm.
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
-#include "diagnosis/projection.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "residuals/projection.hpp"
 
 namespace demecal {
 
-/// The tool error of every judging pose, mm, less what it shares with its neighbours: of its position rows or, where
+/// The tool error of every validation pose, mm, less what it shares with its neighbours: of its position rows or, where
 /// there are none, the root mean square of all.
 std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales,
                                    const DataSet& data);
 
 /// The same of everything a pose measured, whitened: as far off as position alone would be were all its rows positions.
-std::vector<double> whole_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
+std::vector<double> pose_errors_mm(const ResidualField& field, const Eigen::VectorXd& left, const RowScales& scales);
 
-/// What the poses that judge say of a change of the model.
+/// What the validation poses say of a change of the model.
 struct Confirmation {
-  double share = 0.0;  ///< of the change that their residuals bear out; their errors fall where it is above one half
+  double share = 0.0;  ///< of the change that their residuals bear out; above one half their errors decrease
   double lower = 0.0;  ///< its one-sided 95 % bootstrap bound
 };
 
@@ -46,5 +48,14 @@ struct Resampled {
 };
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
                     RandomStream random);
+
+/// Why no real arm has this effect, and what to look at; empty where one may. `states` are those of the fitted poses. A
+/// joint that moves by a whole share of another's motion, which `model` with it bears out, is how the controller
+/// reports its joints: the sentence says so.
+std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
+                           const std::vector<ArmState>& states);
+
+/// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in truth.
+bool tilt_is_implausible(const Effect& effect);
 
 }  // namespace demecal

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "diagnosis/outcome.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 
@@ -18,14 +18,15 @@ struct LoopOptions {
   double family_error = 0.05;  ///< chance of adding anything to a model that lacks nothing
   int permutations = 999;
   int resamples = 400;
-  int group_size = 24;                 ///< effects that may be added between two joint refits
-  double least_gain = 0.005;           ///< share of the validation error that a group must win for another to follow
-  int highest_ratio = 200;             ///< of the scan over gear harmonics
-  std::vector<double> stated_ratios;   ///< beyond the scan
-  bool formulas = true;                ///< formulas outside the catalogue compete, where there are at most 5000 poses
-  std::vector<Candidate> evolved{};    ///< formulas that evolution found on the residual: they compete too
-  std::vector<double> evolved_luck{};  ///< best falls (nats, ascending) of the same evolution on permuted residuals:
-                                       ///< what `evolved` candidates are held against; empty: as all others are
+  int group_size = 24;                ///< effects that may be added between two joint refits
+  double least_gain = 0.005;          ///< share of the validation error that a group must win for another to follow
+  int highest_ratio = 200;            ///< of the scan over gear harmonics
+  std::vector<double> stated_ratios;  ///< beyond the scan
+  bool formulas = true;               ///< formulas outside the catalogue compete, where there are at most 5000 poses
+  std::vector<Candidate> evolved{};   ///< formulas that evolution found on the residual: they compete too
+  /// Best gains (nats, ascending) of the same evolution on permuted residuals: what `evolved` candidates are held
+  /// against; empty: as all others are.
+  std::vector<double> evolved_null_gains{};
   bool decoys = true;
   bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
   std::uint64_t seed = 1;
@@ -41,10 +42,24 @@ struct LoopResult {
 };
 
 /// Runs the ten steps from `start`, a declared model already fitted (its corrections are kept and, where joint
-/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses judge (where there
+/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses confirm (where there
 /// are none, resampling of the calibration poses alone does); accept poses are never looked at. A function of its
 /// arguments.
 LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
                       const RoundWatcher& watch = {});
+
+/// Drops effects one after another, the least needed first, as long as that shortens the description, and refines
+/// the model after each. Dropped effects are noted in the outcome. Returns the surroundings of the model that is left.
+Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
+                                 const std::vector<Candidate>& candidates, LoopOutcome& outcome);
+
+/// The poses of the last fit: calibration and validation poses where there are accept poses to tell the error by,
+/// calibration poses alone where there are none.
+std::vector<std::size_t> poses_of_last_fit(const DataSet& data);
+
+/// The same model, its effects as they were chosen, with its numbers at their least-squares values over
+/// poses_of_last_fit(data), and its effects and smooth terms known over these poses' range. What the poses then say of
+/// it is no longer unseen, but for the accept poses.
+DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, DiagnosedModel model);
 
 }  // namespace demecal

@@ -6,31 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/residual_field.hpp"
 #include "effects/corrected_robot.hpp"
 #include "effects/effect.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 
 enum class Verdict { added, rejected, none };
 
-/// An effect that these poses cannot tell from the named one, or hardly.
-struct Rival {
-  Effect effect;
-  double cosine = 0.0;       ///< between what either would explain, beyond the model
-  double nats_behind = 0.0;  ///< description length that it leaves above the named one's
-};
-
-/// The measurement that would split an effect from its rivals.
-struct FurtherMeasurement {
-  std::string sentence;  ///< what to measure, for a person
-  int poses = 0;         ///< how many give power 0.9
-};
-
 /// One step of the loop: the best candidate, and what became of it.
 struct Round {
   int number = 0;  ///< from 1
-  int group = 0;   ///< rounds of one group were judged against the same permutations and refitted together; from 1
+  int group = 0;   ///< rounds of one group were held against the same permutations and refitted together; from 1
   Verdict verdict = Verdict::none;
   Effect effect;              ///< with its values at the end of its group; of the best candidate where none was added
   std::string diagnosis;      ///< one sentence for an engineer
@@ -41,14 +29,14 @@ struct Round {
   double p_structure = 1.0;   ///< of the omnibus test for dependence before this group
   double p_family = 1.0;      ///< family-wise, over all candidates or, of an evolved formula, over whole searches
   int permutations = 0;       ///< behind p_family; of an evolved formula: evolutions on permuted residuals
-  double fall_nats = 0.0;     ///< of the description length
+  double gain_nats = 0.0;     ///< of the description length
   double confirmed = 0.0;     ///< share of it that the validation poses bear out; above 0.5 they gain by it
   double confirmed_lower = 0.0;                 ///< one-sided 95 % bound of that share
   double sign_stability = 0.0;                  ///< share of resamples in which the leading coefficient keeps its sign
   std::vector<std::array<double, 2>> interval;  ///< 95 % of every coefficient; SI. Of added effects: beside all others
   double validation_before_mm = 0.0;            ///< mean tool error on the validation poses
   double validation_after_mm = 0.0;
-  std::optional<FurtherMeasurement> further;  ///< where there are rivals
+  std::optional<NextMeasurement> next_measurement;  ///< where there are rivals
 };
 
 /// An effect that was looked for and not found.
@@ -60,7 +48,7 @@ struct NotFound {
 };
 
 /// A kind of effect that these data cannot show at all.
-struct Unseen {
+struct UntestableKind {
   std::string kind;
   std::string reason;  ///< "no approach columns: ..."
 };
@@ -68,7 +56,7 @@ struct Unseen {
 /// A candidate that cannot be true, and how it fared.
 struct Decoy {
   std::string name;             ///< "backlash of joint 2 by shuffled approach signs"
-  double best_fall_nats = 0.0;  ///< over all groups
+  double best_gain_nats = 0.0;  ///< over all groups
   bool won = false;
   double p_left = 1.0;  ///< how often noise alone explains as much as it does once nothing real is added any more
 };
@@ -80,7 +68,7 @@ struct LoopOutcome {
   std::vector<Round> rounds;
   std::vector<Effect> dropped;  ///< added and taken back by the backward step
   std::vector<NotFound> not_found;
-  std::vector<Unseen> unseen;
+  std::vector<UntestableKind> untestable;
   std::vector<Decoy> decoys;
   std::vector<std::size_t> outliers;       ///< poses (in the data set) that were down-weighted as far out
   std::optional<double> repeat_scatter_m;  ///< per axis, of repeated calibration poses
@@ -94,12 +82,58 @@ struct LoopOutcome {
   int permutations = 0;
 };
 
-/// The 95 % interval of every coefficient by its standard error (normal); nothing where standard errors are unknown.
-std::vector<std::array<double, 2>> intervals_of(const Effect& effect);
+/// Whether the effect of this one of `rounds` was added, or considered last, and has rivals.
+inline bool is_ambiguous(const Round& round, const std::vector<Round>& rounds) {
+  return (round.verdict == Verdict::added || &round == &rounds.back()) && !round.rivals.empty();
+}
 
-/// "no_structure", "no_gain", "max_effects", "decoy", "not_run".
-std::string word_of(StopReason reason);
-/// "added", "rejected", "none".
-std::string word_of(Verdict verdict);
+/// The effects of such rounds, as propose_poses() asks for them.
+inline std::vector<AmbiguousEffect> ambiguous_effects(const std::vector<Round>& rounds) {
+  std::vector<AmbiguousEffect> effects;
+  for (const Round& round : rounds)
+    if (is_ambiguous(round, rounds)) effects.push_back({round.effect, round.rivals});
+  return effects;
+}
+
+/// The 95 % interval of every coefficient by its standard error (normal); nothing where standard errors are unknown.
+inline std::vector<std::array<double, 2>> confidence_intervals(const Effect& effect) {
+  constexpr double kNormal95 = 1.96;
+  std::vector<std::array<double, 2>> intervals;
+  for (std::size_t i = 0; i < effect.standard_errors.size(); ++i) {
+    const double half = kNormal95 * effect.standard_errors[i];
+    intervals.push_back({effect.value(i) - half, effect.value(i) + half});
+  }
+  return intervals;
+}
+
+/// The word for a reason in files.
+inline std::string to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::no_structure:
+      return "no_structure";
+    case StopReason::no_gain:
+      return "no_gain";
+    case StopReason::max_effects:
+      return "max_effects";
+    case StopReason::decoy:
+      return "decoy";
+    case StopReason::not_run:
+      break;
+  }
+  return "not_run";
+}
+
+/// The word for a verdict in files.
+inline std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::added:
+      return "added";
+    case Verdict::rejected:
+      return "rejected";
+    case Verdict::none:
+      break;
+  }
+  return "none";
+}
 
 }  // namespace demecal

@@ -5,19 +5,32 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/null_noise.hpp"
+#include "residuals/noise.hpp"
 
 namespace demecal {
 namespace {
 
 constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
 
+constexpr double kRivalCosine = 0.9;
+constexpr double kRelated = 0.5;
+constexpr double kRivalNats = 5.0;
+constexpr std::size_t kMostRivals = 8;
+
+/// Whether `other` is the wave `named` with a phase that is not given: the same formula, no rival.
+bool is_its_wave(const Effect& named, const Effect& other) {
+  if (named.joint != other.joint || other.form != "wave" || named.formula.empty()) return false;
+  const Primitive root = named.formula[0].primitive;
+  return (root == Primitive::sine || root == Primitive::cosine) &&
+         std::equal(named.formula.begin() + 1, named.formula.end(), other.formula.begin(), other.formula.end());
+}
+
 }  // namespace
 
-Scan::Scan(const EffectColumns& columns, const std::vector<double>& name_nats, const ResidualField& field,
+Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
            const Projection& model)
     : spans_(columns.spans()),
-      name_nats_(name_nats),
+      naming_costs_nats_(naming_costs_nats),
       rows_(static_cast<double>(field.rows())),
       poses_(static_cast<double>(distinct_poses(field))) {
   whole_.reserve(spans_.size());
@@ -33,7 +46,7 @@ void Scan::follow(const EffectColumns& columns, const ResidualField& field, cons
   const Eigen::Index known = along_.cols(), fresh = model.rank() - known;
   RowMatrix news(field.rows(), fresh + 1);
   news.leftCols(fresh) = model.basis().rightCols(fresh);
-  news.col(fresh) = model.left();
+  news.col(fresh) = model.residual();
   const Eigen::MatrixXd products = columns.transposed_times(field, news);
   along_.conservativeResize(Eigen::NoChange, model.rank());
   along_.rightCols(fresh) = products.leftCols(fresh);
@@ -62,10 +75,11 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
   }
 }
 
-double Scan::fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
+double Scan::gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
   if (rank == 0) return 0.0;
   const double share = std::min(drop / squares, 1.0 - 1e-12);
-  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) - name_nats_[candidate];
+  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) -
+         naming_costs_nats_[candidate];
 }
 
 std::vector<Score> Scan::scores() const {
@@ -75,7 +89,7 @@ std::vector<Score> Scan::scores() const {
     scores[i].drop = moment.dot(grams_[i].inverse * moment);
     scores[i].rank = grams_[i].rank;
     scores[i].visible = grams_[i].visible;
-    scores[i].fall_nats = fall_nats(scores[i].drop, squares_, scores[i].rank, i);
+    scores[i].gain_nats = gain_nats(scores[i].drop, squares_, scores[i].rank, i);
   }
   return scores;
 }
@@ -91,39 +105,60 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
 
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                       int count, RandomStream random) const {
-  const RowMatrixF basis = model.basis().cast<float>(), beliefs_basis = model.beliefs_basis().cast<float>();
+  const RowMatrixF basis = model.basis().cast<float>(), prior_basis = model.prior_basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
   const NullNoise noise(field, model);
   std::vector<double> maxima;
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
-    Eigen::MatrixXf drawn(field.rows(), now), beliefs(beliefs_basis.rows(), now);
+    Eigen::MatrixXf drawn(field.rows(), now), beliefs(prior_basis.rows(), now);
     for (Eigen::Index i = 0; i < now; ++i) {
       const NullNoise::Rows rows = noise.draw(random);
       drawn.col(i) = rows.fitted.cast<float>();
       beliefs.col(i) = rows.beliefs.cast<float>();
     }
     const RowMatrixF rows = drawn;
-    const Eigen::MatrixXf explained = basis.transpose() * rows + beliefs_basis.transpose() * beliefs;
+    const Eigen::MatrixXf explained = basis.transpose() * rows + prior_basis.transpose() * beliefs;
     const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();
     const Eigen::VectorXd squares =
         (rows.colwise().squaredNorm() + beliefs.colwise().squaredNorm() - explained.colwise().squaredNorm())
             .transpose()
             .cast<double>();
-    for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_fall(moments.col(i), squares[i]));
+    for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_gain(moments.col(i), squares[i]));
   }
   std::sort(maxima.begin(), maxima.end());
   return maxima;
 }
 
-double Scan::best_fall(const Eigen::VectorXd& moments, double squares) const {
+double Scan::best_gain(const Eigen::VectorXd& moments, double squares) const {
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const auto moment = moments.segment(spans_[k].first, spans_[k].count);
     if (grams_[k].rank == 0) continue;
-    best = std::max(best, fall_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
+    best = std::max(best, gain_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
   }
   return best;
+}
+
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
+                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
+                             const ResidualField& field) {
+  const RowMatrix share = explained.fitted * explained.coefficients;
+  const std::vector<double> cosines = scan.cosines(columns.transposed_times(field, share), share.squaredNorm());
+  std::vector<Rival> rivals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == named || all[i].decoy_kind != DecoyKind::none) continue;
+    const double behind = scores[named].gain_nats - scores[i].gain_nats;
+    const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
+    if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
+    if (is_its_wave(all[named].effect, all[i].effect)) continue;
+    if (cosines[i] > kRivalCosine || (cosines[i] > kRelated && std::abs(behind) < kRivalNats)) {
+      rivals.push_back({all[i].effect, cosines[i], behind});
+    }
+  }
+  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cosine > b.cosine; });
+  if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
+  return rivals;
 }
 
 }  // namespace demecal

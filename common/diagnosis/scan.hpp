@@ -1,31 +1,34 @@
-// How much of the residual each candidate effect would explain, and how much the best one would by luck.
+// How much of the residual each candidate would explain, how much the best would by noise alone, and which explain the
+// same.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "diagnosis/effect_columns.hpp"
-#include "diagnosis/projection.hpp"
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/outcome.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 
 /// One candidate against the residual.
 struct Score {
-  double drop = 0.0;        ///< fall of the sum of squares
+  double drop = 0.0;        ///< decrease of the sum of squares
   Eigen::Index rank = 0;    ///< directions that the model does not have
-  double fall_nats = 0.0;   ///< fall of the description length: likelihood won, less the price of coefficients and name
+  double gain_nats = 0.0;   ///< description length saved: likelihood won, less the price of coefficients and name
   Eigen::VectorXd visible;  ///< per coefficient: the squared length of its column beyond the model
 };
 
 /// All candidates' projections off one model. Building it costs one pass over the candidates' columns.
 class Scan {
  public:
-  /// `name_nats`: per candidate, the price of naming it (log of the number of its like).
-  Scan(const EffectColumns& columns, const std::vector<double>& name_nats, const ResidualField& field,
+  /// `naming_costs_nats`: per candidate, the price of naming it (log of the number of its like).
+  Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
        const Projection& model);
 
-  /// Brings the scan up to date with a model to which columns were added (as `added` says, from column `from` on).
+  /// Brings the scan up to date with a model to which columns were added.
   void follow(const EffectColumns& columns, const ResidualField& field, const Projection& model);
 
   /// One score per candidate.
@@ -35,7 +38,7 @@ class Scan {
   /// beyond the model too; `products`: columns^T direction; `square`: its squared length.
   std::vector<double> cosines(const Eigen::MatrixXd& products, double square) const;
 
-  /// The largest fall_nats of any candidate, ascending, over `count` draws of independent noise in place of the
+  /// The largest gain_nats of any candidate, ascending, over `count` draws of independent noise in place of the
   /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005).
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                   int count, RandomStream random) const;
@@ -46,12 +49,12 @@ class Scan {
     Eigen::Index rank = 0;
     Eigen::VectorXd visible;
   };
-  double fall_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
-  double best_fall(const Eigen::VectorXd& moments, double squares) const;
+  double gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
+  double best_gain(const Eigen::VectorXd& moments, double squares) const;
   void invert(const std::vector<ColumnSpan>& spans);
 
   std::vector<ColumnSpan> spans_;
-  std::vector<double> name_nats_;
+  std::vector<double> naming_costs_nats_;
   std::vector<Eigen::MatrixXd> whole_;  ///< X^T X per candidate
   Eigen::MatrixXd along_;               ///< X^T basis: columns x rank
   std::vector<Gram> grams_;
@@ -60,5 +63,13 @@ class Scan {
   double rows_ = 0.0;
   double poses_ = 0.0;
 };
+
+/// Candidates other than `named` whose cosine with it is above 0.9, or whose description length is within 5 nats of its
+/// own at a cosine above one half; nearest first, at most eight.
+/// Formulas outside the catalogue are rivals only of each other. The cosine is between what the named one explains
+/// beyond the model and the best that the rival can make of it.
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
+                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
+                             const ResidualField& field);
 
 }  // namespace demecal

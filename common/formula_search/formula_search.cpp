@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/null_noise.hpp"
+#include "diagnosis/candidates.hpp"
 #include "fitting/median.hpp"
 #include "formula_search/rewrite.hpp"
+#include "residuals/noise.hpp"
 
 namespace demecal {
 namespace {
@@ -44,8 +44,8 @@ std::vector<double> weights_of(const std::vector<double>& squared_levers) {
   return weights;
 }
 
-FormulaTable table_of(const Linearised& linearization, const Eigen::VectorXd& residual, const Chain& chain, int joint,
-                      const Evidence& evidence) {
+FormulaTable table_of(const Linearization& linearization, const Eigen::VectorXd& residual, const Chain& chain,
+                      int joint, const Evidence& evidence) {
   FormulaTable result{joint, variables_of(evidence, chain.size()), {}, 1.0, std::nullopt};
   if (evidence.temperature) result.reference_celsius = evidence.mean_temperature_celsius;
   result.table.variables.resize(result.variables.size());
@@ -124,18 +124,18 @@ std::vector<JointTraining> training_of(const std::vector<FormulaTable>& tables) 
 
 class FormulaSearcher {
  public:
-  FormulaSearcher(const DiagnosisData& problem, const DiagnosedModel& model, Evolver& evolver, EvolutionTerms terms)
-      : problem_(problem), evolver_(evolver), terms_(std::move(terms)), linearization_(linearise(problem, model)) {}
+  FormulaSearcher(const DiagnosisProblem& problem, const DiagnosedModel& model, Evolver& evolver, EvolutionTerms terms)
+      : problem_(problem), evolver_(evolver), terms_(std::move(terms)), linearization_(linearize(problem, model)) {}
 
   FormulaSearch run(double family_error, RandomStream random);
 
  private:
   PricedFormulas evolve_formulas(const Eigen::VectorXd& residual, Purpose purpose);
 
-  const DiagnosisData& problem_;
+  const DiagnosisProblem& problem_;
   Evolver& evolver_;
   EvolutionTerms terms_;
-  Linearised linearization_;
+  Linearization linearization_;
 };
 
 /// What evolution makes of such a residual, the best description first.
@@ -156,13 +156,13 @@ PricedFormulas FormulaSearcher::evolve_formulas(const Eigen::VectorXd& residual,
 }
 
 FormulaSearch FormulaSearcher::run(double family_error, RandomStream random) {
-  const PricedFormulas found = evolve_formulas(linearization_.projection.left(), Purpose::formulas);
+  const PricedFormulas found = evolve_formulas(linearization_.projection.residual(), Purpose::formulas);
   if (!found || found->empty() || found->front().gain_nats <= 0.0) return {};
   FormulaSearch result;
   const NullNoise noise(linearization_.fitted, linearization_.projection);
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.null_nats.size() + 1 < searches) {
-    const PricedFormulas permuted = evolve_formulas(noise.left(random), Purpose::null_distribution);
+    const PricedFormulas permuted = evolve_formulas(noise.residual(random), Purpose::null_distribution);
     if (!permuted) return {};
     const double gain_nats = permuted->empty() ? 0.0 : std::max(0.0, permuted->front().gain_nats);
     if (gain_nats >= found->front().gain_nats) return {};
@@ -176,7 +176,7 @@ FormulaSearch FormulaSearcher::run(double family_error, RandomStream random) {
 
 }  // namespace
 
-std::vector<FormulaTable> formula_tables(const DiagnosisData& problem, const Linearised& linearization,
+std::vector<FormulaTable> formula_tables(const DiagnosisProblem& problem, const Linearization& linearization,
                                          const Eigen::VectorXd& residual) {
   const Chain& chain = problem.data.robot.chain;
   const Evidence evidence = evidence_of(problem.data, problem.fitted);
@@ -215,7 +215,7 @@ std::vector<PricedFormula> formula_candidates(const FormulaTable& table, const P
     if (std::ranges::any_of(taken, is_equivalent)) continue;
     taken.push_back(one.formula);
     Candidate candidate{
-        .effect = {.kind = "symbolic", .joint = table.joint}, .name_nats = one.price_nats, .evolved = true};
+        .effect = {.kind = "symbolic", .joint = table.joint}, .naming_cost_nats = one.price_nats, .evolved = true};
     candidate.effect.formula = in_symbolic_variables(one.formula, table);
     if (table.reference_celsius) candidate.effect.settings["reference_celsius"] = *table.reference_celsius;
     found.push_back({std::move(candidate), one.gain_nats});
@@ -223,7 +223,7 @@ std::vector<PricedFormula> formula_candidates(const FormulaTable& table, const P
   return found;
 }
 
-FormulaSearch search_formulas(const DiagnosisData& problem, const DiagnosedModel& model, Evolver& evolver,
+FormulaSearch search_formulas(const DiagnosisProblem& problem, const DiagnosedModel& model, Evolver& evolver,
                               EvolutionTerms terms, double family_error, RandomStream random) {
   return FormulaSearcher(problem, model, evolver, std::move(terms)).run(family_error, random);
 }

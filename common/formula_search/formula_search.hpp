@@ -8,10 +8,10 @@
 
 #include "calibration/evolver.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/diagnosed_model.hpp"
 #include "evolution/fitness.hpp"
 #include "evolution/individual.hpp"
 #include "formula_search/misfit.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 
@@ -27,7 +27,7 @@ struct FormulaTable {
 
 /// `residual`, what a model leaves at its fitted poses (rows of the field), laid at one revolute joint after another:
 /// the angle that explains most of it. Poses at which the joint hardly moves what is measured count less.
-std::vector<FormulaTable> formula_tables(const DiagnosisData& problem, const Linearised& linearization,
+std::vector<FormulaTable> formula_tables(const DiagnosisProblem& problem, const Linearization& linearization,
                                          const Eigen::VectorXd& residual);
 
 /// A formula of the table's variables in those of symbolic_variables.
@@ -58,7 +58,7 @@ struct FormulaSearch {
 /// own counted in, theirs is the only one of so many. Nothing is permuted where no formula shortens the description,
 /// and nothing is found where evolution is cut off. `terms` are those of every search but for its purpose.
 /// `family_error` is below 0.5.
-FormulaSearch search_formulas(const DiagnosisData& problem, const DiagnosedModel& model, Evolver& evolver,
+FormulaSearch search_formulas(const DiagnosisProblem& problem, const DiagnosedModel& model, Evolver& evolver,
                               EvolutionTerms terms, double family_error, RandomStream random);
 
 }  // namespace demecal

@@ -36,7 +36,7 @@ FormulaMisfit::FormulaMisfit(const TrainingTable& table)
   sum_by_pose();
 }
 
-FormulaMisfit::FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearised& linearization,
+FormulaMisfit::FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearization& linearization,
                              int joint, Eigen::VectorXd residual)
     : evaluate_(variables),
       variables_(static_cast<int>(variables.size())),

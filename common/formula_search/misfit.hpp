@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/diagnosed_model.hpp"
 #include "evolution/fitness.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal {
 
@@ -16,7 +16,7 @@ class FormulaMisfit {
   /// Against what a model leaves at the fitted poses: `variables` has one column each, one row a pose; a formula turns
   /// joint `joint` (from 0), and the model's own numbers give way to it. `residual` (rows of the field): what is left
   /// with the model's share taken off.
-  FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearised& linearization, int joint,
+  FormulaMisfit(const std::vector<std::vector<double>>& variables, const Linearization& linearization, int joint,
                 Eigen::VectorXd residual);
 
   /// The residual with the formula at its least-squares amplitude; empty where a value is not finite. What is believed

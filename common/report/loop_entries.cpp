@@ -48,7 +48,7 @@ std::vector<NamedInterval> intervals(const Round& round, const Robot& robot) {
 RoundEntry round_entry(const Round& round, const Robot& robot) {
   RoundEntry entry{.round = count_of(round.number),
                    .group = count_of(round.group),
-                   .verdict = word_of(round.verdict),
+                   .verdict = to_string(round.verdict),
                    .effect = effect_entry(round.effect, robot),
                    .diagnosis = round.diagnosis,
                    .formula = round.formula,
@@ -60,7 +60,7 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
                    .p_structure = if_finite(round.p_structure),
                    .p_family = if_finite(round.p_family),
                    .permutations = count_of(round.permutations),
-                   .gain_nats = if_finite(round.fall_nats),
+                   .gain_nats = if_finite(round.gain_nats),
                    .confirmed = if_finite(round.confirmed),
                    .confirmed_lower = if_finite(round.confirmed_lower),
                    .sign_stability = if_finite(round.sign_stability),
@@ -73,8 +73,8 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
   }
   entry.members = effect_class(entry.effect, entry.rivals);
   entry.class_sentence = class_sentence(entry.members);
-  if (round.further)
-    entry.next_measurement = NextMeasurementEntry{round.further->sentence, count_of(round.further->poses)};
+  if (const auto& next = round.next_measurement)
+    entry.next_measurement = NextMeasurementEntry{next->sentence, count_of(next->poses)};
   return entry;
 }
 
@@ -143,10 +143,10 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   for (const Round& round : loop.rounds) report.rounds.push_back(round_entry(round, described));
   for (const Effect& effect : loop.dropped) report.dropped.push_back(effect_entry(effect, described));
   for (const NotFound& missing : loop.not_found) report.not_found.push_back(not_found_entry(missing, described));
-  for (const Unseen& unseen : loop.unseen) report.untestable.push_back({unseen.kind, unseen.reason});
+  for (const UntestableKind& each : loop.untestable) report.untestable.push_back({each.kind, each.reason});
   for (const Decoy& decoy : loop.decoys)
-    report.decoys.push_back({decoy.name, if_finite(decoy.best_fall_nats), if_finite(decoy.p_left), decoy.won});
-  report.stopped = word_of(loop.stopped);
+    report.decoys.push_back({decoy.name, if_finite(decoy.best_gain_nats), if_finite(decoy.p_left), decoy.won});
+  report.stopped = to_string(loop.stopped);
   report.lack_of_fit_p = if_any(loop.lack_of_fit_p);
   report.explained_share = if_any(loop.explained_share);
   report.candidates = count_of(loop.candidates);

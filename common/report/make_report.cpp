@@ -5,10 +5,10 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/shared_functions.hpp"
-#include "diagnosis/structure.hpp"
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
+#include "residuals/structure.hpp"
 
 namespace demecal {
 namespace {

@@ -25,9 +25,9 @@ const Effect kProduct = formula_of_joint_3("SIN(q1) * SIN(q4)", 8e-4);
 const std::vector<Effect> kSum{formula_of_joint_3("COS(q1 - q4)", 4e-4), formula_of_joint_3("COS(q1 + q4)", -4e-4)};
 
 std::vector<Candidate> priced(double product_nats, double term_nats) {
-  return {{.effect = kProduct, .name_nats = product_nats},
-          {.effect = kSum[0], .name_nats = term_nats},
-          {.effect = kSum[1], .name_nats = term_nats}};
+  return {{.effect = kProduct, .naming_cost_nats = product_nats},
+          {.effect = kSum[0], .naming_cost_nats = term_nats},
+          {.effect = kSum[1], .naming_cost_nats = term_nats}};
 }
 
 TEST(FormulaChoice, OfEqualModelsTheShorterDescriptionIsTheBetter) {

@@ -58,9 +58,9 @@ TEST(LoopPasses, ADecoyKeepsItsBestFallAndItsVictory) {
   second.decoys = {{"a", 2.0, false}, {"b", 4.0, false}};
   const std::vector<Decoy> both = joined(first, second).decoys;
   ASSERT_EQ(both.size(), 2U);
-  EXPECT_EQ(both[0].best_fall_nats, 3.0);
+  EXPECT_EQ(both[0].best_gain_nats, 3.0);
   EXPECT_TRUE(both[0].won);
-  EXPECT_EQ(both[1].best_fall_nats, 4.0);
+  EXPECT_EQ(both[1].best_gain_nats, 4.0);
   EXPECT_FALSE(both[1].won);
 }
 

@@ -119,7 +119,7 @@ TEST(PredictionInterval, IsToldBeforeTheLastFit) {
   const DataSet data = judged_arm(40, 39, {}, 904);
   const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
   const Fit fit = fit_declared(data, calibration, kIntervalDeclared, nominal_robot(data));
-  const DiagnosisData of{data, kIntervalDeclared, calibration, {}};
+  const DiagnosisProblem of{data, kIntervalDeclared, calibration, {}};
   const DiagnosedModel model = refined(of, diagnosed_model(of, fit), 12);
   const std::optional<LastFit> last = last_fit(data, kIntervalDeclared, {model, model});
   ASSERT_TRUE(last);

@@ -8,10 +8,8 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/formula_library.hpp"
-#include "diagnosis/rivals.hpp"
-#include "measured_arm.hpp"
+#include "diagnosis/scan.hpp"
+#include "residuals/measured_arm.hpp"
 
 namespace demecal {
 namespace {
@@ -27,9 +25,9 @@ KnownArm measured(RandomStream& stream, int poses) {
   return arm;
 }
 
-std::vector<std::string> kinds_of(const std::vector<Unseen>& unseen) {
+std::vector<std::string> kinds_of(const std::vector<UntestableKind>& unseen) {
   std::vector<std::string> kinds;
-  for (const Unseen& each : unseen) {
+  for (const UntestableKind& each : unseen) {
     EXPECT_FALSE(each.reason.empty());
     kinds.push_back(each.kind);
   }
@@ -50,7 +48,7 @@ TEST(Evidence, HoldsWhatWasRecordedAndVaried) {
   EXPECT_NEAR(evidence.mean_temperature_celsius, temperature, 1e-9);
   ASSERT_EQ(evidence.joint_ranges.size(), 6u);
   EXPECT_EQ(evidence.joint_ranges[4].lower, lowest);
-  EXPECT_THAT(unseen_kinds(evidence, {}), IsEmpty());
+  EXPECT_THAT(untestable_kinds(evidence, {}), IsEmpty());
 }
 
 TEST(Evidence, LacksWhatOnePoseLacksOrWhatNeverChanged) {
@@ -66,9 +64,10 @@ TEST(Evidence, LacksWhatOnePoseLacksOrWhatNeverChanged) {
   }
   const Evidence evidence = evidence_of(arm.data, all_poses(arm.data));
   EXPECT_FALSE(evidence.approach || evidence.payload || evidence.temperature || evidence.time || evidence.masses);
-  EXPECT_THAT(kinds_of(unseen_kinds(evidence, {})), UnorderedElementsAre("backlash", "hysteresis", "thermal_offset",
-                                                                         "thermal_length", "drift", "link_bending"));
-  EXPECT_THAT(kinds_of(unseen_kinds(evidence, {"drift", "gain"})), UnorderedElementsAre("drift"));
+  EXPECT_THAT(
+      kinds_of(untestable_kinds(evidence, {})),
+      UnorderedElementsAre("backlash", "hysteresis", "thermal_offset", "thermal_length", "drift", "link_bending"));
+  EXPECT_THAT(kinds_of(untestable_kinds(evidence, {"drift", "gain"})), UnorderedElementsAre("drift"));
 }
 
 TEST(Candidates, AreEveryLawsProposalsWithinTheEvidence) {
@@ -83,9 +82,9 @@ TEST(Candidates, AreEveryLawsProposalsWithinTheEvidence) {
     const std::vector<Effect> proposals = law->proposals(arm.data.robot, evidence);
     for (const Candidate& candidate : all) {
       if (candidate.effect.kind != law->kind()) continue;
-      EXPECT_EQ(candidate.disguise, Disguise::none);
+      EXPECT_EQ(candidate.decoy_kind, DecoyKind::none);
       const auto alike = std::ranges::count(proposals, candidate.effect.form, &Effect::form);
-      EXPECT_NEAR(candidate.name_nats, std::log(static_cast<double>(alike)), 1e-12);
+      EXPECT_NEAR(candidate.naming_cost_nats, std::log(static_cast<double>(alike)), 1e-12);
       for (const int joint : law->ranged_joints(candidate.effect, arm.data.robot)) {
         ASSERT_TRUE(candidate.effect.ranges.contains(joint));
         EXPECT_EQ(candidate.effect.ranges.at(joint), evidence.joint_ranges[static_cast<std::size_t>(joint)]);
@@ -134,27 +133,28 @@ TEST(Candidates, HaveDecoysThatCannotBeTrue) {
   const KnownArm arm = measured(stream, 20);
   Evidence evidence = evidence_of(arm.data, all_poses(arm.data));
   evidence.highest_ratio = 30;
-  std::map<Disguise, std::vector<Candidate>> by_disguise;
+  std::map<DecoyKind, std::vector<Candidate>> by_kind;
   std::set<std::string> names;
   for (const Candidate& each : candidates_for(arm.data.robot, evidence, {}, {.kinds = {}, .formulas = false})) {
-    by_disguise[each.disguise].push_back(each);
-    if (each.disguise != Disguise::none) names.insert(decoy_name(each));
+    by_kind[each.decoy_kind].push_back(each);
+    if (each.decoy_kind != DecoyKind::none) names.insert(decoy_name(each));
   }
-  for (const Disguise disguise : {Disguise::wrong_ratio, Disguise::shuffled_approach, Disguise::shuffled_temperature}) {
+  for (const DecoyKind decoy_kind :
+       {DecoyKind::wrong_ratio, DecoyKind::shuffled_approach, DecoyKind::shuffled_temperature}) {
     std::set<int> joints;
-    for (const Candidate& each : by_disguise[disguise]) joints.insert(each.effect.joint);
+    for (const Candidate& each : by_kind[decoy_kind]) joints.insert(each.effect.joint);
     EXPECT_EQ(joints.size(), 6u);
-    EXPECT_EQ(by_disguise[disguise].size(), 6u);
+    EXPECT_EQ(by_kind[decoy_kind].size(), 6u);
   }
   EXPECT_EQ(names.size(), 18u);
-  for (const Candidate& each : by_disguise[Disguise::wrong_ratio]) {
+  for (const Candidate& each : by_kind[DecoyKind::wrong_ratio]) {
     const double ratio = each.effect.setting("ratio");
     EXPECT_GT(ratio, 30.0);
     EXPECT_GT(std::abs(ratio - std::round(ratio)), 0.01);
   }
   evidence.approach = evidence.temperature = false;
   for (const Candidate& each : candidates_for(arm.data.robot, evidence, {}, {.kinds = {}, .formulas = false})) {
-    EXPECT_TRUE(each.disguise == Disguise::none || each.disguise == Disguise::wrong_ratio);
+    EXPECT_TRUE(each.decoy_kind == DecoyKind::none || each.decoy_kind == DecoyKind::wrong_ratio);
   }
 }
 
@@ -162,8 +162,8 @@ TEST(Candidates, DisguisesDealOneCircumstanceOutAnew) {
   RandomStream stream{88, 6};
   const KnownArm arm = measured(stream, 40);
   const std::vector<ArmState> states = field_of(arm, {}).states;
-  const std::vector<ArmState> sides = disguised(states, Disguise::shuffled_approach, RandomStream{1});
-  const std::vector<ArmState> heat = disguised(states, Disguise::shuffled_temperature, RandomStream{1});
+  const std::vector<ArmState> sides = with_shuffled(states, DecoyKind::shuffled_approach, RandomStream{1});
+  const std::vector<ArmState> heat = with_shuffled(states, DecoyKind::shuffled_temperature, RandomStream{1});
   std::multiset<double> before, after;
   int moved = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -240,7 +240,7 @@ TEST(Rivals, AreCandidatesThatExplainTheSame) {
       {.effect = {.kind = "coupling", .joint = 2, .settings = {{"from", 4}}, .form = "linear"}},
       {.effect = {.kind = "backlash", .joint = 2, .settings = {}, .form = "approach"}},
       {.effect = {.kind = "coupling", .joint = 2, .settings = {{"from", 4}}, .form = "linear"},
-       .disguise = Disguise::shuffled_approach}};
+       .decoy_kind = DecoyKind::shuffled_approach}};
   std::vector<Effect> effects;
   for (const Candidate& candidate : candidates) effects.push_back(candidate.effect);
   const EffectColumns columns = columns_of(effects, arm.data.robot, field);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 
 namespace demecal {
 namespace {
@@ -15,65 +15,74 @@ struct DetectingArm {
   ResidualField field;
   std::vector<Candidate> candidates;
   EffectColumns columns;
-  std::vector<double> name_nats, null_maxima;
+  std::vector<double> naming_cost_nats, null_maxima;
 };
 
 DetectingArm detecting_arm(RandomStream& stream) {
-  DetectingArm at{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}, {}, {}};
-  measure_anyhow(at.arm, stream, {.noise_m = 5e-5}, 60);
-  at.field = field_of(at.arm, kPlacedAndZeroed);
-  Evidence evidence = full_evidence(at.arm.data.robot);
+  DetectingArm tested{arm_of(stream, laden_arm(stream, Arm::standard)), {}, {}, {}, {}, {}};
+  measure_anyhow(tested.arm, stream, {.noise_m = 5e-5}, 60);
+  tested.field = field_of(tested.arm, kPlacedAndZeroed);
+  Evidence evidence = full_evidence(tested.arm.data.robot);
   evidence.highest_ratio = 12;
   const std::vector<std::string> kinds = {"backlash", "compliance", "gear_harmonic", "thermal_offset", "joint_offset"};
-  at.candidates = candidates_for(at.arm.data.robot, evidence, {}, {.kinds = kinds, .formulas = false, .decoys = false});
+  tested.candidates =
+      candidates_for(tested.arm.data.robot, evidence, {}, {.kinds = kinds, .formulas = false, .decoys = false});
   std::vector<Effect> effects;
-  for (const Candidate& candidate : at.candidates) {
+  for (const Candidate& candidate : tested.candidates) {
     effects.push_back(candidate.effect);
-    at.name_nats.push_back(candidate.name_nats);
+    tested.naming_cost_nats.push_back(candidate.naming_cost_nats);
   }
-  at.columns = columns_of(effects, at.arm.data.robot, at.field);
-  renew_noise(at.field, stream);
-  const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
-  at.null_maxima = scan.null_maxima(at.columns, at.field, model, 199, RandomStream{89});
-  return at;
+  tested.columns = columns_of(effects, tested.arm.data.robot, tested.field);
+  renew_noise(tested.field, stream);
+  const Projection model = projection_of(tested.field);
+  const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+  tested.null_maxima = scan.null_maxima(tested.columns, tested.field, model, 199, RandomStream{89});
+  return tested;
 }
 
-std::vector<NotFound> not_found(const DetectingArm& at) {
-  const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
-  return smallest_detectable(at.candidates, scan.scores(), at.arm.truth, at.arm.data.robot,
-                             {.null_maxima = at.null_maxima, .family_error = 0.05, .variance = 1.0, .poses = 60});
+std::vector<DetectableCandidate> detectable(const std::vector<Candidate>& candidates,
+                                            const std::vector<Score>& scores) {
+  std::vector<DetectableCandidate> all;
+  for (std::size_t i = 0; i < scores.size(); ++i) all.push_back({candidates[i], scores[i]});
+  return all;
+}
+
+std::vector<NotFound> not_found(const DetectingArm& tested) {
+  const Projection model = projection_of(tested.field);
+  const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+  return smallest_detectable(detectable(tested.candidates, scan.scores()), tested.arm.truth, tested.arm.data.robot,
+                             {.null_maxima = tested.null_maxima, .family_error = 0.05, .variance = 1.0, .poses = 60});
 }
 
 /// The share of trials in which the effect with this first coefficient is found at the family-wise level.
-double power(DetectingArm& at, std::size_t candidate, double size, RandomStream& stream) {
+double power(DetectingArm& tested, std::size_t candidate, double size, RandomStream& stream) {
   constexpr int kTrials = 60;
-  const double threshold = at.null_maxima[static_cast<std::size_t>(0.95 * 198)];
-  const Eigen::VectorXd signal = size * at.columns.dense(at.field, candidate).col(0);
+  const double threshold = tested.null_maxima[static_cast<std::size_t>(0.95 * 198)];
+  const Eigen::VectorXd signal = size * tested.columns.dense(tested.field, candidate).col(0);
   int found = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    renew_noise(at.field, stream);
-    at.field.residual += signal;
-    const Projection model = projection_of(at.field);
-    const Scan scan(at.columns, at.name_nats, at.field, model);
-    found += scan.scores()[candidate].fall_nats > threshold;
+    renew_noise(tested.field, stream);
+    tested.field.residual += signal;
+    const Projection model = projection_of(tested.field);
+    const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+    found += scan.scores()[candidate].gain_nats > threshold;
   }
   return static_cast<double>(found) / kTrials;
 }
 
 TEST(SmallestDetectable, IsFoundNineTimesInTenAndHalfOfItSeldom) {
   RandomStream stream{89, 1};
-  DetectingArm at = detecting_arm(stream);
+  DetectingArm tested = detecting_arm(stream);
   int checked = 0;
-  for (const NotFound& each : not_found(at)) {
+  for (const NotFound& each : not_found(tested)) {
     const bool one = each.effect.kind == "backlash" || each.effect.kind == "thermal_offset";
     if (!one || each.effect.joint % 2 == 0) continue;
     const auto same = std::ranges::find_if(
-        at.candidates, [&](const Candidate& candidate) { return candidate.effect.same_law_as(each.effect); });
-    const auto index = static_cast<std::size_t>(same - at.candidates.begin());
-    EXPECT_GE(power(at, index, each.smallest_detectable, stream), 0.75) << each.effect.kind << each.effect.joint;
-    EXPECT_LE(power(at, index, 0.5 * each.smallest_detectable, stream), 0.5) << each.effect.kind << each.effect.joint;
+        tested.candidates, [&](const Candidate& candidate) { return candidate.effect.same_law_as(each.effect); });
+    const auto index = static_cast<std::size_t>(same - tested.candidates.begin());
+    EXPECT_GE(power(tested, index, each.smallest_detectable, stream), 0.75) << each.effect.kind << each.effect.joint;
+    EXPECT_LE(power(tested, index, 0.5 * each.smallest_detectable, stream), 0.5)
+        << each.effect.kind << each.effect.joint;
     ++checked;
   }
   EXPECT_EQ(checked, 6);
@@ -81,20 +90,20 @@ TEST(SmallestDetectable, IsFoundNineTimesInTenAndHalfOfItSeldom) {
 
 TEST(SmallestDetectable, LiesBetweenThoseOfTheSettingsOfItsKindAndJoint) {
   RandomStream stream{89, 2};
-  const DetectingArm at = detecting_arm(stream);
-  const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
-  for (const NotFound& each : not_found(at)) {
+  const DetectingArm tested = detecting_arm(stream);
+  const Projection model = projection_of(tested.field);
+  const std::vector<Score> scores = Scan(tested.columns, tested.naming_cost_nats, tested.field, model).scores();
+  for (const NotFound& each : not_found(tested)) {
     if (each.effect.kind != "gear_harmonic") continue;
     EXPECT_EQ(each.unit, "rad");
     double least = 1e300, most = 0.0;
     for (std::size_t i = 0; i < scores.size(); ++i) {
-      const Effect& effect = at.candidates[i].effect;
+      const Effect& effect = tested.candidates[i].effect;
       if (effect.kind != "gear_harmonic" || effect.joint != each.effect.joint) continue;
       std::vector<Score> alone(scores.size());
       alone[i] = scores[i];
-      const auto only = smallest_detectable(at.candidates, alone, at.arm.truth, at.arm.data.robot,
-                                            {.null_maxima = at.null_maxima, .poses = 60});
+      const auto only = smallest_detectable(detectable(tested.candidates, alone), tested.arm.truth,
+                                            tested.arm.data.robot, {.null_maxima = tested.null_maxima, .poses = 60});
       ASSERT_EQ(only.size(), 1U);
       least = std::min(least, only.front().smallest_detectable);
       most = std::max(most, only.front().smallest_detectable);
@@ -104,46 +113,45 @@ TEST(SmallestDetectable, LiesBetweenThoseOfTheSettingsOfItsKindAndJoint) {
   }
 }
 
-TEST(SmallestDetectable, GrowsWithWhatIsTakenAndWithFewerPosesThatJudge) {
+TEST(SmallestDetectable, GrowsWithWhatIsAbsorbedAndWithFewerValidationPoses) {
   RandomStream stream{89, 4};
-  const DetectingArm at = detecting_arm(stream);
-  const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
-  Detection detection{.null_maxima = at.null_maxima, .poses = 60};
+  const DetectingArm tested = detecting_arm(stream);
+  const Projection model = projection_of(tested.field);
+  std::vector<DetectableCandidate> candidates =
+      detectable(tested.candidates, Scan(tested.columns, tested.naming_cost_nats, tested.field, model).scores());
+  const Detection detection{.null_maxima = tested.null_maxima, .poses = 60};
   const auto sizes = [&] {
-    return smallest_detectable(at.candidates, scores, at.arm.truth, at.arm.data.robot, detection);
+    return smallest_detectable(candidates, tested.arm.truth, tested.arm.data.robot, detection);
   };
   const std::vector<NotFound> plain = sizes();
-  detection.judged.assign(scores.size(), 0.2);
-  const std::vector<NotFound> judged = sizes();
-  for (const Score& score : scores) {
-    detection.taken.emplace_back();
-    for (const double square : score.visible) detection.taken.back().push_back({0.7 * square});
-  }
-  const std::vector<NotFound> taken = sizes();
-  ASSERT_EQ(plain.size(), judged.size());
-  ASSERT_EQ(plain.size(), taken.size());
+  for (DetectableCandidate& one : candidates) one.validation_ratio = 0.2;
+  const std::vector<NotFound> validated = sizes();
+  for (DetectableCandidate& one : candidates)
+    for (const double square : one.score.visible) one.absorbed.push_back({0.7 * square});
+  const std::vector<NotFound> absorbed = sizes();
+  ASSERT_EQ(plain.size(), validated.size());
+  ASSERT_EQ(plain.size(), absorbed.size());
   for (std::size_t i = 0; i < plain.size(); ++i) {
-    EXPECT_GT(judged[i].smallest_detectable, 1.05 * plain[i].smallest_detectable);
-    EXPECT_NEAR(taken[i].smallest_detectable, judged[i].smallest_detectable / std::sqrt(0.3),
-                0.03 * taken[i].smallest_detectable);
+    EXPECT_GT(validated[i].smallest_detectable, 1.05 * plain[i].smallest_detectable);
+    EXPECT_NEAR(absorbed[i].smallest_detectable, validated[i].smallest_detectable / std::sqrt(0.3),
+                0.03 * absorbed[i].smallest_detectable);
   }
 }
 
 TEST(SmallestDetectable, IsNotStatedForWhatTheModelHoldsOrCannotShow) {
   RandomStream stream{89, 3};
-  DetectingArm at = detecting_arm(stream);
-  at.arm.truth.effects = {{.kind = "backlash", .joint = 3, .settings = {}, .form = "approach"}};
+  DetectingArm tested = detecting_arm(stream);
+  tested.arm.truth.effects = {{.kind = "backlash", .joint = 3, .settings = {}, .form = "approach"}};
   bool compliance = false;
-  for (const NotFound& each : not_found(at)) {
+  for (const NotFound& each : not_found(tested)) {
     EXPECT_NE(each.effect.kind, "joint_offset");  // declared: nothing of it is visible
     EXPECT_FALSE(each.effect.kind == "backlash" && each.effect.joint == 3);
     EXPECT_GT(each.smallest_detectable, 0.0);
     compliance = compliance || (each.effect.kind == "compliance" && each.unit == "rad/Nm");
   }
   EXPECT_TRUE(compliance);
-  at.null_maxima.clear();
-  EXPECT_TRUE(not_found(at).empty());
+  tested.null_maxima.clear();
+  EXPECT_TRUE(not_found(tested).empty());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Whether gains and coefficients are sure: bootstrap bounds against what is known of them.
+// What validation poses, resampling and the size of its motion say of an effect, and how often they are right.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +7,8 @@
 #include <numeric>
 
 #include "diagnosis/judgement.hpp"
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
+#include "simulated_arm.hpp"
 
 namespace demecal {
 namespace {
@@ -38,7 +40,7 @@ TEST(WholeErrors, AreThoseOfPositionWhereNothingElseWasMeasured) {
   measure_anyhow(arm, stream, {.orientation = true}, 1);
   ResidualField field = field_of(arm, {});
   field.residual.tail(6).setConstant(2.0);
-  const std::vector<double> whole = whole_errors_mm(field, field.residual, kScales);
+  const std::vector<double> whole = pose_errors_mm(field, field.residual, kScales);
   const std::vector<double> position = tool_errors_mm(field, field.residual, kScales, arm.data);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(whole[i], position[i]);
   EXPECT_DOUBLE_EQ(whole[4], 1e3 * kScales[kPosition] * 2.0 * std::sqrt(3.0));
@@ -132,20 +134,20 @@ Noisy noisy_backlash(RandomStream& stream, double standard_errors) {
   return made;
 }
 
-Resampled resample(const Noisy& at, std::uint64_t seed) {
-  return resampled(at.field, at.trial, projection_of(at.field).left(), 400, RandomStream{87, seed});
+Resampled resample(const Noisy& tested, std::uint64_t seed) {
+  return resampled(tested.field, tested.trial, projection_of(tested.field).residual(), 400, RandomStream{87, seed});
 }
 
 TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
   RandomStream stream{87, 5};
   double width = 0.0;
-  constexpr int kArms = 10;
-  for (int i = 0; i < kArms; ++i) {
-    const Noisy at = noisy_backlash(stream, 8.0);
-    const auto [lower, upper] = resample(at, 6).interval[0];
-    EXPECT_LT(lower, at.trial.coefficients[0]);
-    EXPECT_GT(upper, at.trial.coefficients[0]);
-    width += (upper - lower) * at.trial.fitted.norm() / kArms;
+  constexpr int kJudgedArms = 10;
+  for (int i = 0; i < kJudgedArms; ++i) {
+    const Noisy tested = noisy_backlash(stream, 8.0);
+    const auto [lower, upper] = resample(tested, 6).interval[0];
+    EXPECT_LT(lower, tested.trial.coefficients[0]);
+    EXPECT_GT(upper, tested.trial.coefficients[0]);
+    width += (upper - lower) * tested.trial.fitted.norm() / kJudgedArms;
   }
   EXPECT_NEAR(width, 3.92, 0.6);
 }
@@ -153,18 +155,18 @@ TEST(Resampled, IntervalIsAboutFourStandardErrorsWide) {
 TEST(Resampled, SignIsStableWhereTheEffectIsThereAndNotWhereItIsNot) {
   RandomStream stream{87, 7};
   EXPECT_EQ(resample(noisy_backlash(stream, 8.0), 8).sign_stability, 1.0);
-  const Noisy at = noisy_backlash(stream, 0.0);
-  const double in_errors = std::abs(at.trial.coefficients[0]) * at.trial.fitted.norm();
+  const Noisy tested = noisy_backlash(stream, 0.0);
+  const double in_errors = std::abs(tested.trial.coefficients[0]) * tested.trial.fitted.norm();
   const double expected = 0.5 * std::erfc(-in_errors / std::sqrt(2.0));
   EXPECT_LT(in_errors, 1.6);
-  EXPECT_NEAR(resample(at, 9).sign_stability, expected, 0.1);
+  EXPECT_NEAR(resample(tested, 9).sign_stability, expected, 0.1);
 }
 
 TEST(Resampled, IsAFunctionOfItsSeed) {
   RandomStream stream{87, 10};
-  const Noisy at = noisy_backlash(stream, 2.0);
-  EXPECT_EQ(resample(at, 11).interval, resample(at, 11).interval);
-  EXPECT_NE(resample(at, 11).interval, resample(at, 12).interval);
+  const Noisy tested = noisy_backlash(stream, 2.0);
+  EXPECT_EQ(resample(tested, 11).interval, resample(tested, 11).interval);
+  EXPECT_NE(resample(tested, 11).interval, resample(tested, 12).interval);
 }
 
 TEST(LargestMotion, IsHowFarAnEffectStraysFromItsMean) {
@@ -186,6 +188,53 @@ TEST(LargestMotion, IsHowFarAnEffectStraysFromItsMean) {
   EXPECT_EQ(largest_motion(offset, robot, {}).turn_rad, 0.0);
   EXPECT_NEAR(farthest_motion(offset, robot, states).turn_rad, 0.1, 1e-15);
   EXPECT_NEAR(farthest_motion(backlash(2, 6e-4), robot, states).shift_m, 3e-4, 1e-15);
+}
+
+using ::testing::HasSubstr;
+
+/// Measured by a controller that reports joint 3 against the horizontal: its true angle is q3 + sign q2.
+DataSet reported_against_horizontal(double sign, std::uint64_t seed) {
+  Scenario scenario = perfect_scenario(parallel_arm(), seed);
+  DataSet data = simulate(scenario);
+  for (MeasuredPose& pose : data.poses) pose.joints[2] -= sign * pose.joints[1];
+  return data;
+}
+
+TEST(UnitCoupling, IsNamedAndNoBound) {
+  for (const double sign : {1.0, -1.0}) {
+    const DataSet data = reported_against_horizontal(sign, 71);
+    const LoopOutcome outcome = run_loop(data, kZeroed, quick()).outcome;
+    const auto coupling = std::ranges::find_if(
+        outcome.rounds, [](const Round& round) { return round.reason.starts_with("the data show a unit coupling"); });
+    ASSERT_NE(coupling, outcome.rounds.end()) << sign;
+    EXPECT_TRUE(coupling->implausible);
+    EXPECT_THAT(coupling->reason,
+                HasSubstr("joint 3 turns with joint 2, by " + std::string(sign > 0 ? "1.000" : "-1.000")));
+    EXPECT_THAT(coupling->reason, HasSubstr(sign > 0 ? "write its column as q3 + q2" : "write its column as q3 - q2"));
+    for (const NotFound& missing : outcome.not_found) {
+      const bool it = missing.effect.same_law_as(coupling->effect);
+      EXPECT_FALSE(it) << "what the data hold is not bounded";
+      if (missing.effect.kind != "coupling" || missing.unit != "1" || !missing.testable) continue;
+      EXPECT_LT(missing.smallest_detectable, 0.05);
+    }
+  }
+}
+
+TEST(Limits, AreTestableInGoodDataAndNotWhereTheErrorIsHuge) {
+  const DataSet good = simulate(perfect_scenario(parallel_arm(), 72));
+  const LoopOutcome clean = run_loop(good, kZeroed, quick()).outcome;
+  const auto tested = [](const LoopOutcome& outcome, const char* kind) {
+    return std::ranges::count_if(
+        outcome.not_found, [kind](const NotFound& missing) { return missing.effect.kind == kind && missing.testable; });
+  };
+  EXPECT_GE(tested(clean, "backlash"), 5);
+  DataSet bad = good;  // a different error at every pose, of a third of a metre
+  RandomStream random{72, 1};
+  for (MeasuredPose& pose : bad.poses)
+    *pose.position_m += 0.3 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  const LoopOutcome loud = run_loop(bad, kZeroed, quick()).outcome;
+  EXPECT_EQ(tested(loud, "backlash"), 0);
+  EXPECT_FALSE(loud.not_found.empty());
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void expect_sound(const LoopOutcome& outcome) {
   EXPECT_LE(outcome.p_structure_left, 1.0);
   for (const Round& round : outcome.rounds) {
     EXPECT_GT(round.p_family, 0.0);
-    EXPECT_TRUE(std::isfinite(round.fall_nats) && std::isfinite(round.confirmed));
+    EXPECT_TRUE(std::isfinite(round.gain_nats) && std::isfinite(round.confirmed));
     EXPECT_FALSE(round.diagnosis.empty() || round.formula.empty());
     EXPECT_EQ(round.reason.empty(), round.verdict == Verdict::added);
     for (const double value : round.effect.values) EXPECT_TRUE(std::isfinite(value));
@@ -41,7 +41,7 @@ void expect_sound(const LoopOutcome& outcome) {
 
 std::vector<std::string> unseen(const LoopOutcome& outcome) {
   std::vector<std::string> kinds;
-  for (const Unseen& each : outcome.unseen) kinds.push_back(each.kind);
+  for (const UntestableKind& each : outcome.untestable) kinds.push_back(each.kind);
   return kinds;
 }
 

@@ -60,15 +60,15 @@ TEST(ClosedLoop, HoldsEvolvedFormulasAgainstWhatTheSameSearchFindsByLuck) {
   LoopOptions options = quick();
   options.evolved = {{.effect = {.kind = "symbolic", .joint = 1}, .evolved = true}};
   options.evolved[0].effect.formula = formula;
-  options.evolved_luck = {0.0, 1.0, 2.0};
+  options.evolved_null_gains = {0.0, 1.0, 2.0};
   const LoopOutcome rare = run_loop(data, kZeroed, options).outcome;
   ASSERT_FALSE(rare.rounds.empty());
   EXPECT_EQ(rare.rounds[0].permutations, 3);
   EXPECT_DOUBLE_EQ(rare.rounds[0].p_family, 0.25);
   EXPECT_EQ(rare.rounds[0].verdict, Verdict::rejected);  // 3 searches cannot show 5 %
-  options.evolved_luck.assign(19, 1.0);
+  options.evolved_null_gains.assign(19, 1.0);
   EXPECT_EQ(run_loop(data, kZeroed, options).outcome.rounds[0].verdict, Verdict::added);
-  options.evolved_luck.back() = 1e6;
+  options.evolved_null_gains.back() = 1e6;
   EXPECT_DOUBLE_EQ(run_loop(data, kZeroed, options).outcome.rounds[0].p_family, 0.1);
 }
 

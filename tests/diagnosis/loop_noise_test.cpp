@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "diagnosis/final_fit.hpp"
+#include "diagnosis/loop.hpp"
 #include "kinematics/units.hpp"
 #include "simulated_arm.hpp"
 

@@ -35,7 +35,7 @@ TEST(ClosedLoop, NamesBacklash) {
   const Round& round = result.outcome.rounds.front();
   EXPECT_LE(round.p_family, 0.05);
   EXPECT_LE(round.p_structure, 0.05);
-  EXPECT_GT(round.fall_nats, 5.0);
+  EXPECT_GT(round.gain_nats, 5.0);
   EXPECT_GT(round.confirmed, 0.5);
   EXPECT_GT(round.confirmed_lower, 0.0);
   EXPECT_GE(round.sign_stability, 0.95);
@@ -136,7 +136,7 @@ TEST(ClosedLoop, StatesWhatItCouldHaveFound) {
     EXPECT_EQ(each.unit, "rad");
   }
   EXPECT_EQ(backlash, 6u);
-  EXPECT_THAT(outcome.unseen, IsEmpty());
+  EXPECT_THAT(outcome.untestable, IsEmpty());
   EXPECT_EQ(outcome.decoys.size(), 18u);
   for (const Decoy& decoy : outcome.decoys) EXPECT_FALSE(decoy.won);
   EXPECT_EQ(outcome.permutations, 99);
@@ -215,6 +215,25 @@ TEST(ClosedLoop, StopsWhereADecoyWins) {
   EXPECT_EQ(result.outcome.rounds.back().verdict, Verdict::rejected);
   options.decoys = false;
   EXPECT_NE(run_loop(data, kZeroed, options).outcome.stopped, StopReason::decoy);
+}
+
+TEST(Rivals, NeverHoldTheEffectItselfInAnotherForm) {
+  std::size_t rivals = 0;
+  for (const std::uint64_t seed : {81, 82}) {
+    Scenario scenario = perfect_scenario(parallel_arm(), seed);
+    scenario.compliance = {{1, 2e-5}};
+    scenario.couplings = {{.joint = 2, .from = 1, .per_rad = 4e-4}};
+    const DataSet data = simulate(scenario);
+    for (const Round& round : run_loop(data, kZeroed, quick()).outcome.rounds) {
+      rivals += round.rivals.size();
+      for (const Rival& rival : round.rivals) {
+        const Effect &own = round.effect, &other = rival.effect;
+        EXPECT_FALSE(own.kind == other.kind && own.joint == other.joint && own.settings == other.settings)
+            << own.kind << " of joint " << own.joint + 1;
+      }
+    }
+  }
+  EXPECT_GT(rivals, 0u);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "diagnosis/scan.hpp"
-#include "measured_arm.hpp"
+#include "residuals/measured_arm.hpp"
 
 namespace demecal {
 namespace {
@@ -20,7 +20,7 @@ struct ScannedArm {
   KnownArm arm;
   ResidualField field;
   EffectColumns columns;
-  std::vector<double> name_nats;
+  std::vector<double> naming_cost_nats;
 };
 
 ScannedArm scanned_arm(RandomStream& stream, int poses) {
@@ -35,13 +35,13 @@ ScannedArm scanned_arm(RandomStream& stream, int poses) {
       effects.push_back(std::move(effect));
   }
   made.columns = columns_of(effects, made.arm.data.robot, made.field);
-  for (std::size_t i = 0; i < effects.size(); ++i) made.name_nats.push_back(stream.real(0.0, 5.0));
+  for (std::size_t i = 0; i < effects.size(); ++i) made.naming_cost_nats.push_back(stream.real(0.0, 5.0));
   return made;
 }
 
 double best_fall(const Scan& scan) {
   double best = 0.0;
-  for (const Score& score : scan.scores()) best = std::max(best, score.fall_nats);
+  for (const Score& score : scan.scores()) best = std::max(best, score.gain_nats);
   return best;
 }
 
@@ -52,21 +52,22 @@ double p_value(const std::vector<double>& maxima, double fall) {
 
 TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
   RandomStream stream{84, 1};
-  const ScannedArm at = scanned_arm(stream, 40);
-  const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
-  ASSERT_EQ(scores.size(), at.name_nats.size());
+  const ScannedArm tested = scanned_arm(stream, 40);
+  const Projection model = projection_of(tested.field);
+  const std::vector<Score> scores = Scan(tested.columns, tested.naming_cost_nats, tested.field, model).scores();
+  ASSERT_EQ(scores.size(), tested.naming_cost_nats.size());
   int new_ones = 0;
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    const RowMatrix dense = at.columns.dense(at.field, i);
+    const RowMatrix dense = tested.columns.dense(tested.field, i);
     const Projection::Trial trial = model.trial(dense, dense);
     EXPECT_EQ(scores[i].rank, trial.rank);
     EXPECT_NEAR(scores[i].drop, trial.drop, 1e-6 * (1 + trial.drop));
-    const double left = model.left().squaredNorm();
-    const double nats = trial.rank == 0 ? 0.0
-                                        : 0.5 * 120 * std::log(left / (left - trial.drop)) -
-                                              0.5 * static_cast<double>(trial.rank) * std::log(40.0) - at.name_nats[i];
-    EXPECT_NEAR(scores[i].fall_nats, nats, 1e-6 * (1 + std::abs(nats)));
+    const double left = model.residual().squaredNorm();
+    const double nats = trial.rank == 0
+                            ? 0.0
+                            : 0.5 * 120 * std::log(left / (left - trial.drop)) -
+                                  0.5 * static_cast<double>(trial.rank) * std::log(40.0) - tested.naming_cost_nats[i];
+    EXPECT_NEAR(scores[i].gain_nats, nats, 1e-6 * (1 + std::abs(nats)));
     new_ones += trial.rank > 0;
   }
   EXPECT_GT(new_ones, 30);
@@ -75,11 +76,11 @@ TEST(Scan, ScoresAreThoseOfRefittingWithEveryCandidate) {
 
 TEST(Scan, VisibleIsTheSquaredLengthOfEachColumnBeyondTheModel) {
   RandomStream stream{84, 2};
-  const ScannedArm at = scanned_arm(stream, 40);
-  const Projection model = projection_of(at.field);
-  const std::vector<Score> scores = Scan(at.columns, at.name_nats, at.field, model).scores();
+  const ScannedArm tested = scanned_arm(stream, 40);
+  const Projection model = projection_of(tested.field);
+  const std::vector<Score> scores = Scan(tested.columns, tested.naming_cost_nats, tested.field, model).scores();
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    const RowMatrix dense = at.columns.dense(at.field, i);
+    const RowMatrix dense = tested.columns.dense(tested.field, i);
     if (scores[i].rank == 0) continue;
     const Eigen::VectorXd squares = model.trial(dense, dense).fitted.colwise().squaredNorm().transpose();
     EXPECT_LT((scores[i].visible - squares).norm(), 1e-6 * dense.squaredNorm());
@@ -88,19 +89,19 @@ TEST(Scan, VisibleIsTheSquaredLengthOfEachColumnBeyondTheModel) {
 
 TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
   RandomStream stream{84, 3};
-  const ScannedArm at = scanned_arm(stream, 40);
-  Projection model = projection_of(at.field);
-  Scan scan(at.columns, at.name_nats, at.field, model);
+  const ScannedArm tested = scanned_arm(stream, 40);
+  Projection model = projection_of(tested.field);
+  Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
   for (const std::size_t added : {8, 20, 31}) {
-    const RowMatrix dense = at.columns.dense(at.field, added);
+    const RowMatrix dense = tested.columns.dense(tested.field, added);
     model.add(model.trial(dense, dense));
-    scan.follow(at.columns, at.field, model);
+    scan.follow(tested.columns, tested.field, model);
     const std::vector<Score> followed = scan.scores();
-    const std::vector<Score> anew = Scan(at.columns, at.name_nats, at.field, model).scores();
+    const std::vector<Score> anew = Scan(tested.columns, tested.naming_cost_nats, tested.field, model).scores();
     for (std::size_t i = 0; i < anew.size(); ++i) {
       EXPECT_EQ(followed[i].rank, anew[i].rank);
       EXPECT_NEAR(followed[i].drop, anew[i].drop, 1e-8 * (1 + anew[i].drop));
-      EXPECT_NEAR(followed[i].fall_nats, anew[i].fall_nats, 1e-8 * (1 + std::abs(anew[i].fall_nats)));
+      EXPECT_NEAR(followed[i].gain_nats, anew[i].gain_nats, 1e-8 * (1 + std::abs(anew[i].gain_nats)));
     }
     EXPECT_EQ(followed[added].rank, 0);
   }
@@ -108,16 +109,16 @@ TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
 
 TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
   RandomStream stream{84, 4};
-  const ScannedArm at = scanned_arm(stream, 40);
-  const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
-  const RowMatrix named = at.columns.dense(at.field, 12);
+  const ScannedArm tested = scanned_arm(stream, 40);
+  const Projection model = projection_of(tested.field);
+  const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+  const RowMatrix named = tested.columns.dense(tested.field, 12);
   const RowMatrix direction = model.trial(named, named).fitted.leftCols(1);
   const std::vector<double> cosines =
-      scan.cosines(at.columns.transposed_times(at.field, direction), direction.squaredNorm());
+      scan.cosines(tested.columns.transposed_times(tested.field, direction), direction.squaredNorm());
   EXPECT_NEAR(cosines[12], 1.0, 1e-6);
   for (std::size_t i = 0; i < cosines.size(); ++i) {
-    const RowMatrix dense = at.columns.dense(at.field, i);
+    const RowMatrix dense = tested.columns.dense(tested.field, i);
     const Projection::Trial trial = model.trial(dense, dense);
     if (trial.rank == 0) continue;
     const RowMatrix left = trial.fitted * trial.to_basis;
@@ -131,16 +132,16 @@ struct PValues {
   int rare = 0;
   double mean = 0.0;
 };
-PValues p_values_of_noise(ScannedArm& at, RandomStream& stream, const std::function<Projection()>& fitted,
+PValues p_values_of_noise(ScannedArm& tested, RandomStream& stream, const std::function<Projection()>& fitted,
                           std::uint64_t purpose) {
   constexpr int kDraws = 200;
   PValues found;
   for (int draw = 0; draw < kDraws; ++draw) {
-    renew_noise(at.field, stream);
+    renew_noise(tested.field, stream);
     const Projection model = fitted();
-    const Scan scan(at.columns, at.name_nats, at.field, model);
-    const std::vector<double> maxima =
-        scan.null_maxima(at.columns, at.field, model, 99, RandomStream{84, purpose, static_cast<std::uint64_t>(draw)});
+    const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+    const std::vector<double> maxima = scan.null_maxima(tested.columns, tested.field, model, 99,
+                                                        RandomStream{84, purpose, static_cast<std::uint64_t>(draw)});
     const double p = p_value(maxima, best_fall(scan));
     found.rare += p <= 0.05;
     found.mean += p / kDraws;
@@ -150,9 +151,9 @@ PValues p_values_of_noise(ScannedArm& at, RandomStream& stream, const std::funct
 
 TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
   RandomStream stream{84, 5};
-  ScannedArm at = scanned_arm(stream, 40);
+  ScannedArm tested = scanned_arm(stream, 40);
   const PValues found = p_values_of_noise(
-      at, stream, [&] { return projection_of(at.field); }, 6);
+      tested, stream, [&] { return projection_of(tested.field); }, 6);
   EXPECT_GE(found.rare, 2);
   EXPECT_LE(found.rare, 22);
   EXPECT_NEAR(found.mean, 0.5, 0.1);
@@ -160,31 +161,31 @@ TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
 
 TEST(Scan, NumbersBelievedToBeLargerThanTheyAreMakeNothingRare) {
   RandomStream stream{84, 8};
-  ScannedArm at = scanned_arm(stream, 40);
-  const Eigen::Index declared = at.field.declared.cols(), rows = at.field.rows(), more = rows;
+  ScannedArm tested = scanned_arm(stream, 40);
+  const Eigen::Index declared = tested.field.declared.cols(), rows = tested.field.rows(), more = rows;
   RowMatrix random_columns(rows, more);
   for (double& value : random_columns.reshaped()) value = stream.normal() / std::sqrt(static_cast<double>(rows));
-  ModelColumns columns{beside(at.field.declared, random_columns), {}, {}, {}};
-  columns.judging = columns.fitted;
+  ModelColumns columns{beside(tested.field.declared, random_columns), {}, {}, {}};
+  columns.validation = columns.fitted;
   columns.offset = Eigen::VectorXd::Zero(declared + more);
   columns.precision = Eigen::VectorXd::Zero(declared + more);
   columns.precision.tail(more).setConstant(0.7);  // the rows tell about as much
   const PValues found = p_values_of_noise(
-      at, stream, [&] { return Projection(columns, at.field.residual, at.field.residual); }, 9);
+      tested, stream, [&] { return Projection(columns, tested.field.residual, tested.field.residual); }, 9);
   EXPECT_LE(found.rare, 22);
   EXPECT_NEAR(found.mean, 0.5, 0.1);
 }
 
 TEST(Scan, NullIsAFunctionOfItsSeedAndAscends) {
   RandomStream stream{84, 7};
-  const ScannedArm at = scanned_arm(stream, 20);
-  const Projection model = projection_of(at.field);
-  const Scan scan(at.columns, at.name_nats, at.field, model);
-  const std::vector<double> maxima = scan.null_maxima(at.columns, at.field, model, 70, RandomStream{1});
+  const ScannedArm tested = scanned_arm(stream, 20);
+  const Projection model = projection_of(tested.field);
+  const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+  const std::vector<double> maxima = scan.null_maxima(tested.columns, tested.field, model, 70, RandomStream{1});
   EXPECT_EQ(maxima.size(), 70u);
   EXPECT_TRUE(std::ranges::is_sorted(maxima));
-  EXPECT_EQ(maxima, scan.null_maxima(at.columns, at.field, model, 70, RandomStream{1}));
-  EXPECT_NE(maxima, scan.null_maxima(at.columns, at.field, model, 70, RandomStream{2}));
+  EXPECT_EQ(maxima, scan.null_maxima(tested.columns, tested.field, model, 70, RandomStream{1}));
+  EXPECT_NE(maxima, scan.null_maxima(tested.columns, tested.field, model, 70, RandomStream{2}));
 }
 
 }  // namespace

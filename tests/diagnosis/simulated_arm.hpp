@@ -12,8 +12,8 @@ namespace demecal {
 
 inline constexpr double kNoise_m = 5e-5;  ///< per axis
 
-/// An arm with weight and nothing wrong with it, measured at 60 poses, judged at 40, and at 40 more that no fit sees.
-/// Everything is recorded and varies.
+/// An arm with weight and nothing wrong with it, measured at 60 poses, validated at 40, and at 40 more that no fit
+/// sees. Everything is recorded and varies.
 inline Scenario perfect_scenario(const Chain& chain, std::uint64_t seed) {
   Scenario scenario;
   scenario.name = "simulated";

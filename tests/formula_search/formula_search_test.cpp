@@ -11,8 +11,8 @@
 #include "calibration/island_evolution.hpp"
 #include "closed_calibration/closed_calibration.hpp"
 #include "closed_calibration/closing.hpp"
-#include "diagnosis/effect_columns.hpp"
 #include "formula_search/misfit.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal {
 namespace {
@@ -46,7 +46,7 @@ struct Beginning {
 
   Job job = job_with_corrections();
   DataSet data;
-  DiagnosisData of;
+  DiagnosisProblem of;
   DiagnosedModel model;
 };
 
@@ -156,9 +156,9 @@ TEST(FormulaSearch, FindsNothingWhereEvolutionIsCutOff) {
 
 TEST(FormulaMisfit, AgreesWithTheProjectionOffTheModel) {
   const Beginning beginning(formula_arm(kTruth, kPoses, 3));
-  const Linearised at = linearise(beginning.of, beginning.model);
-  const FormulaTable table = formula_tables(beginning.of, at, at.projection.left())[2];
-  FormulaMisfit misfit(table.table.variables, at, table.joint, at.projection.left());
+  const Linearization at = linearize(beginning.of, beginning.model);
+  const FormulaTable table = formula_tables(beginning.of, at, at.projection.residual())[2];
+  FormulaMisfit misfit(table.table.variables, at, table.joint, at.projection.residual());
   for (const char* text : {"q1 * SIN(q4)", "COS(q3)", "q1 * SIN(q4) * COS(q2)", "SIN(q5 + q6) - 0.2"}) {
     Effect effect{.kind = "symbolic", .joint = 2};
     effect.formula = parse(text, symbolic_variables(puma()));
@@ -166,19 +166,19 @@ TEST(FormulaMisfit, AgreesWithTheProjectionOffTheModel) {
     columns.append(effect, beginning.data.robot, at.fitted.states);
     columns.pack();
     const Projection::Trial trial =
-        at.projection.trial(columns.dense(at.fitted, 0), RowMatrix::Zero(at.judging.rows(), 1));
-    const double share = (at.projection.left().squaredNorm() - trial.drop) / at.projection.left().squaredNorm();
+        at.projection.trial(columns.dense(at.fitted, 0), RowMatrix::Zero(at.validation.rows(), 1));
+    const double share = (at.projection.residual().squaredNorm() - trial.drop) / at.projection.residual().squaredNorm();
     EXPECT_NEAR(misfit.gain_nats(effect.formula), -0.5 * static_cast<double>(at.fitted.rows()) * std::log(share), 1e-6)
         << text;
-    const Eigen::VectorXd explained = at.projection.left() - misfit.residual(effect.formula);
+    const Eigen::VectorXd explained = at.projection.residual() - misfit.residual(effect.formula);
     EXPECT_LT((explained - trial.fitted * trial.coefficients).norm(), 1e-6 * explained.norm()) << text;
   }
 }
 
 TEST(FormulaTables, HoldOnlyWhatThePosesKnow) {
   const Beginning beginning(formula_arm("", kPoses, 1));
-  const Linearised at = linearise(beginning.of, beginning.model);
-  const std::vector<FormulaTable> tables = formula_tables(beginning.of, at, at.projection.left());
+  const Linearization at = linearize(beginning.of, beginning.model);
+  const std::vector<FormulaTable> tables = formula_tables(beginning.of, at, at.projection.residual());
   ASSERT_EQ(tables.size(), 6U);
   for (const FormulaTable& table : tables) {  // no masses, no approaches, no temperature
     EXPECT_EQ(table.variables, (std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5}));

@@ -210,10 +210,10 @@ TEST(LoopPage, SaysHowMeasurementsScatterAndWhatControlsMean) {
 TEST(LoopWords, HaveASentenceForEveryReason) {
   for (const StopReason reason :
        {StopReason::no_structure, StopReason::no_gain, StopReason::max_effects, StopReason::decoy}) {
-    EXPECT_THAT(stop_sentence(word_of(reason)), Not(HasSubstr(word_of(reason))));
-    EXPECT_THAT(stop_sentence(word_of(reason)), HasSubstr("The loop stopped "));
+    EXPECT_THAT(stop_sentence(to_string(reason)), Not(HasSubstr(to_string(reason))));
+    EXPECT_THAT(stop_sentence(to_string(reason)), HasSubstr("The loop stopped "));
   }
-  EXPECT_EQ(stop_sentence(word_of(StopReason::not_run)), "");
+  EXPECT_EQ(stop_sentence(to_string(StopReason::not_run)), "");
   EXPECT_EQ(statistics_sentences(Report{}), "");
 }
 

@@ -94,7 +94,7 @@ std::set<std::string> reachable_libraries(const Map& map, const Room& start) {
 }
 
 bool is_pure(const std::string& room) {
-  return room != "config" && room != "yaml" && room != "transport" && room != "dds";
+  return room != "config" && room != "yaml" && room != "transport" && room != "dds" && room != "library";
 }
 
 }  // namespace demecal::map

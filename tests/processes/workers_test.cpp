@@ -124,7 +124,8 @@ TEST_F(Workers, WhatIsWrongIsSaidWithItsExitCode) {
 }
 
 TEST_F(Workers, TheSystemdUnitStartsAWorkerWithTheOptionsOfItsFile) {
-  std::ifstream file(kRoot + "/configs/dds/demecal-worker.service");
+  const std::string unit_file = std::string(DEMECAL_BINARY_DIR) + "/demecal-worker.service";
+  std::ifstream file(unit_file);
   std::stringstream unit;
   unit << file.rdbuf();
   const std::string text = unit.str();
@@ -132,12 +133,12 @@ TEST_F(Workers, TheSystemdUnitStartsAWorkerWithTheOptionsOfItsFile) {
   ASSERT_TRUE(std::regex_search(text, line, std::regex("ExecStart=/bin/sh -c '(.*)'\n")));
   // What systemd makes of it, and where the program is in this build.
   std::string command = std::regex_replace(line[1].str(), std::regex("\\$\\$"), "$$");
-  command = std::regex_replace(command, std::regex("/usr/local/bin"), kPrograms);
+  command = std::regex_replace(command, std::regex("[^ ]*/demecal-worker"), kPrograms + "/demecal-worker");
   const auto calibration = coordinator();
   const Program service("/bin/sh", {"-c", "SLOTS=5 OPTIONS='--domain " + kDomain + "'; " + command});
   EXPECT_TRUE(calibration->wait_for_err("joined with 5 slots"));
   if (shell("command -v systemd-analyze").code != 0) GTEST_SKIP() << "there is no systemd here to ask about the unit";
-  const Ended verified = shell("systemd-analyze verify " + kRoot + "/configs/dds/demecal-worker.service");
+  const Ended verified = shell("systemd-analyze verify --man=no " + unit_file);
   EXPECT_EQ(verified.code, 0) << verified.err;
 }
 

@@ -27,7 +27,7 @@ TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
     const Round& round = loop.rounds[i];
     EXPECT_EQ(rounds[i].at("round"), round.number);
     EXPECT_EQ(rounds[i].at("group"), round.group);
-    EXPECT_EQ(rounds[i].at("verdict"), word_of(round.verdict));
+    EXPECT_EQ(rounds[i].at("verdict"), to_string(round.verdict));
     EXPECT_EQ(rounds[i].at("effect").at("kind"), round.effect.kind);
     EXPECT_EQ(rounds[i].at("effect").at("joint"), round.effect.joint + 1);
     EXPECT_EQ(rounds[i].at("diagnosis"), round.diagnosis);
@@ -35,7 +35,7 @@ TEST(LoopJson, HasEveryRoundWithThePromisedKeys) {
     EXPECT_EQ(rounds[i].at("reason"), round.reason);
     EXPECT_EQ(rounds[i].at("p_structure"), round.p_structure);
     EXPECT_EQ(rounds[i].at("p_family"), round.p_family);
-    EXPECT_EQ(rounds[i].at("fall_nats"), round.fall_nats);
+    EXPECT_EQ(rounds[i].at("fall_nats"), round.gain_nats);
     EXPECT_EQ(rounds[i].at("confirmed"), round.confirmed);
     EXPECT_EQ(rounds[i].at("confirmed_lower"), round.confirmed_lower);
     EXPECT_EQ(rounds[i].at("sign_stability"), round.sign_stability);
@@ -75,7 +75,7 @@ TEST(LoopJson, HasWhatWasNotFoundNotSeenAndNotTrue) {
   }
   EXPECT_TRUE(json_report["not_found"].back().at("joint").is_null()) << "of the whole arm";
   EXPECT_EQ(json_report["not_found"][0].at("joint"), 1);
-  ASSERT_EQ(json_report["unseen"].size(), loop.unseen.size());
+  ASSERT_EQ(json_report["unseen"].size(), loop.untestable.size());
   EXPECT_EQ(json_report["unseen"][2], Parsed({{"kind", "drift"}, {"reason", "no time column"}}));
   ASSERT_EQ(json_report["decoys"].size(), loop.decoys.size());
   EXPECT_EQ(json_report["decoys"][0]["best_fall_nats"], 1.25);
@@ -108,7 +108,7 @@ TEST(LoopJson, WritesNullForNumbersThatDoNotExist) {
   round.p_family = round.confirmed_lower = round.validation_after_mm = round.rivals[0].cosine = none;
   round.interval[0] = {none, std::numeric_limits<double>::infinity()};
   loop.not_found[0].smallest_detectable = std::numeric_limits<double>::infinity();
-  loop.decoys[0].best_fall_nats = none;
+  loop.decoys[0].best_gain_nats = none;
   loop.explained_share = none;
   const Parsed json_report = written(loop);
   for (const char* const key : {"p_family", "confirmed_lower", "validation_after_mm"}) {

@@ -54,7 +54,7 @@ inline Round made_up_round(const LoopOutcome& loop, const Effect& effect, double
   round.formula = "dq" + std::to_string(effect.joint + 1) + " = formula " + std::to_string(round.number);
   round.p_structure = 0.001;
   round.p_family = 0.002;
-  round.fall_nats = 31.7 / round.number;
+  round.gain_nats = 31.7 / round.number;
   round.confirmed = 0.97;
   round.confirmed_lower = 0.61;
   round.sign_stability = 0.995;
@@ -82,9 +82,9 @@ inline void add_limits(LoopOutcome& loop) {
         {{.kind = "backlash", .joint = joint, .settings = {}, .form = "approach"}, 3.9e-5 * (joint + 1), "rad"});
   }
   loop.not_found.push_back({{.kind = "sensor_scale", .joint = -1, .settings = {}}, 2.5e-5, "1"});
-  loop.unseen = {{"thermal_offset", "no temperature column"},
-                 {"thermal_length", "no temperature column"},
-                 {"drift", "no time column"}};
+  loop.untestable = {{"thermal_offset", "no temperature column"},
+                     {"thermal_length", "no temperature column"},
+                     {"drift", "no time column"}};
   loop.decoys = {{"backlash of joint 2 by shuffled approach signs", 1.25, false},
                  {"a gear ratio no gear has", -0.5, false}};
 }
@@ -98,8 +98,8 @@ inline LoopOutcome made_up_loop(int harmonics) {
   Round first = made_up_round(loop, made_up_backlash(), 0.771, 0.642);
   Effect hysteresis{.kind = "hysteresis", .joint = 1, .settings = {}};
   first.rivals = {{hysteresis, 0.931, 3.2}};
-  first.further =
-      FurtherMeasurement{"14 poses from both sides, with and without a payload, would tell the two apart.", 14};
+  first.next_measurement =
+      NextMeasurement{"14 poses from both sides, with and without a payload, would tell the two apart.", 14};
   loop.rounds.push_back(first);
   add_harmonics(loop, harmonics, random);
   Effect gain{.kind = "gain", .joint = 3, .settings = {}};

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "diagnosis/structure.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/structure.hpp"
 
 namespace demecal {
 namespace {

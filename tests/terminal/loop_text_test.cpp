@@ -179,9 +179,9 @@ TEST(LoopTerminal, IsAtMostAHundredColumnsWide) {
       round.diagnosis = name();
       round.reason = name();
       round.effect.form = name();
-      round.further = FurtherMeasurement{name(), 100};
+      round.next_measurement = NextMeasurement{name(), 100};
     }
-    for (Unseen& unseen : loop.unseen) unseen.reason = name();
+    for (UntestableKind& each : loop.untestable) each.reason = name();
     for (Decoy& decoy : loop.decoys) decoy.name = name();
     for (NotFound& missing : loop.not_found) missing.unit = name();
     for (const std::string& line : screen_lines(shown(loop))) EXPECT_LE(letters_of(line), kTerminalColumns) << line;

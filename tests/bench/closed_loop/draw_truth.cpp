@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/scan.hpp"
 #include "truth.hpp"
 
 namespace demecal::bench {
@@ -136,6 +137,22 @@ std::vector<Effect> draw_truths(const std::string& kind, const std::vector<NotFo
     if (auto truth = draw_truth(one, detectable, robot, states, just, random)) truths.push_back(std::move(*truth));
   }
   return truths;
+}
+
+DetectionLimit::DetectionLimit(const DiagnosisProblem& problem, const DiagnosedModel& model)
+    : problem_(problem), linearization_(linearize(problem, model)) {}
+
+double DetectionLimit::detectable(const NotFound& measure, const Effect& effect) const {
+  EffectColumns columns;
+  columns.append(measure.effect, problem_.data.robot, linearization_.fitted.states);
+  columns.append(effect, problem_.data.robot, linearization_.fitted.states);
+  columns.pack();
+  const Scan scan(columns, {0.0, 0.0}, linearization_.fitted, linearization_.projection);
+  const double needed = measure.smallest_detectable * std::sqrt(scan.scores()[0].visible.mean());
+  const auto values = Eigen::Map<const Eigen::VectorXd>(effect.values.data(), std::ssize(effect.values));
+  const Projection::Trial trial = linearization_.projection.trial(columns.dense(linearization_.fitted, 1) * values,
+                                                                  RowMatrix::Zero(linearization_.validation.rows(), 1));
+  return needed / trial.fitted.norm();
 }
 
 }  // namespace demecal::bench

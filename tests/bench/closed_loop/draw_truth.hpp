@@ -8,8 +8,26 @@
 #include "case_plan.hpp"
 #include "diagnosis/outcome.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal::bench {
+
+/// How small an effect the poses of a case could show: the loop's own word for it, applied to the effect's own
+/// direction.
+class DetectionLimit {
+ public:
+  /// Of the model that the loop ended with on the poses of `problem`; both must outlive it.
+  DetectionLimit(const DiagnosisProblem& problem, const DiagnosedModel& model);
+
+  /// By how much `effect` (with coefficients) must be multiplied to be just detectable. `measure` says how long the
+  /// coefficients of its kind must be, and so how much of the residual must be explained; the effect explains it where
+  /// it explains as much. Infinite where the model explains the effect wholly.
+  double detectable(const NotFound& measure, const Effect& effect) const;
+
+ private:
+  const DiagnosisProblem& problem_;
+  Linearization linearization_;
+};
 
 /// By how much an effect must be multiplied to be just detectable, where that kind and joint are detectable as named.
 using JustDetectable = std::function<double(const NotFound&, const Effect&)>;

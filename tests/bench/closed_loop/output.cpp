@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bound.hpp"
+#include "summary.hpp"
 
 namespace demecal::bench {
 namespace {
@@ -40,9 +40,9 @@ Json round_json(const Round& round, const Robot& robot) {
     rivals.push_back(
         {{"effect", words(rival.effect, robot)}, {"cosine", rival.cosine}, {"nats_behind", rival.nats_behind}});
   }
-  return {{"verdict", word_of(round.verdict)},
+  return {{"verdict", to_string(round.verdict)},
           {"effect", words(round.effect, robot)},
-          {"fall_nats", round.fall_nats},
+          {"fall_nats", round.gain_nats},
           {"p_family", round.p_family},
           {"reason", round.reason},
           {"rivals", rivals}};

@@ -3,12 +3,10 @@
 #include <chrono>
 
 #include "closed_calibration/calibrated_model.hpp"
-#include "diagnosis/final_fit.hpp"
 #include "diagnosis/loop.hpp"
 #include "draw_truth.hpp"
 #include "fitting/fit.hpp"
 #include "scene.hpp"
-#include "sight.hpp"
 #include "truth.hpp"
 
 namespace demecal::bench {
@@ -62,13 +60,13 @@ LoopFigures run_on(const Scenario& scenario, const CasePlan& plan, const std::ve
 
 /// Effects for a case by what the loop says of its clean twin.
 std::vector<Effect> truths_for(const CasePlan& plan, const DataSet& clean, const LoopResult& result) {
-  const DiagnosisData of{clean, row_of(plan.kind).declared, poses_of(clean, PoseSet::calibration),
-                         poses_of(clean, PoseSet::validation)};
-  const Sight sight(of, result.model);
+  const DiagnosisProblem problem{clean, row_of(plan.kind).declared, poses_of(clean, PoseSet::calibration),
+                                 poses_of(clean, PoseSet::validation)};
+  const DetectionLimit limit(problem, result.model);
   RandomStream random{plan.seed(), kTruth};
   return draw_truths(
       plan.kind, result.outcome.not_found, clean.robot, states_of(clean, PoseSet::calibration),
-      [&](const NotFound& measure, const Effect& effect) { return sight.detectable(measure, effect); }, random);
+      [&](const NotFound& measure, const Effect& effect) { return limit.detectable(measure, effect); }, random);
 }
 
 }  // namespace

@@ -1,10 +1,21 @@
 #include "summary.hpp"
 
+#include <fmt/ostream.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace demecal::bench {
+namespace {
+
+std::string bound_text(const Bound& bound) {
+  if (bound.at_least && bound.at_most) return fmt::format("{:.2f} .. {:.2f}", *bound.at_least, *bound.at_most);
+  if (bound.at_least) return fmt::format(">= {:.2f}", *bound.at_least);
+  return bound.at_most ? fmt::format("<= {:.2f}", *bound.at_most) : "";
+}
+
+}  // namespace
 
 void Summary::take(const LoopFigures& figures, const LoopFigures& clean) {
   const Score& score = figures.score;
@@ -66,6 +77,15 @@ double quantile(std::vector<double> values, double share_below) {
   const auto below = static_cast<std::size_t>(rank);
   const std::size_t above = std::min(below + 1, values.size() - 1);
   return std::lerp(values[below], values[above], rank - static_cast<double>(below));
+}
+
+bool Bound::kept_by(double value) const {
+  return (!at_least || value >= *at_least) && (!at_most || value <= *at_most);
+}
+
+void write_bound(std::ostream& out, const std::string& name, double value, const Bound& bound) {
+  const char* verdict = !bound.holds() ? "" : bound.kept_by(value) ? "kept" : "MISSED";
+  fmt::print(out, "{:<64}{:>9.3f}   {:<13}{}\n", name, value, bound_text(bound), verdict);
 }
 
 }  // namespace demecal::bench

@@ -1,6 +1,8 @@
-// All cases of a kind in one row, and all rows in the figures that the loop is held to.
+// All cases of a kind in one row, all rows in the figures that the loop is held to, and the bounds of figures.
 #pragma once
 
+#include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,5 +37,18 @@ double share(int part, int whole);
 
 /// Interpolated linearly between order statistics, as the report's 95th percentile is; NaN of nothing.
 double quantile(std::vector<double> values, double share);
+
+/// The values that a figure may have; none of both: any, it is there to be read.
+struct Bound {
+  std::optional<double> at_least{}, at_most{};
+
+  /// Whether the figure is held to anything.
+  bool holds() const { return at_least || at_most; }
+  /// NaN, the figure of no case, keeps no bound.
+  bool kept_by(double value) const;
+};
+
+/// "name  0.033   <= 0.05   kept"
+void write_bound(std::ostream& out, const std::string& name, double value, const Bound& bound);
 
 }  // namespace demecal::bench

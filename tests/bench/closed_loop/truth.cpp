@@ -25,17 +25,17 @@ int other_joint(const Effect& effect) {
 
 using Values = std::function<double(std::string_view)>;
 
-void inject_geometry(Scenario& scenario, int joint, const Values& of) {
-  const std::vector<std::pair<LinkParameter, double>> errors{{LinkParameter::d, of("d_m")},
-                                                             {LinkParameter::a, of("a_m")},
-                                                             {LinkParameter::alpha, of("alpha_rad")},
-                                                             {LinkParameter::beta, of("beta_rad")}};
+void inject_geometry(Scenario& scenario, int joint, const Values& coefficient) {
+  const std::vector<std::pair<LinkParameter, double>> errors{{LinkParameter::d, coefficient("d_m")},
+                                                             {LinkParameter::a, coefficient("a_m")},
+                                                             {LinkParameter::alpha, coefficient("alpha_rad")},
+                                                             {LinkParameter::beta, coefficient("beta_rad")}};
   for (const auto& [parameter, value] : errors) {
     if (value != 0.0) scenario.geometry.push_back({joint, parameter, value});
   }
 }
 
-bool inject_gears(Scenario& scenario, const Effect& truth, const Values& of) {
+bool inject_gears(Scenario& scenario, const Effect& truth, const Values& coefficient) {
   const int joint = truth.joint;
   if (truth.kind == "joint_offset") {
     scenario.joint_errors.push_back({joint, constant_tree(truth.value(0))});
@@ -43,16 +43,18 @@ bool inject_gears(Scenario& scenario, const Effect& truth, const Values& of) {
     scenario.gains.push_back({joint, truth.value(0)});
   } else if (truth.kind == "eccentricity") {
     scenario.eccentricities.push_back(
-        {joint, static_cast<int>(truth.setting("order")), of("cosine_rad"), of("sine_rad")});
+        {joint, static_cast<int>(truth.setting("order")), coefficient("cosine_rad"), coefficient("sine_rad")});
   } else if (truth.kind == "gear_harmonic") {
-    scenario.gear_harmonics.push_back({joint, truth.setting("ratio"), of("cosine_rad"), of("sine_rad")});
+    scenario.gear_harmonics.push_back(
+        {joint, truth.setting("ratio"), coefficient("cosine_rad"), coefficient("sine_rad")});
   } else if (truth.kind == "coupling") {
-    scenario.couplings.push_back({joint, other_joint(truth) - 1, of("share"), of("cosine_rad"), of("sine_rad")});
+    scenario.couplings.push_back(
+        {joint, other_joint(truth) - 1, coefficient("share"), coefficient("cosine_rad"), coefficient("sine_rad")});
   } else if (truth.kind == "backlash") {
-    scenario.backlash.push_back({joint, of("width_rad")});
+    scenario.backlash.push_back({joint, coefficient("width_rad")});
   } else if (truth.kind == "hysteresis") {
-    const double friction = of("friction_rad");
-    scenario.hysteresis.push_back({joint, friction, of("friction_rad_per_nm") / friction});
+    const double friction = coefficient("friction_rad");
+    scenario.hysteresis.push_back({joint, friction, coefficient("friction_rad_per_nm") / friction});
   } else if (truth.kind == "symbolic") {
     scenario.symbolic.push_back({joint, apply(Primitive::multiply, constant_tree(truth.value(0)), truth.formula)});
   } else {
@@ -61,37 +63,37 @@ bool inject_gears(Scenario& scenario, const Effect& truth, const Values& of) {
   return true;
 }
 
-bool inject_arm(Scenario& scenario, const Effect& truth, const Values& of) {
+bool inject_arm(Scenario& scenario, const Effect& truth, const Values& coefficient) {
   const int joint = truth.joint;
   if (truth.kind == "geometry") {
-    inject_geometry(scenario, joint, of);
+    inject_geometry(scenario, joint, coefficient);
   } else if (truth.kind == "compliance") {
-    scenario.compliance.push_back({joint, of("rad_per_nm")});
+    scenario.compliance.push_back({joint, coefficient("rad_per_nm")});
   } else if (truth.kind == "link_bending") {
-    scenario.link_bending.push_back({joint, of("x_rad_per_nm"), of("y_rad_per_nm")});
+    scenario.link_bending.push_back({joint, coefficient("x_rad_per_nm"), coefficient("y_rad_per_nm")});
   } else if (truth.kind == "axis_wobble") {
     scenario.axis_wobble.push_back({joint,
                                     static_cast<int>(truth.setting("order")),
-                                    {of("cosine_x_rad"), of("cosine_y_rad")},
-                                    {of("sine_x_rad"), of("sine_y_rad")}});
+                                    {coefficient("cosine_x_rad"), coefficient("cosine_y_rad")},
+                                    {coefficient("sine_x_rad"), coefficient("sine_y_rad")}});
   } else if (truth.kind == "thermal_offset") {
-    scenario.thermal_offsets.push_back({joint, of("rad_per_kelvin")});
+    scenario.thermal_offsets.push_back({joint, coefficient("rad_per_kelvin")});
   } else if (truth.kind == "thermal_length") {
-    scenario.thermal_lengths.push_back({joint, of("share_per_kelvin")});
+    scenario.thermal_lengths.push_back({joint, coefficient("share_per_kelvin")});
   } else {
     return false;
   }
   return true;
 }
 
-bool inject_instrument(Scenario& scenario, const Effect& truth, const Values& of) {
+bool inject_instrument(Scenario& scenario, const Effect& truth, const Values& coefficient) {
   if (truth.kind == "tool") {
-    scenario.tool_error_m = {of("x_m"), of("y_m"), of("z_m")};
+    scenario.tool_error_m = {coefficient("x_m"), coefficient("y_m"), coefficient("z_m")};
   } else if (truth.kind == "drift") {
-    scenario.drift = {{of("x_m_per_s"), of("y_m_per_s"), of("z_m_per_s")},
-                      {of("rx_rad_per_s"), of("ry_rad_per_s"), of("rz_rad_per_s")}};
+    scenario.drift = {{coefficient("x_m_per_s"), coefficient("y_m_per_s"), coefficient("z_m_per_s")},
+                      {coefficient("rx_rad_per_s"), coefficient("ry_rad_per_s"), coefficient("rz_rad_per_s")}};
   } else if (truth.kind == "sensor_scale") {
-    scenario.sensor_scale.share = of("share");
+    scenario.sensor_scale.share = coefficient("share");
   } else {
     return false;
   }
@@ -101,9 +103,9 @@ bool inject_instrument(Scenario& scenario, const Effect& truth, const Values& of
 }  // namespace
 
 void inject(Scenario& scenario, const Effect& truth) {
-  const Values of = [&](std::string_view name) { return named_value(truth, scenario.robot, name); };
-  const bool known =
-      inject_gears(scenario, truth, of) || inject_arm(scenario, truth, of) || inject_instrument(scenario, truth, of);
+  const Values coefficient = [&](std::string_view name) { return named_value(truth, scenario.robot, name); };
+  const bool known = inject_gears(scenario, truth, coefficient) || inject_arm(scenario, truth, coefficient) ||
+                     inject_instrument(scenario, truth, coefficient);
   DEMECAL_CHECK(known, truth.kind);
 }
 

@@ -3,7 +3,7 @@
 
 #include <iosfwd>
 
-#include "closed_loop/bound.hpp"
+#include "closed_loop/summary.hpp"
 #include "run_noisy_case.hpp"
 
 namespace demecal::bench {

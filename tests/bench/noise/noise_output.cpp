@@ -24,10 +24,10 @@ Line effects_json(const std::vector<Effect>& effects, const Robot& robot) {
 Line rounds_json(const std::vector<Round>& rounds, const Robot& robot) {
   Line all = Line::array();
   for (const Round& round : rounds) {
-    all.push_back({{"verdict", word_of(round.verdict)},
+    all.push_back({{"verdict", to_string(round.verdict)},
                    {"effect", words(round.effect, robot)},
                    {"p_family", round.p_family},
-                   {"fall_nats", round.fall_nats},
+                   {"fall_nats", round.gain_nats},
                    {"interval", round.interval},
                    {"reason", round.reason}});
   }

@@ -1,0 +1,120 @@
+#include "diagnosis/loop.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/candidates.hpp"
+#include "effects/measurement.hpp"
+#include "fitting/median.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kRefitSteps = 3;
+
+/// The columns of each effect among the free parameters.
+std::vector<std::vector<Eigen::Index>> effect_column_indices(const Linearization& linearization, std::size_t effects) {
+  std::vector<std::vector<Eigen::Index>> columns(effects);
+  for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
+    if (linearization.ids[i].kind == ParameterId::Kind::effect) {
+      columns[static_cast<std::size_t>(linearization.ids[i].index)].push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  return columns;
+}
+
+/// Rise of the sum of squares if these coefficients were zero (Wald).
+double rise_without(const Linearization& linearization, const Effect& effect,
+                    const std::vector<Eigen::Index>& columns) {
+  const auto m = static_cast<Eigen::Index>(columns.size());
+  Eigen::VectorXd values(m);
+  Eigen::MatrixXd covariance(m, m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    values[i] = effect.value(static_cast<std::size_t>(i)) + linearization.changes[columns[static_cast<std::size_t>(i)]];
+    for (Eigen::Index k = 0; k < m; ++k) {
+      covariance(i, k) =
+          linearization.covariance(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]);
+    }
+  }
+  return values.dot(covariance.completeOrthogonalDecomposition().solve(values));
+}
+
+/// The effect whose loss would shorten the description most, if any would.
+std::optional<std::size_t> least_needed(const Linearization& linearization, const CorrectedRobot& robot,
+                                        const std::vector<Candidate>& candidates) {
+  const auto columns = effect_column_indices(linearization, robot.effects.size());
+  const double variance = linearization.projection.squares() / linearization.projection.freedom();
+  const double price_of_one = 0.5 * std::log(static_cast<double>(linearization.fitted.poses.size()));
+  std::optional<std::size_t> worst;
+  double least = 0.0;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    const double rise = rise_without(linearization, robot.effects[i], columns[i]) / variance;
+    const double gain = 0.5 * rise - price_of_one * static_cast<double>(columns[i].size()) -
+                        naming_cost_nats(robot.effects[i], candidates);
+    if (gain < least) {
+      least = gain;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+constexpr double kWorse = 1.05;  ///< a last fit that leaves this much more of its own poses' errors is not taken
+
+/// Mean squared tool error over the poses, errors beyond ten times the median counted as these.
+double capped_index_m2(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
+  constexpr double kFarOut = 10.0;
+  std::vector<double> errors_m;
+  for (const std::size_t pose : problem.fitted)
+    errors_m.push_back(tool_error_m(robot, problem.data, problem.data.poses[pose]));
+  const double most_m = kFarOut * median(errors_m);
+  double squares = 0.0;
+  for (const double error_m : errors_m) squares += std::pow(std::min(error_m, most_m), 2);
+  return squares / static_cast<double>(errors_m.size());
+}
+
+}  // namespace
+
+Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
+                                 const std::vector<Candidate>& candidates, LoopOutcome& outcome) {
+  for (;;) {
+    Linearization linearization = linearize(problem, model);
+    const auto index = least_needed(linearization, model.robot, candidates);
+    if (!index) return linearization;
+    const auto dropped = model.robot.effects.begin() + static_cast<std::ptrdiff_t>(*index);
+    for (Round& round : outcome.rounds) {
+      if (round.verdict != Verdict::added || !round.effect.same_law_as(*dropped)) continue;
+      round.verdict = Verdict::rejected;
+      round.reason = "taken back by the backward step: no longer needed beside the others";
+    }
+    outcome.dropped.push_back(*dropped);
+    model.robot.effects.erase(dropped);
+    model = refined(problem, std::move(model), kRefitSteps);
+  }
+}
+
+std::vector<std::size_t> poses_of_last_fit(const DataSet& data) {
+  std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  if (poses_of(data, PoseSet::accept).empty()) return poses;
+  std::ranges::copy(poses_of(data, PoseSet::validation), std::back_inserter(poses));
+  std::ranges::sort(poses);
+  return poses;
+}
+
+DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, DiagnosedModel model) {
+  constexpr int kSteps = 12;
+  const std::vector<std::size_t> poses = poses_of_last_fit(data);
+  if (poses == poses_of(data, PoseSet::calibration)) return model;
+  const Evidence evidence = evidence_of(data, poses);
+  for (Effect& effect : model.robot.effects) set_measured_ranges(effect, data.robot, evidence);
+  const DiagnosisProblem chosen{data, declared, poses_of(data, PoseSet::calibration), {}},
+      all{data, declared, poses, {}};
+  DiagnosedModel last = model;
+  last.precision = linearize(chosen, model).precision.tail(model.smooth.coefficients.size());
+  last = refined(all, std::move(last), kSteps);
+  return capped_index_m2(all, last.robot) <= std::pow(kWorse, 2) * capped_index_m2(all, model.robot) ? last : model;
+}
+
+}  // namespace demecal

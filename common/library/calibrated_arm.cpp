@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "config/model_file.hpp"
+#include "effects/corrected_robot.hpp"
+#include "effects/effect.hpp"
+#include "effects/measurement.hpp"
+#include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "languages/languages.hpp"
+#include "library/conversion.hpp"
+#include "programs/correct_program.hpp"
+#include "programs/summary.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+/// The bounds that the model states of its joint corrections.
+std::vector<double> stated_bounds(const CalibratedModel& model) {
+  std::vector<double> bounds(model.joints.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (model.joints[i].kept && model.joints[i].bound_rad > 0.0) bounds[i] = model.joints[i].bound_rad;
+  }
+  return bounds;
+}
+
+const Language& recognized_language(const std::string& text, const std::string& file) {
+  const Language* const language = recognize_language(text, file);
+  if (language == nullptr)
+    throw InputError({file, 0}, "", "is in no language that can be told by its ending or its words");
+  return *language;
+}
+
+}  // namespace
+
+CommandModel to_command_model(const CalibratedModel& model, const std::optional<Eigen::Vector3d>& other_tool_m) {
+  const bool registration = model.declared.registration;
+  const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
+  CommandModel commands = with_posterior(command_model(model.nominal, robot, stated_bounds(model), other_tool_m), robot,
+                                         model.posterior, model.measured, registration);
+  commands.interval = model.interval;
+  return commands;
+}
+
+CalibratedArm::CalibratedArm(std::shared_ptr<const Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+
+CalibratedArm CalibratedArm::load(const std::filesystem::path& model_file) {
+  return CalibratedArm(std::make_shared<Implementation>(Implementation{load_model(model_file)}));
+}
+
+void CalibratedArm::save(const std::filesystem::path& model_file) const {
+  write_file(model_file, model_text(implementation_->model));
+}
+
+Arm CalibratedArm::nominal() const {
+  return Arm(std::make_shared<Arm::Implementation>(Arm::Implementation{implementation_->model.nominal}));
+}
+
+ToolPose CalibratedArm::predict(const JointCommand& command) const {
+  const CorrectedRobot& robot = implementation_->model.robot;
+  return to_tool_pose(robot.predict(to_stop(command, robot.chain), ""));
+}
+
+std::vector<double> CalibratedArm::correct(const JointCommand& command) const {
+  const CommandModel commands = to_command_model(implementation_->model);
+  const Chain& chain = commands.nominal.chain;
+  const Stop stop = to_stop(command, chain);
+  return to_deg_or_mm(correct_target({}, commands, stop).command, chain);
+}
+
+std::string CalibratedArm::correct_program(const std::string& text, const std::string& file,
+                                           std::vector<std::string>* warnings) const {
+  const CalibratedModel& model = implementation_->model;
+  if (const std::optional<std::size_t> line = marked_line(text))
+    throw InputError({file, *line}, "",
+                     "says that this program was corrected already; start from the original program");
+  const CommandModel commands = to_command_model(model);
+  const Language& language = recognized_language(text, file);
+  const Circumstances circumstances{.near = model.nominal.home};
+  const CorrectedProgram corrected = demecal::correct_program(
+      text, read_program(language, text, file, commands.nominal.chain), commands, circumstances);
+  if (warnings != nullptr) {
+    for (const Remark& warning : corrected.warnings) warnings->push_back(warning_text(corrected, warning));
+  }
+  if (corrected.text == text) return text;
+  return with_mark(corrected.text, language, correction_mark(model.version, model.job, model.data_sha256));
+}
+
+PositionErrors CalibratedArm::errors(const Measurements& measured, PoseUse use) const {
+  const CalibratedModel& model = implementation_->model;
+  const DataSet& data = measured.implementation().data;
+  if (data.robot.chain.size() != model.robot.chain.size())
+    throw InputError({data.file, 0}, data.robot.name, "has another number of joints than the model");
+  for (const MeasuredPose& pose : data.poses) {
+    if (!model.robot.tools.contains(pose.target))
+      throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
+  }
+  const ErrorFigures figures = error_figures(model.robot, data, poses_of(data, to_pose_set(use)));
+  return {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm};
+}
+
+std::vector<AddedEffect> CalibratedArm::effects() const {
+  const CorrectedRobot& robot = implementation_->model.robot;
+  std::vector<AddedEffect> effects;
+  for (const Effect& effect : robot.effects)
+    effects.push_back({effect.kind, effect.joint + 1, law_of(effect).diagnosis(effect, robot.described)});
+  return effects;
+}
+
+std::string CalibratedArm::correction(int joint) const {
+  const std::vector<JointCorrection>& corrections = implementation_->model.robot.corrections;
+  if (joint < 1 || joint > std::ssize(corrections))
+    throw InputError({}, std::to_string(joint), "is no joint of this arm; joints count from 1");
+  const JointCorrection& correction = corrections[static_cast<std::size_t>(joint) - 1];
+  return correction.is_neutral() ? "0" : to_text(correction.formula());
+}
+
+}  // namespace demecal

@@ -1,0 +1,41 @@
+// What stands behind the public types, and the way from their units to those inside.
+#pragma once
+
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "effects/stop.hpp"
+#include "library/demecal.hpp"
+#include "programs/command_model.hpp"
+
+namespace demecal {
+
+struct Arm::Implementation {
+  Robot robot;
+};
+
+struct Measurements::Implementation {
+  DataSet data;  ///< without copies of rows
+  DataCheck check;
+  std::vector<std::string> findings;
+};
+
+struct CalibratedArm::Implementation {
+  CalibratedModel model;
+};
+
+/// Checked against its arm; throws InputError as load_data_set() does, and where a joint is far outside its limits.
+std::shared_ptr<const Measurements::Implementation> checked_measurements(DataSet data);
+
+/// Throws InputError where the numbers are not as many as the arm has joints, or one is not finite.
+Stop to_stop(const JointCommand& command, const Chain& chain);
+std::vector<double> to_deg_or_mm(const JointVector& joints, const Chain& chain);
+ToolPose to_tool_pose(const Eigen::Isometry3d& pose);
+PoseSet to_pose_set(PoseUse use);
+
+/// The model as commands are corrected by it, with all that it states of how sure it is. `other_tool_m`: see
+/// command_model().
+CommandModel to_command_model(const CalibratedModel& model,
+                              const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
+
+}  // namespace demecal

@@ -1,0 +1,129 @@
+#include "manual/described_option.hpp"
+#include "manual/manual.hpp"
+
+namespace demecal {
+namespace {
+
+std::string function_name(const CLI::App& program) {
+  std::string name = "_" + program.get_name();
+  for (char& letter : name) {
+    if (letter == '-') letter = '_';
+  }
+  return name;
+}
+
+/// In single quotes of a shell.
+std::string quoted(const std::string& text) {
+  std::string safe = "'";
+  for (const char letter : text) safe += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return safe + "'";
+}
+
+std::string spaced(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::string option_words(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const DescribedOption& option : described_options(command)) {
+    if (!option.positional) words.insert(words.end(), option.names.begin(), option.names.end());
+  }
+  return spaced(words);
+}
+
+/// Cases of bash that set `choices` behind an option with a fixed set of values.
+std::string choice_cases(const CLI::App& command, const std::string& name) {
+  std::string cases;
+  for (const DescribedOption& option : described_options(command)) {
+    if (option.positional || option.choices.empty()) continue;
+    for (const std::string& word : option.names) {
+      cases += "    " + name + ":" + word + ") choices=" + quoted(spaced(option.choices)) + " ;;\n";
+    }
+  }
+  return cases;
+}
+
+/// A specification of zsh's _arguments: '--out[folder for the results]:TEXT:_files'.
+std::string zsh_argument(const DescribedOption& option) {
+  std::string description;
+  for (const char letter : option.description) {
+    if (letter == '[' || letter == ']' || letter == ':' || letter == '\\') description += '\\';
+    description += letter;
+  }
+  const std::string action = option.choices.empty() ? "_files" : "(" + spaced(option.choices) + ")";
+  const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + action;
+  if (option.positional) return "    " + quoted(":" + option.names.front() + ":" + action) + " \\\n";
+  std::string lines;
+  for (const std::string& name : option.names)
+    lines += "    " + quoted(name + "[" + description + "]" + value) + " \\\n";
+  return lines;
+}
+
+std::string zsh_arguments(const CLI::App& command) {
+  std::string lines = "_arguments \\\n";
+  for (const DescribedOption& option : described_options(command)) lines += zsh_argument(option);
+  return lines + "    && return 0\n";
+}
+
+}  // namespace
+
+std::string bash_completion(const CLI::App& program) {
+  const std::string function = function_name(program);
+  std::string cases = choice_cases(program, ""), words;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    cases += choice_cases(*command, command->get_name());
+    words += "    " + command->get_name() + ") options=" + quoted(option_words(*command)) + " ;;\n";
+  }
+  const std::string names = spaced(command_names(program));
+  return "# bash completion of " + program.get_name() + "\n" + function +
+         "() {\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= choices= "
+         "options=\n" +
+         (names.empty() ? std::string() : "  [[ $COMP_CWORD -eq 1 ]] || command=${COMP_WORDS[1]}\n") +
+         "  case \"$command:$previous\" in\n" + cases +
+         "    *) ;;\n"
+         "  esac\n"
+         "  case \"$command\" in\n" +
+         words + "    *) options=" + quoted(option_words(program)) +
+         " ;;\n"
+         "  esac\n"
+         "  COMPREPLY=()\n"
+         "  if [[ -n $choices ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$choices\" -- \"$current\")\n"
+         "  elif [[ $current == -* ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$current\")\n" +
+         (names.empty() ? std::string()
+                        : "  elif [[ $COMP_CWORD -eq 1 ]]; then\n"
+                          "    mapfile -t COMPREPLY < <(compgen -W " +
+                              quoted(names) + " -- \"$current\")\n") +
+         "  fi\n"
+         "}\n"
+         "complete -o bashdefault -o default -F " +
+         function + " " + program.get_name() + "\n";
+}
+
+std::string zsh_completion(const CLI::App& program) {
+  std::string script = "#compdef " + program.get_name() + "\n";
+  if (command_names(program).empty()) return script + zsh_arguments(program);
+  script += "if (( CURRENT == 2 )); then\n  local -a commands=(\n";
+  for (const CLI::App* command : program.get_subcommands({}))
+    script += "    " + quoted(command->get_name() + ":" + command->get_description()) + "\n";
+  script +=
+      "  )\n"
+      "  _describe command commands\n"
+      "  " +
+      zsh_arguments(program) +
+      "  return\n"
+      "fi\n"
+      "local command=$words[2]\n"
+      "shift words\n"
+      "(( CURRENT-- ))\n"
+      "case $command in\n";
+  for (const CLI::App* command : program.get_subcommands({}))
+    script += "  " + command->get_name() + ")\n    " + zsh_arguments(*command) + "    ;;\n";
+  return script + "esac\n";
+}
+
+}  // namespace demecal

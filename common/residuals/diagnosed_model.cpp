@@ -1,0 +1,206 @@
+#include "residuals/diagnosed_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/median.hpp"
+#include "fitting/scatter.hpp"
+#include "fitting/triangular_factor.hpp"
+#include "residuals/noise.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
+
+std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const CorrectedRobot& robot,
+                                  const FitOptions& options) {
+  std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared, options);
+  for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
+  return ids;
+}
+
+/// Effects are believed to move the arm by a few thousandths: it keeps those apart from running away that these poses
+/// hardly tell from one another, and vanishes beside what the poses do show.
+void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedRobot& robot, const Robot& described,
+                           const std::vector<ArmState>& states, Prior& prior) {
+  constexpr double kUsualMotion = 2e-3;  ///< rad or m
+  std::vector<std::vector<double>> squares(robot.effects.size());
+  std::vector<UnitMotion> motions;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    squares[i].assign(law_of(robot.effects[i]).coefficients(robot.effects[i], described).size(), 0.0);
+    for (const ArmState& state : states) {
+      motions.clear();
+      append_unit_motions(robot.effects[i], described, state, motions);
+      for (const UnitMotion& motion : motions) {
+        squares[i][static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k].kind != ParameterId::Kind::effect) continue;
+    const auto effect = static_cast<std::size_t>(ids[k].index),
+               coefficient = static_cast<std::size_t>(ids[k].coefficient);
+    const auto at = static_cast<Eigen::Index>(k);
+    prior.precision[at] = std::sqrt(squares[effect][coefficient] / static_cast<double>(states.size())) / kUsualMotion;
+    prior.offset[at] = robot.effects[effect].value(coefficient);
+  }
+}
+
+/// `shared`: of unit variance; they come first, so that the rest of the factor is what is left without them.
+Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& shared, const Eigen::VectorXd& residual,
+                                 const SmoothCorrections& smooth) {
+  const Eigen::VectorXd& present = smooth.coefficients;
+  const Eigen::Index terms = present.size(), n = columns.fitted.cols(), first = shared.cols();
+  if (terms == 0) return {};
+  TriangularFactor factor(static_cast<int>(first + n) + 1);
+  const Eigen::VectorXd whole = residual + columns.fitted.rightCols(terms) * present;
+  factor.add(beside(shared, beside(columns.fitted, whole)));
+  RowMatrix beliefs = RowMatrix::Zero(first + n - terms, first + n + 1);
+  beliefs.topLeftCorner(first, first).setIdentity();
+  for (Eigen::Index i = 0; i < n - terms; ++i) {
+    beliefs(first + i, first + i) = columns.precision[i];
+    beliefs(first + i, first + n) = -columns.precision[i] * columns.offset[i];
+  }
+  factor.add(beliefs);
+  const Eigen::MatrixXd left = factor.factor().bottomRightCorner(n + 1, n + 1);
+  return relevance(left, smooth.families(), static_cast<double>(residual.size()));
+}
+
+ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
+                           const Eigen::VectorXd& kept_precision, const ResidualField& fitted,
+                           const ResidualField& validation, const RowMatrix& shared) {
+  ModelColumns columns{
+      beside(fitted.declared, smooth.columns(fitted)), beside(validation.declared, smooth.columns(validation)), {}, {}};
+  const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
+  columns.precision.setZero(n + terms);
+  columns.precision.head(n) = prior.precision;
+  columns.offset.setZero(n + terms);
+  columns.offset.head(n) = prior.offset;
+  columns.offset.tail(terms) = smooth.coefficients;
+  columns.precision.tail(terms) =
+      kept_precision.size() == terms ? kept_precision : smooth_precision(columns, shared, fitted.residual, smooth);
+  return columns;
+}
+
+void append(ModelColumns& columns, const SharedErrors& shared) {
+  const Eigen::Index known = columns.precision.size(), more = shared.fitted.cols();
+  columns.fitted = beside(columns.fitted, shared.fitted);
+  columns.validation = beside(columns.validation, shared.validation);
+  columns.precision.conservativeResize(known + more);
+  columns.precision.tail(more).setOnes();
+  columns.offset.conservativeResize(known + more);
+  columns.offset.tail(more).setZero();
+  columns.shared = more;
+}
+
+/// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
+RowScales scales_of(const DiagnosisProblem& problem, const Linearization& linearization, const RowScales& present) {
+  RowScales squares{}, freedom{};
+  for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
+    const RowCounts count = count_rows(problem.data.poses[linearization.fitted.poses[i]]);
+    Eigen::Index row = linearization.fitted.first_row[i];
+    for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+      if (present[kind] <= 0) continue;
+      for (int k = 0; k < count[kind]; ++k, ++row) {
+        squares[kind] += std::pow(linearization.projection.residual()[row], 2);
+        freedom[kind] +=
+            std::pow(linearization.fitted.root_weight[i], 2) - linearization.projection.basis().row(row).squaredNorm();
+      }
+    }
+  }
+  RowScales scales{};
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    if (present[kind] <= 0) continue;
+    const double share = freedom[kind] > 1.0 ? squares[kind] / freedom[kind] : 1.0;
+    scales[kind] = std::max(kSmallestScale, present[kind] * std::sqrt(share));
+  }
+  return scales;
+}
+
+bool settled(const RowScales& before, const RowScales& after) {
+  constexpr double kSettled = 0.02;
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
+    if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1.0) > kSettled) return false;
+  }
+  return true;
+}
+
+void set_standard_errors(CorrectedRobot& robot, const Linearization& linearization) {
+  for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
+    const ParameterId& id = linearization.ids[i];
+    if (id.kind != ParameterId::Kind::effect) continue;
+    Effect& effect = robot.effects[static_cast<std::size_t>(id.index)];
+    effect.standard_errors.resize(effect.values.size());
+    const auto row = static_cast<Eigen::Index>(i);
+    effect.standard_errors[static_cast<std::size_t>(id.coefficient)] = std::sqrt(linearization.covariance(row, row));
+  }
+}
+
+/// A start's scales, which its few gross errors cannot have driven up.
+RowScales first_scales(const DiagnosisProblem& problem, const Fit& start) {
+  const RowScales median =
+      median_deviations(problem.data, start.robot, observe(problem.data, problem.fitted, start.robot));
+  RowScales scales{start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
+  for (std::size_t kind = 0; kind < kRowKinds; ++kind)
+    if (scales[kind] > 0.0) scales[kind] = std::max(kSmallestScale, std::min(scales[kind], median[kind]));
+  return scales;
+}
+
+}  // namespace
+
+RowMatrix unwhitened(const ResidualField& field, RowMatrix rows) {
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    if (field.within[pose].size() == 0) continue;
+    auto own = rows.middleRows(field.first_row[pose], field.rows_of_pose(pose));
+    own = (field.within[pose] * own).eval();
+  }
+  return rows;
+}
+
+DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start) {
+  DiagnosedModel model;
+  model.robot = start.robot;
+  model.smooth = smooth_corrections(problem.data, problem.fitted, start.robot, problem.declared.joint_corrections,
+                                    problem.declared.joint_offset);
+  model.scales = first_scales(problem, start);
+  return model;
+}
+
+Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model) {
+  const FitOptions options;
+  std::vector<ParameterId> ids = free_ids(problem, model.robot, options);
+  const ParameterSpace space(model.robot, ids);
+  Prior prior = link_prior(space, nominal_robot(problem.data), options);
+  ResidualField fitted = residual_field(problem.data, problem.fitted, space, model.scales, true, model.noise);
+  ResidualField validation = residual_field(problem.data, problem.validation, space, model.scales, false, model.noise);
+  believe_effects_small(ids, model.robot, problem.data.robot, fitted.states, prior);
+  const SharedErrors shared = shared_errors(model.noise, fitted, validation);
+  ModelColumns columns = model_columns(space, prior, model.smooth, model.precision, fitted, validation, shared.fitted);
+  const Eigen::Index own = columns.precision.size();
+  append(columns, shared);
+  Projection projection(columns, fitted.residual, validation.residual);
+  Eigen::VectorXd changes = projection.changes().head(own);
+  Eigen::MatrixXd covariance = projection.covariance().topLeftCorner(own, own);
+  Eigen::VectorXd errors = fitted.residual - columns.fitted.leftCols(own) * changes;
+  return {std::move(ids),     std::move(fitted),     std::move(validation),       std::move(projection),
+          std::move(changes), std::move(covariance), columns.precision.head(own), std::move(errors)};
+}
+
+DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps) {
+  for (int step = 0; step < steps; ++step) {
+    const Linearization linearization = linearize(problem, model);
+    const ParameterSpace space(model.robot, linearization.ids);
+    model.robot = space.at(linearization.changes.head(space.size())).robot;
+    model.smooth.coefficients += linearization.changes.tail(model.smooth.coefficients.size());
+    model.robot.corrections = model.smooth.corrections();
+    set_standard_errors(model.robot, linearization);
+    const RowScales before = model.scales;
+    if (!model.noise_estimated) model.scales = scales_of(problem, linearization, model.scales);
+    const double gained = (linearization.fitted.residual - linearization.errors).squaredNorm();
+    if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(linearization.fitted.rows())) break;
+  }
+  return model;
+}
+
+}  // namespace demecal

@@ -1,0 +1,59 @@
+// The model while it is being diagnosed: everything declared, smooth corrections and the effects added so far.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fitting/prior.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/smooth_corrections.hpp"
+
+namespace demecal {
+
+/// One value of all the numbers of the model, and how measurements scatter about it.
+struct DiagnosedModel {
+  CorrectedRobot robot;  ///< with its effects; corrections are those of `smooth`
+  SmoothCorrections smooth;
+  RowScales scales{};
+  NoiseModel noise{};            ///< beyond independent noise of these scales
+  bool noise_estimated = false;  ///< together with the scales, which then stay as they are
+  Eigen::VectorXd precision{};   ///< of the smooth terms, where they are to stay as they were chosen; else empty
+};
+
+/// The model's surroundings to first order: fields over the fitted and the validation poses, and the residual with all
+/// of the model's numbers at their least-squares values.
+struct Linearization {
+  std::vector<ParameterId> ids;
+  ResidualField fitted, validation;
+  Projection projection;
+  Eigen::VectorXd changes;     ///< least-squares steps of `ids`, then of the smooth terms
+  Eigen::MatrixXd covariance;  ///< of the same numbers, in rows of unit variance
+  Eigen::VectorXd precision;   ///< believed of the same numbers
+  Eigen::VectorXd errors;      ///< of the fitted rows, after `changes`: what the projection leaves and what poses share
+};
+
+/// What stays the same from step to step.
+struct DiagnosisProblem {
+  const DataSet& data;
+  DeclaredModel declared;
+  std::vector<std::size_t> fitted, validation;  ///< poses
+};
+
+/// What a diagnosis begins with: the fitted model, its corrections the base of smooth terms where they are declared.
+DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start);
+
+/// Rows of a field as they were before those of one pose were made independent.
+RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
+
+/// Linearizes at `model`. What poses share by its noise is fitted beside it and then forgotten: with that the rows left
+/// are independent. Smooth terms are believed to be near zero by automatic relevance determination, links to be
+/// near their maker's figures.
+Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model);
+
+/// The model at its least-squares values: Gauss and Newton's steps, far poses down-weighted and the scales of the kinds
+/// of rows taken from what is left, until neither changes; at most `steps`. Effects get standard errors.
+DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps);
+
+}  // namespace demecal

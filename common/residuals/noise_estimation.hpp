@@ -1,0 +1,86 @@
+// How the measurements of one arm scatter together, as the residuals of a model show it.
+#pragma once
+
+#include <Eigen/QR>
+#include <array>
+#include <vector>
+
+#include "residuals/diagnosed_model.hpp"
+#include "residuals/residual_field.hpp"
+
+namespace demecal {
+
+/// What an estimate of the noise is made from: rows before any whitening.
+struct NoiseRows {
+  RowMatrix columns;  ///< rows x numbers of the model
+  Eigen::VectorXd residual;
+  RowMatrix joint_motions;              ///< rows x revolute joints, per rad
+  std::vector<Eigen::Index> first_row;  ///< of each pose, and one past the last
+  std::vector<std::size_t> group;       ///< per pose: repeats of one pose have the same
+  std::vector<double> order;            ///< per pose: its place in the order of measuring
+  bool drift_is_rival = false;          ///< of what is asked: what neighbours share counts however little shows it
+};
+
+struct NoiseEstimate {
+  NoiseModel model;
+  double scale = 1.0;  ///< of independent noise: what the scales of all rows are to be multiplied by
+};
+
+/// The components of variance of which the residuals are likeliest, the model's numbers integrated out (restricted
+/// maximum likelihood; Patterson and Thompson, 1971). A component is zero where it makes the residuals hardly likelier.
+/// At most some 360 rows take part, in three runs of poses.
+NoiseEstimate estimate_noise(const NoiseRows& rows);
+
+/// Minus twice the restricted log-likelihood of components of variance, up to a constant, over some of the poses.
+class RestrictedLikelihood {
+ public:
+  RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses);
+
+  Eigen::Index freedom() const { return freedom_; }
+  enum Component { joints, repeats, order };
+  bool has(Component component) const { return covariance_[component].size() > 0; }
+  double minus_twice_log(const std::array<double, 3>& variances) const;
+  /// Sum of squares per degree of freedom, the components being as they are.
+  double variance_left(const std::array<double, 3>& variances) const;
+  /// Mean variance of a row per rad^2 of the joints' scatter.
+  double per_joint_square() const { return per_joint_square_; }
+  void set_correlation(double from_pose_to_pose);
+  /// How much of the joints' variance each of them has; one of all at first.
+  void set_joint_shares(const Eigen::VectorXd& shares);
+  const Eigen::VectorXd& joint_shares() const { return joint_shares_; }
+  /// The log-likelihood's slope along the logarithm of each joint's variance, and what the data tell of it (Fisher's
+  /// information).
+  struct Slope {
+    Eigen::VectorXd slope;
+    Eigen::MatrixXd information;
+  };
+  Slope along_joint_variances(const std::array<double, 3>& variances) const;
+  /// Lag-one products of the poses' residuals over what chance would make their root mean square.
+  double neighbourhood() const { return neighbourhood_; }
+
+ private:
+  void take_joints(const NoiseRows& rows, const std::vector<std::size_t>& poses);
+  void take_repeats(const NoiseRows& rows, const std::vector<std::size_t>& poses);
+  void take_neighbourhood();
+  Eigen::MatrixXd beyond_model(const Eigen::MatrixXd& columns) const;
+  Eigen::MatrixXd covariance(const std::array<double, 3>& variances) const;
+
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> model_;
+  Eigen::Index rows_ = 0, rank_ = 0, freedom_ = 0;
+  Eigen::VectorXd left_;
+  std::array<Eigen::MatrixXd, 3> covariance_;
+  Eigen::MatrixXd turns_;                  ///< of each joint in turn: one column a pose
+  std::vector<Eigen::MatrixXd> of_joint_;  ///< covariances that each joint alone gives, freedom x freedom
+  Eigen::VectorXd joint_shares_;
+  std::vector<Eigen::Index> first_row_;
+  std::vector<double> order_;
+  double per_joint_square_ = 1.0, neighbourhood_ = 0.0;
+};
+
+/// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show. Poses
+/// far out have no part in it. Smooth terms count whether they were chosen or not, slow ones first, as many as leave
+/// enough distinct poses: what a choice among them explains by chance is not taken for less noise. The model as it is
+/// where its residuals scatter by more than noise may: 1 mrad of a joint, 5 mm that poses share.
+DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model);
+
+}  // namespace demecal

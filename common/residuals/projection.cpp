@@ -1,0 +1,103 @@
+#include "residuals/projection.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "fitting/triangular_factor.hpp"
+
+namespace demecal {
+namespace {
+
+/// The matrix (n x r) that makes columns with the triangular factor `factor` orthonormal, r their rank.
+Eigen::MatrixXd orthonormaliser(const Eigen::MatrixXd& factor) {
+  constexpr double kDependent = 1e-9;
+  const Eigen::Index n = factor.cols();
+  if (n == 0) return Eigen::MatrixXd(0, 0);
+  Eigen::VectorXd scale = factor.colwise().norm().transpose();
+  for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(factor * scale.asDiagonal());
+  pivoted.setThreshold(kDependent);
+  const Eigen::Index rank = pivoted.rank();
+  const Eigen::MatrixXd inverse = pivoted.matrixR()
+                                      .topLeftCorner(rank, rank)
+                                      .triangularView<Eigen::Upper>()
+                                      .solve(Eigen::MatrixXd::Identity(rank, rank));
+  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(n, rank);
+  padded.topRows(rank) = inverse;
+  return scale.asDiagonal() * (pivoted.colsPermutation() * padded);
+}
+
+void append(RowMatrix& to, const RowMatrix& columns) {
+  to.conservativeResize(Eigen::NoChange, to.cols() + columns.cols());
+  to.rightCols(columns.cols()) = columns;
+}
+
+}  // namespace
+
+Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation)
+    : residual_(fitted),
+      validation_residual_(validation),
+      prior_residual_(-model.precision.cwiseProduct(model.offset)),
+      shared_(model.shared) {
+  TriangularFactor factor(static_cast<int>(model.fitted.cols()));
+  factor.add(model.fitted);
+  const RowMatrix prior = model.precision.asDiagonal().toDenseMatrix();
+  factor.add(prior);
+  to_basis_ = orthonormaliser(factor.factor());
+  for (const double precision : model.precision) has_prior_.push_back(precision != 0.0);
+  basis_ = model.fitted * to_basis_;
+  validation_basis_ = model.validation * to_basis_;
+  prior_basis_ = prior * to_basis_;
+  const Eigen::VectorXd along = basis_.transpose() * residual_ + prior_basis_.transpose() * prior_residual_;
+  changes_ = to_basis_ * along;
+  residual_ -= basis_ * along;
+  validation_residual_ -= validation_basis_ * along;
+  prior_residual_ -= prior_basis_ * along;
+}
+
+double Projection::freedom() const {
+  return static_cast<double>(residual_.size()) - basis_.squaredNorm();
+}
+
+Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& validation) const {
+  Trial result;
+  const Eigen::MatrixXd along = basis_.transpose() * fitted;
+  result.fitted = fitted - basis_ * along;
+  result.validation = validation - validation_basis_ * along;
+  result.prior = -prior_basis_ * along;
+  Eigen::VectorXd scale = fitted.colwise().norm().transpose();
+  for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
+  const Eigen::MatrixXd gram =
+      scale.asDiagonal() * (fitted.transpose() * fitted - along.transpose() * along) * scale.asDiagonal();
+  const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * residual_);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * moment;
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(turned.size());
+  result.to_basis.resize(turned.size(), turned.size());
+  for (Eigen::Index i = 0; i < turned.size(); ++i) {
+    const double share = eigen.eigenvalues()[i];
+    if (share < kNewShare) continue;
+    solution[i] = turned[i] / share;
+    result.drop += turned[i] * solution[i];
+    result.to_basis.col(result.rank++) = scale.cwiseProduct(eigen.eigenvectors().col(i)) / std::sqrt(share);
+  }
+  result.to_basis.conservativeResize(Eigen::NoChange, result.rank);
+  result.coefficients = scale.cwiseProduct(eigen.eigenvectors() * solution);
+  result.validation_residual = validation_residual_ - result.validation * result.coefficients;
+  return result;
+}
+
+void Projection::add(const Trial& trial) {
+  const RowMatrix fitted = trial.fitted * trial.to_basis, validation = trial.validation * trial.to_basis;
+  const RowMatrix prior = trial.prior * trial.to_basis;
+  const Eigen::VectorXd share = fitted.transpose() * residual_ + prior.transpose() * prior_residual_;
+  residual_ -= fitted * share;
+  validation_residual_ -= validation * share;
+  prior_residual_ -= prior * share;
+  append(basis_, fitted);
+  append(validation_basis_, validation);
+  append(prior_basis_, prior);
+}
+
+}  // namespace demecal

@@ -1,0 +1,80 @@
+// The residual with everything already in the model projected off, on the fitted poses and on the validation poses.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "residuals/residual_field.hpp"
+
+namespace demecal {
+
+/// Of a column's square that must remain for it to count as new: less is rounding and the errors of derivatives.
+inline constexpr double kNewShare = 1e-5;
+
+/// Columns of the model over the fitted poses and over the validation ones, and what is believed of their coefficients
+/// beforehand: `precision` (one over the standard deviation; 0: nothing) and `offset` (present value minus the believed
+/// one).
+struct ModelColumns {
+  RowMatrix fitted;
+  RowMatrix validation;
+  Eigen::VectorXd precision;
+  Eigen::VectorXd offset;
+  Eigen::Index shared = 0;  ///< how many of them, the last, are errors that poses share: noise, not the model's numbers
+};
+
+/// The norm below which a column is taken to be nothing: a whole radian, metre or unit share that moves all that was
+/// measured by less than its scatter.
+inline constexpr double kNoColumn = 1.0;
+
+/// An orthonormal basis of the model's columns (believed values taken as further measurements), and the least-squares
+/// residuals. Adding columns keeps both up to date.
+class Projection {
+ public:
+  Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation);
+
+  /// Rank of the model's columns so far.
+  Eigen::Index rank() const { return basis_.cols(); }
+  /// Over the fitted rows: rows x rank(), orthonormal together with the rows of the prior.
+  const RowMatrix& basis() const { return basis_; }
+  /// Residual of the fitted rows and of the validation rows.
+  const Eigen::VectorXd& residual() const { return residual_; }
+  const Eigen::VectorXd& validation_residual() const { return validation_residual_; }
+  /// Least-squares changes of the coefficients of the columns it was made from.
+  const Eigen::VectorXd& changes() const { return changes_; }
+  /// Of the same, in rows of unit variance.
+  Eigen::MatrixXd covariance() const { return to_basis_ * to_basis_.transpose(); }
+  /// Sum of squares left, prior values included, and degrees of freedom of the fitted rows.
+  double squares() const { return residual_.squaredNorm() + prior_residual_.squaredNorm(); }
+  double freedom() const;
+  /// Over the rows of the prior: one a column of the model it was made from, zero where nothing is believed.
+  const RowMatrix& prior_basis() const { return prior_basis_; }
+  const Eigen::VectorXd& prior_residual() const { return prior_residual_; }
+  /// How many of these rows, the last, are of errors that poses share.
+  Eigen::Index shared() const { return shared_; }
+  /// Of the same rows: whether anything is believed.
+  const std::vector<bool>& has_prior() const { return has_prior_; }
+
+  /// What of new columns the model does not explain: their coefficients' least-squares values and what adding them
+  /// leaves of either residual.
+  struct Trial {
+    RowMatrix fitted;              ///< new columns less the model's share, rows x m
+    RowMatrix validation;          ///< the same over the validation rows
+    RowMatrix prior;               ///< the same over the rows of the prior
+    Eigen::MatrixXd to_basis;      ///< m x rank: makes the new columns orthonormal
+    Eigen::VectorXd coefficients;  ///< m; 0 in directions that the model explains already
+    double drop = 0.0;             ///< decrease of the sum of squares
+    Eigen::Index rank = 0;         ///< directions that the model does not explain
+    Eigen::VectorXd validation_residual;
+  };
+  Trial trial(const RowMatrix& fitted, const RowMatrix& validation) const;
+  /// Takes a trial's columns into the model.
+  void add(const Trial& trial);
+
+ private:
+  RowMatrix basis_, validation_basis_, prior_basis_;
+  Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
+  Eigen::VectorXd residual_, validation_residual_, prior_residual_, changes_;
+  std::vector<bool> has_prior_;
+  Eigen::Index shared_;
+};
+
+}  // namespace demecal

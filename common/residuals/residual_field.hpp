@@ -1,0 +1,114 @@
+// What the fitted model leaves unexplained at every pose, and how small motions of the arm and effects would change it.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/observation.hpp"
+
+namespace demecal {
+
+/// Matrices whose rows are the measured numbers, pose by pose.
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Two matrices of equally many rows as one.
+RowMatrix beside(const RowMatrix& left, const RowMatrix& right);
+
+/// How rows scatter beyond independent noise of unit variance, in the units of RowScales.
+struct NoiseModel {
+  double joint_rad = 0.0;    ///< standard deviation of revolute joints, new at every visit: root mean square over them
+  double repeats = 0.0;      ///< of the error that repeats of one pose share, over that of independent noise
+  double order = 0.0;        ///< the same of an error that poses measured one after another share
+  double correlation = 0.0;  ///< of that error from one pose to the next (autoregressive of first order)
+  double fast = 0.0;         ///< the part of order^2 at fitted poses that changes too fast to be followed: independent
+  std::vector<double> joint_shares{};  ///< variance of each revolute joint over joint_rad^2; empty: one of all
+
+  double joint_variance_rad2(std::size_t revolute) const {
+    return joint_rad * joint_rad * (joint_shares.empty() ? 1.0 : joint_shares[revolute]);
+  }
+};
+
+/// Rows are in units of what their kind scatters; those of one pose are made independent of unit variance where joints
+/// scatter too, and those of poses far out are scaled down by the root of their weight (Huber's by
+/// the pose's norm, none at all beyond rejection_norm). A model change `c` changes the residual to residual - columns *
+/// c.
+struct ResidualField {
+  std::vector<std::size_t> poses;        ///< in the data set
+  std::vector<std::size_t> group;        ///< per pose: the first of `poses` that has its id and target
+  std::vector<Eigen::Index> first_row;   ///< of each pose, and one past the last: poses + 1
+  std::vector<double> root_weight;       ///< one per pose
+  Eigen::VectorXd residual;              ///< measured minus predicted
+  RowMatrix declared;                    ///< rows x free parameters of the model
+  RowMatrix motions;                     ///< rows x 6 (n + 2): per unit motion, see motion_column
+  std::vector<ArmState> states;          ///< one per pose
+  std::vector<Eigen::MatrixXd> within;   ///< per pose: root (lower) of the covariance of its scaled rows; empty: none
+  std::vector<Eigen::Index> scattering;  ///< columns of `motions` of the joints that scatter by it
+
+  Eigen::Index rows() const { return residual.size(); }
+  Eigen::Index rows_of_pose(std::size_t i) const { return first_row[i + 1] - first_row[i]; }
+};
+
+inline constexpr int kTurnAboutZ = 5;  ///< the axis of motion_column that a revolute joint turns about
+
+/// The column of ResidualField::motions of a unit motion along or about `axis` of `place`.
+inline Eigen::Index motion_column(int place, int axis) {
+  return 6 * (place - kSensorPlace) + axis;
+}
+
+/// The norm of a pose with `rows` rows of unit variance at and beyond which it has no weight.
+double rejection_norm(int rows);
+
+/// How many poses of a field are not repeats of others.
+std::size_t distinct_poses(const ResidualField& field);
+
+/// The field of `robot` over `poses`, its free parameters those of `space` (whose reference is `robot`). Poses that
+/// measured nothing in use are left out. `robust`: far poses are scaled down. Of `noise` the joints' scatter counts.
+ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
+                             const RowScales& scales, bool robust, const NoiseModel& noise = {});
+
+using RowMatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Columns first .. first + count - 1 belong to one effect.
+struct ColumnSpan {
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
+
+/// A column is a sum of features (one number a pose) times motions of the field (one row a measured number). Features
+/// depend on the nominal arm alone: they serve every field over the same poses.
+class EffectColumns {
+ public:
+  /// Columns of one effect after another at `states` (one a pose; equally many in every call).
+  void append(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
+  /// Makes the appended columns ready for use.
+  void pack();
+
+  Eigen::Index size() const { return columns_; }
+  const std::vector<ColumnSpan>& spans() const { return spans_; }
+
+  /// X^T Y (size() x Y's columns) of all columns X over the field's rows and a matrix over the same rows.
+  Eigen::MatrixXd transposed_times(const ResidualField& field, const RowMatrix& rows) const;
+  /// The same in single precision, which is enough for a null distribution and twice as fast.
+  Eigen::MatrixXf transposed_times(const ResidualField& field, const RowMatrixF& rows) const;
+  /// The columns of one effect over the field's rows.
+  RowMatrix dense(const ResidualField& field, std::size_t effect) const;
+
+ private:
+  struct Block {
+    Eigen::Index motion = 0;            ///< column of ResidualField::motions
+    std::vector<Eigen::Index> columns;  ///< which columns the features belong to, ascending
+    Eigen::MatrixXd features;           ///< poses x columns
+  };
+
+  std::vector<Block> blocks_;
+  std::map<Eigen::Index, std::map<Eigen::Index, Eigen::VectorXd>> loose_;  ///< motion -> column -> features
+  std::vector<ColumnSpan> spans_;
+  Eigen::Index columns_ = 0;
+};
+
+}  // namespace demecal

@@ -1,0 +1,177 @@
+#include "residuals/noise_estimation.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace demecal {
+namespace {
+
+/// A A': only half of it is worked out.
+Eigen::MatrixXd product_with_itself(const Eigen::Ref<const Eigen::MatrixXd>& a) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(a.rows(), a.rows());
+  product.selfadjointView<Eigen::Lower>().rankUpdate(a);
+  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+  return product;
+}
+
+}  // namespace
+
+RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses) {
+  std::vector<Eigen::Index> taken;
+  for (const std::size_t pose : poses) {
+    first_row_.push_back(static_cast<Eigen::Index>(taken.size()));
+    order_.push_back(rows.order[pose]);
+    for (Eigen::Index row = rows.first_row[pose]; row < rows.first_row[pose + 1]; ++row) taken.push_back(row);
+  }
+  rows_ = std::ssize(taken);
+  first_row_.push_back(rows_);
+  const Eigen::MatrixXd model = rows.columns(taken, Eigen::all);
+  const Eigen::VectorXd values = rows.residual(taken);
+  if (model.cols() > 0) {
+    const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
+    model_.setThreshold(1e-9);
+    model_.compute(model * norms.cwiseInverse().asDiagonal());
+    rank_ = model_.rank();
+  }
+  freedom_ = rows_ - rank_;
+  left_ = beyond_model(values);
+  take_joints(rows, poses);
+  take_repeats(rows, poses);
+  take_neighbourhood();
+}
+
+void RestrictedLikelihood::take_joints(const NoiseRows& rows, const std::vector<std::size_t>& poses) {
+  const Eigen::Index joints_count = rows.joint_motions.cols();
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(rows_, joints_count * std::ssize(poses));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Index count = first_row_[i + 1] - first_row_[i];
+    for (Eigen::Index joint = 0; joint < joints_count; ++joint)
+      motions.block(first_row_[i], joint * std::ssize(poses) + static_cast<Eigen::Index>(i), count, 1) =
+          rows.joint_motions.block(rows.first_row[poses[i]], joint, count, 1);
+  }
+  per_joint_square_ = std::max(motions.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(rows_, 1)), 1e-300);
+  turns_ = beyond_model(motions / std::sqrt(per_joint_square_));
+  const Eigen::Index own = std::ssize(poses);
+  for (Eigen::Index joint = 0; joint < joints_count; ++joint)
+    of_joint_.push_back(product_with_itself(turns_.middleCols(joint * own, own)));
+  set_joint_shares(Eigen::VectorXd::Ones(joints_count));
+}
+
+/// One column a row of a repeated pose.
+void RestrictedLikelihood::take_repeats(const NoiseRows& rows, const std::vector<std::size_t>& poses) {
+  constexpr Eigen::Index kRowsShared = 6;
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < poses.size(); ++i) members[rows.group[poses[i]]].push_back(i);
+  std::erase_if(members, [](const auto& group) { return group.second.size() < 2; });
+  if (members.empty()) return;
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kRowsShared * std::ssize(members));
+  Eigen::Index column = 0;
+  for (const auto& [first, repeated] : members) {
+    for (const std::size_t pose : repeated) {
+      const Eigen::Index count = std::min(kRowsShared, first_row_[pose + 1] - first_row_[pose]);
+      shared.block(first_row_[pose], column, count, count).setIdentity();
+    }
+    column += kRowsShared;
+  }
+  const Eigen::MatrixXd together = beyond_model(shared);
+  covariance_[repeats] = together * together.transpose();
+}
+
+/// What is left of the rows themselves tells whether neighbours in order are alike, before anything is estimated.
+void RestrictedLikelihood::take_neighbourhood() {
+  Eigen::VectorXd padded = Eigen::VectorXd::Zero(rows_);
+  padded.tail(freedom_) = left_;
+  if (rank_ > 0) padded.applyOnTheLeft(model_.householderQ());
+  double products = 0.0, squares = 0.0;
+  for (std::size_t i = 1; i < order_.size(); ++i) {
+    const Eigen::Index count = std::min(first_row_[i + 1] - first_row_[i], first_row_[i] - first_row_[i - 1]);
+    const double product = padded.segment(first_row_[i], count).dot(padded.segment(first_row_[i - 1], count));
+    products += product;
+    squares += product * product;
+  }
+  neighbourhood_ = squares > 0.0 ? products / std::sqrt(squares) : 0.0;
+}
+
+void RestrictedLikelihood::set_joint_shares(const Eigen::VectorXd& shares) {
+  joint_shares_ = shares;
+  covariance_[joints] = Eigen::MatrixXd::Zero(freedom_, freedom_);
+  for (Eigen::Index joint = 0; joint < shares.size(); ++joint)
+    covariance_[joints] += shares[joint] * of_joint_[static_cast<std::size_t>(joint)];
+}
+
+RestrictedLikelihood::Slope RestrictedLikelihood::along_joint_variances(const std::array<double, 3>& variances) const {
+  const Eigen::Index poses = std::ssize(order_), count = joint_shares_.size();
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance(variances));
+  const Eigen::MatrixXd turns = root.matrixL().solve(turns_);
+  const Eigen::VectorXd left = root.matrixL().solve(left_);
+  const double variance = left.squaredNorm() / static_cast<double>(freedom_);
+  Slope result{Eigen::VectorXd(count), Eigen::MatrixXd(count, count)};
+  std::vector<Eigen::MatrixXd> squares;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto own = turns.middleCols(i * poses, poses);
+    squares.push_back(product_with_itself(own));
+    const double size = variances[joints] * joint_shares_[i];
+    result.slope[i] = 0.5 * size * ((own.transpose() * left).squaredNorm() / variance - own.squaredNorm());
+    for (Eigen::Index k = 0; k <= i; ++k) {
+      const double together = squares.back().cwiseProduct(squares[static_cast<std::size_t>(k)]).sum();
+      result.information(i, k) = 0.5 * size * variances[joints] * joint_shares_[k] * together;
+      result.information(k, i) = result.information(i, k);
+    }
+  }
+  return result;
+}
+
+/// What of columns the model cannot follow: freedom x columns.
+Eigen::MatrixXd RestrictedLikelihood::beyond_model(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd turned = columns;
+  if (rank_ > 0) turned.applyOnTheLeft(model_.householderQ().adjoint());
+  return turned.bottomRows(freedom_);
+}
+
+void RestrictedLikelihood::set_correlation(double from_pose_to_pose) {
+  const auto poses = std::ssize(order_);
+  Eigen::MatrixXd alike(poses, poses);
+  for (Eigen::Index i = 0; i < poses; ++i) {
+    for (Eigen::Index k = 0; k < poses; ++k) {
+      alike(i, k) = std::pow(from_pose_to_pose,
+                             std::abs(order_[static_cast<std::size_t>(i)] - order_[static_cast<std::size_t>(k)]));
+    }
+    alike(i, i) += 1e-9;
+  }
+  const Eigen::MatrixXd root = alike.llt().matrixL();
+  constexpr Eigen::Index kAxes = 3;
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kAxes * poses);
+  for (Eigen::Index i = 0; i < poses; ++i) {
+    const auto pose = static_cast<std::size_t>(i);
+    const Eigen::Index count = std::min(kAxes, first_row_[pose + 1] - first_row_[pose]);
+    for (Eigen::Index axis = 0; axis < count; ++axis)
+      shared.row(first_row_[pose] + axis).segment(axis * poses, poses) = root.row(i);
+  }
+  const Eigen::MatrixXd drift = beyond_model(shared);
+  covariance_[order] = drift * drift.transpose();
+}
+
+Eigen::MatrixXd RestrictedLikelihood::covariance(const std::array<double, 3>& variances) const {
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(freedom_, freedom_);
+  for (std::size_t i = 0; i < variances.size(); ++i)
+    if (variances[i] > 0.0 && covariance_[i].size() > 0) whole += variances[i] * covariance_[i];
+  return whole;
+}
+
+double RestrictedLikelihood::minus_twice_log(const std::array<double, 3>& variances) const {
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance(variances));
+  if (root.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const double squares = root.matrixL().solve(left_).squaredNorm();
+  return static_cast<double>(freedom_) * std::log(std::max(squares, 1e-300)) +
+         2.0 * Eigen::MatrixXd(root.matrixLLT()).diagonal().array().log().sum();
+}
+
+double RestrictedLikelihood::variance_left(const std::array<double, 3>& variances) const {
+  return covariance(variances).llt().matrixL().solve(left_).squaredNorm() /
+         static_cast<double>(std::max<Eigen::Index>(freedom_, 1));
+}
+
+}  // namespace demecal
