@@ -47,7 +47,8 @@ TEST(OnePlace, EveryLanguageIsNamedInItsOwnFilesAndTheTable) {
     SCOPED_TRACE(language);
     EXPECT_THAT(read_file(root + "/common/languages/" + language + ".cpp"),
                 testing::HasSubstr(".name = \"" + language + '"'));
-    if (language != "csv") EXPECT_THAT(named_elsewhere(language, sources), IsEmpty());  // data sets are CSV, too
+    if (language == "csv") continue;  // data sets are CSV, too
+    EXPECT_THAT(named_elsewhere(language, sources), IsEmpty());
   }
 }
 
