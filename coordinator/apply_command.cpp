@@ -5,7 +5,6 @@
 #include <string>
 
 #include "config/model_file.hpp"
-#include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"

@@ -1,21 +1,23 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "config/job_file.hpp"
-#include "coordinator/checked_data.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/dds_arguments.hpp"
-#include "coordinator/dds_fleet.hpp"
-#include "coordinator/interrupt.hpp"
-#include "coordinator/job_identity.hpp"
+#include "coordinator/displays.hpp"
+#include "coordinator/event_log.hpp"
+#include "coordinator/fleet.hpp"
 #include "coordinator/result_folder.hpp"
 #include "errors/input_error.hpp"
 #include "terminal/report_text.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -49,9 +51,24 @@ void print_head(const CalibrateRequest& request, const Job& job, const DataSet& 
   }
   fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
              data.poses.size(), job.islands.per_joint, job.seed);
-  fmt::print(stderr, "  DDS domain {}, {}\n", request.fleet.dds->domain,
-             request.fleet.workers > 0 ? fmt::format("{} local workers", request.fleet.workers)
-                                       : fmt::format("waiting up to {:g} s for workers", request.worker_timeout_s));
+  fmt::print(stderr, "  {}\n", to_string(request.fleet, request.worker_timeout_s));
+}
+
+/// Which job a run is of, in hashes of all that its result is a function of. `job` is that of the file with what
+/// options override in it.
+JobIdentity identity_of(const std::string& job_file, const Job& job, const DataSet& data, bool asynchronous) {
+  const std::string overridden = fmt::format("\n{} {}\n", to_string(job.method), job.closed_loop.max_effects);
+  return {.data_sha256 = sha256(data.sha256 + read_file(job.data_file) + robot_text(data.robot)),
+          .job_sha256 = sha256(read_file(job_file) + overridden),
+          .seed = job.seed,
+          .version = DEMECAL_VERSION,
+          .asynchronous = asynchronous};
+}
+
+/// Whether two paths name one folder; of folders that are missing, whether they are written alike.
+bool same_folder(const std::string& a, const std::string& b) {
+  std::error_code failure;
+  return std::filesystem::weakly_canonical(a, failure) == std::filesystem::weakly_canonical(b, failure);
 }
 
 /// The journal of the run in its folder of results.
@@ -85,6 +102,49 @@ std::string effort(const Job& job, const RunFacts& facts) {
                      facts.evaluations, facts.wall_s);
 }
 
+/// Tells two what happens, one after the other.
+class ObserverPair final : public CalibrationObserver {
+ public:
+  ObserverPair(CalibrationObserver& first, CalibrationObserver& second) : observers_{&first, &second} {}
+
+  void on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool shown) override {
+    for (CalibrationObserver* one : observers_) one->on_run_begins(data, reached, shown);
+  }
+  void on_run_ends(RunEnd end) override {
+    for (CalibrationObserver* one : observers_) one->on_run_ends(end);
+  }
+  void on_fleet_ends() override {
+    for (CalibrationObserver* one : observers_) one->on_fleet_ends();
+  }
+  void on_progress(const Progress& progress) override {
+    for (CalibrationObserver* one : observers_) one->on_progress(progress);
+  }
+  void on_worker(const WorkerStatus& status) override {
+    for (CalibrationObserver* one : observers_) one->on_worker(status);
+  }
+  void on_lost(const std::string& worker) override {
+    for (CalibrationObserver* one : observers_) one->on_lost(worker);
+  }
+  void on_tick() override {
+    for (CalibrationObserver* one : observers_) one->on_tick();
+  }
+  void on_learning_begins(const Robot& described) override {
+    for (CalibrationObserver* one : observers_) one->on_learning_begins(described);
+  }
+  void on_round(const Round& round, const Robot& described) override {
+    for (CalibrationObserver* one : observers_) one->on_round(round, described);
+  }
+  void on_message(const std::string& text) override {
+    for (CalibrationObserver* one : observers_) one->on_message(text);
+  }
+  void on_structure_generation(int generation, int generations, double left) override {
+    for (CalibrationObserver* one : observers_) one->on_structure_generation(generation, generations, left);
+  }
+
+ private:
+  std::array<CalibrationObserver*, 2> observers_;
+};
+
 ExitCode run(CalibrateRequest request) {
   if (request.out.empty()) request.out = request.resume;
   if (request.out.empty() || (!request.resume.empty() && !same_folder(request.out, request.resume))) {
@@ -104,23 +164,23 @@ ExitCode run(CalibrateRequest request) {
   }
   print_head(request, job, data);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
-  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;
-  options.quiet = request.quiet;
   options.asynchronous = request.asynchronous;
   options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
   const FilesBeingWritten events(request.out, {"events.jsonl"});
-  Chronicle chronicle(request.out, !request.resume.empty(), job.name,
-                      join_dds(*request.fleet.dds, Role::herald, "chronicle"));
-  options.chronicle = &chronicle;
-  CalibrateResult result = fit_or_report(request.out, job.name, checked,
-                                         [&] { return calibrate(data, job, make_fleet, interrupt, options); });
+  EventLog event_log(request.out, !request.resume.empty(), job.name, join_as_herald(request.fleet));
+  ConsoleObserver console(request.quiet);
+  ObserverPair observer(console, event_log);
+  options.observer = &observer;
+  CalibrateResult result = fit_or_report(request.out, job.name, checked, [&] {
+    return calibrate(data, job, fleet_maker(request.fleet), interrupt, options);
+  });
   result.check = checked.check;
   const RunEnd end = result.end;
   if (end == RunEnd::no_worker) {
-    chronicle.ends(LoopNews::Stage::failed, "failed: no worker came");
+    event_log.finish(LoopNews::Stage::failed, "failed: no worker came");
     fmt::print(stderr,
                "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default; {}\n",
                request.worker_timeout_s, request.fleet.dds->domain, resuming(request));
@@ -128,9 +188,9 @@ ExitCode run(CalibrateRequest request) {
   }
   const Report report = write(request, data, result);
   if (end == RunEnd::interrupted) {
-    chronicle.ends(LoopNews::Stage::interrupted, "interrupted");
+    event_log.finish(LoopNews::Stage::interrupted, "interrupted");
   } else {
-    chronicle.ends(LoopNews::Stage::finished, "finished");
+    event_log.finish(LoopNews::Stage::finished, "finished");
   }
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
              effort(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",

@@ -1,11 +1,37 @@
-// The verbs of `demecal`: each adds itself to the command line and leaves its exit code when it has run.
+// The commands of `demecal`, and what they share: how they end, what interrupts them, and how they take up a data set.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
-#include "coordinator/exit_codes.hpp"
+#include <atomic>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "errors/input_error.hpp"
 
 namespace demecal {
+
+/// What a command's end means to scripts.
+enum class ExitCode : int {
+  done = 0,
+  wrong_arguments = 10,
+  bad_input = 11,      ///< a file is missing, unreadable or invalid
+  contradiction = 12,  ///< the data and the robot's description contradict each other
+  no_worker = 20,
+  run_failed = 21,
+  interrupted = 130  ///< what was reached is saved and named
+};
+
+/// What a command cannot do as it was called: reported with exit code 10.
+struct ArgumentError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// From now on SIGINT and SIGTERM set the returned flag; a second one ends the program at once.
+const std::atomic<bool>& watch_for_interrupt();
 
 /// Each of these adds a subcommand whose callback sets `exit_code`. User input that is wrong leaves it as InputError.
 void add_calibrate(CLI::App& app, ExitCode& exit_code);
@@ -19,5 +45,36 @@ void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
 void add_monitor(CLI::App& app, ExitCode& exit_code);
+
+/// A data set as every command takes it up: read, checked against its robot, and what was found said first.
+struct CheckedData {
+  DataSet data;  ///< without copies of rows
+  DataCheck check;
+};
+
+/// The data set of a file and what the check of it found. Throws InputError
+/// where the file is invalid, or a joint stands outside its limits and no finding says why.
+CheckedData load_checked(const std::filesystem::path& path);
+
+/// Whether the data contradict the robot's description, and nobody forces the command to go on: said on standard error.
+bool refuses(const CheckedData& checked, bool force);
+
+/// The option --force of a command that fits or judges data.
+void add_force(CLI::App& command, bool& force);
+
+/// Writes report.json and report.html of data that no model was fitted to, and says what was found on standard error.
+void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked);
+
+/// What `fit` returns. Where it throws InputError, since no model fits the data, what the check found in them is said
+/// and reported before the error goes on.
+template <typename Fit>
+auto fit_or_report(const std::string& folder, const std::string& job, const CheckedData& checked, const Fit& fit) {
+  try {
+    return fit();
+  } catch (const InputError&) {
+    if (!checked.check.findings.empty()) write_refusal(folder, job, checked);
+    throw;
+  }
+}
 
 }  // namespace demecal

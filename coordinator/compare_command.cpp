@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -10,15 +11,16 @@
 
 #include "baselines/baseline.hpp"
 #include "config/job_file.hpp"
-#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/dds_arguments.hpp"
-#include "coordinator/dds_fleet.hpp"
-#include "coordinator/interrupt.hpp"
+#include "coordinator/displays.hpp"
+#include "coordinator/fleet.hpp"
 #include "coordinator/result_folder.hpp"
 #include "expression/simplify.hpp"
+#include "html/page.hpp"
 #include "report/evaluation.hpp"
+#include "report/history.hpp"
 #include "terminal/report_text.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -93,10 +95,10 @@ int constants_in(const CalibratedModel& model) {
 }
 
 ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const Job& job, Comparison& comparison) {
-  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;
-  options.quiet = request.json;
-  const CalibrateResult result = calibrate(data, job, make_fleet, watch_for_interrupt(), options);
+  ConsoleObserver console(request.json);
+  options.observer = &console;
+  const CalibrateResult result = calibrate(data, job, fleet_maker(request.fleet), watch_for_interrupt(), options);
   if (result.end == RunEnd::no_worker) return ExitCode::no_worker;
   if (!request.out.empty()) write_results(request.out, data, result);
   const int fitted = fitted_in(result.model), constants = constants_in(result.model);
@@ -153,6 +155,24 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);
   command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+void add_report(CLI::App& app, ExitCode& exit_code) {
+  const auto folder = std::make_shared<std::string>();
+  const auto force = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("report", "rebuild the report a person reads from a results folder");
+  command->add_option("dir", *folder, "folder that calibrate or diagnose wrote")->required();
+  command->add_flag("--force", *force, "overwrite a report.html that demecal did not write, or that was changed since");
+  command->callback([folder, force, &exit_code] {
+    const Report report = read_report(read_file(*folder + "/report.json"), "report.json");
+    const std::string history = *folder + "/history.csv";  // a diagnosis leaves none
+    const std::string page =
+        report_html(report, read_fitness(std::filesystem::exists(history) ? read_file(history) : ""));
+    make_writable(*folder, {"report.html"}, *force);
+    write_result(*folder, "report.html", page);
+    fmt::print("{}/report.html\n", *folder);
+    exit_code = ExitCode::done;
+  });
 }
 
 }  // namespace demecal

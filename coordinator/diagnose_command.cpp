@@ -11,16 +11,14 @@
 #include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
-#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/diagnose.hpp"
-#include "coordinator/interrupt.hpp"
-#include "coordinator/loop_display.hpp"
+#include "coordinator/displays.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/text.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
 #include "terminal/report_text.hpp"
+#include "workflows/diagnose.hpp"
 
 namespace demecal {
 namespace {
@@ -72,12 +70,12 @@ Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   return job;
 }
 
-/// The poses that would tell most, in a file beside the results.
+/// The poses that would teach most, in a file beside the results.
 void write_proposed(const DiagnoseRequest& request, const DataSet& data, const Diagnosis& diagnosis) {
-  const DiagnosisProblem of{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
-                            poses_of(data, PoseSet::validation)};
+  const DiagnosisProblem problem{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
+                                 poses_of(data, PoseSet::validation)};
   const std::vector<Stop> stops =
-      propose_poses(of, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
+      propose_poses(problem, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
                     RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
   write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_file, data, stops));
 }

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <string>
 
-#include "coordinator/argument_error.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "manual/manual.hpp"

@@ -7,15 +7,12 @@
 #include <utility>
 
 #include "config/study_grid.hpp"
-#include "coordinator/checked_data.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/dds_arguments.hpp"
-#include "coordinator/dds_fleet.hpp"
-#include "coordinator/interrupt.hpp"
+#include "coordinator/fleet.hpp"
 #include "coordinator/result_folder.hpp"
-#include "coordinator/study.hpp"
 #include "errors/input_error.hpp"
 #include "terminal/report_text.hpp"
+#include "workflows/study.hpp"
 
 namespace demecal {
 namespace {
@@ -69,7 +66,7 @@ std::vector<Job> jobs_of(const StudyRequest& request, const std::vector<GridCell
   return jobs;
 }
 
-void tell(const Study& study, const StudyRun& run) {
+void print_progress(const Study& study, const StudyRun& run) {
   std::string cell;
   for (std::size_t i = 0; i < study.keys.size(); ++i) {
     cell += fmt::format("{} {}, ", study.keys[i], study.cells[run.cell][i]);
@@ -110,17 +107,15 @@ ExitCode run(const StudyRequest& request) {
   const DataSet& data = checked.data;
   make_writable(request.out, {"study.csv", "study.json"}, request.force);
   Study study = study_of(request, axes, cells, data);
-  const auto make_fleet = [&] { return std::make_unique<DdsFleet>(*request.fleet.dds, request.fleet.workers); };
   CalibrateOptions options;
-  options.quiet = true;
   const auto on_run = [&](const StudyOutcome& reached) {
     study.runs = reached.runs;
     study.interrupted = study.runs.size() < study.cells.size() * study.seeds.size();
-    if (!request.quiet) tell(study, study.runs.back());
+    if (!request.quiet) print_progress(study, study.runs.back());
     write(request.out, study);
   };
-  const StudyOutcome outcome =
-      run_study(data, jobs_of(request, cells), study.seeds, make_fleet, watch_for_interrupt(), options, on_run);
+  const StudyOutcome outcome = run_study(data, jobs_of(request, cells), study.seeds, fleet_maker(request.fleet),
+                                         watch_for_interrupt(), options, on_run);
   study.interrupted = outcome.end != RunEnd::finished;
   study.islands = outcome.fronts.size();
   study.blocks = building_blocks(outcome.fronts);

@@ -12,9 +12,9 @@
 
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
+#include "hosting/worker.hpp"
 #include "manual/manual.hpp"
 #include "protocol/printable.hpp"
-#include "worker/worker.hpp"
 
 namespace {
 

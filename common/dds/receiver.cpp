@@ -85,7 +85,7 @@ class Delivery : public dds::DataReaderListener {
  private:
   using Time = RunOwners::Time;
 
-  /// Heralds publish figures for watchers too, of workers that are gone.
+  /// CalibrationPresence publish figures for watchers too, of workers that are gone.
   template <class Plain>
   bool may_publish_for(const ParticipantId& source, const Plain& message) const {
     if (inbox_.secured || (std::is_same_v<Plain, Progress> && inbox_.role == Role::watcher)) return true;

@@ -1,4 +1,4 @@
-#include "monitor/pace.hpp"
+#include "monitor/watched.hpp"
 
 #include <algorithm>
 #include <map>
@@ -41,8 +41,8 @@ double evaluations_per_generation(const WatchedRun& run) {
   return evaluations / bred;
 }
 
-/// By what each worker tells of its epochs; what passes between epochs is not in it.
-std::map<std::string, double> told_per_s(const Watched& watched, const WatchedRun& run) {
+/// By what each worker reports of its epochs; what passes between epochs is not in it.
+std::map<std::string, double> reported_per_s(const Watched& watched, const WatchedRun& run) {
   std::map<std::string, Share> shares;
   for (const auto& [key, island] : run.islands) {
     if (run.has_finished(island) || !(island.evaluations_per_s > 0.0)) continue;
@@ -50,16 +50,16 @@ std::map<std::string, double> told_per_s(const Watched& watched, const WatchedRu
     share.islands += 1.0;
     share.speed_sum += island.evaluations_per_s;
   }
-  std::map<std::string, double> told;
+  std::map<std::string, double> reported;
   for (const auto& [name, share] : shares) {
-    told[name] = share.speed_sum / share.islands * std::min(share.islands, busy_slots(watched.worker(name)));
+    reported[name] = share.speed_sum / share.islands * std::min(share.islands, busy_slots(watched.worker(name)));
   }
-  return told;
+  return reported;
 }
 
-double sum_of(const std::map<std::string, double>& told) {
+double sum_of(const std::map<std::string, double>& reported) {
   double sum = 0.0;
-  for (const auto& [name, speed] : told) sum += speed;
+  for (const auto& [name, speed] : reported) sum += speed;
   return sum;
 }
 
@@ -74,14 +74,14 @@ std::optional<double> seen_per_s(const WatchedRun& run, double now_s) {
 
 double evaluations_per_s(const Watched& watched, const WatchedRun& run, double now_s) {
   if (run.state != Control::State::running || share_done(run) >= 1.0) return 0.0;
-  return seen_per_s(run, now_s).value_or(sum_of(told_per_s(watched, run)));
+  return seen_per_s(run, now_s).value_or(sum_of(reported_per_s(watched, run)));
 }
 
 double evaluations_per_s(const Watched& watched, const WatchedRun& run, const WatchedWorker& worker, double now_s) {
-  const auto told = told_per_s(watched, run);
-  const auto own = told.find(worker.status.worker);
-  if (own == told.end() || own->second <= 0.0) return 0.0;
-  return evaluations_per_s(watched, run, now_s) * own->second / sum_of(told);
+  const auto reported = reported_per_s(watched, run);
+  const auto own = reported.find(worker.status.worker);
+  if (own == reported.end() || own->second <= 0.0) return 0.0;
+  return evaluations_per_s(watched, run, now_s) * own->second / sum_of(reported);
 }
 
 double share_done(const WatchedRun& run) {

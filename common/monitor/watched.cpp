@@ -106,7 +106,7 @@ void Watched::note(const WorkerStatus& status, double now_s) {
   if (status.leaving) {
     worker.gone_s = now_s;
   } else if (!is_known || before != WatchedWorker::Presence::here) {
-    tell(now_s, "worker " + status.worker + (is_known ? " is back" : " joined"));
+    add_notice(now_s, "worker " + status.worker + (is_known ? " is back" : " joined"));
   }
 }
 
@@ -115,7 +115,7 @@ void Watched::note(const WorkerLost& lost, double now_s) {
   if (worker == workers_.end() || worker->second.presence != WatchedWorker::Presence::here) return;
   worker->second.presence = WatchedWorker::Presence::lost;
   worker->second.gone_s = now_s;
-  tell(now_s, "worker " + lost.worker + " is lost");
+  add_notice(now_s, "worker " + lost.worker + " is lost");
 }
 
 void Watched::note(const LoopNews& news, double now_s) {
@@ -137,7 +137,7 @@ void Watched::note(const CalibrationLost& lost, double now_s) {
   const auto calibration = calibrations_.find(lost.calibration);
   if (calibration == calibrations_.end() || !calibration->second.is_live()) return;
   calibration->second.lost = true;
-  tell(now_s, "the coordinator of " + calibration->second.stage.job + " is gone");
+  add_notice(now_s, "the coordinator of " + calibration->second.stage.job + " is gone");
 }
 
 WatchedRun& Watched::run_of(RunId run, double now_s) {
@@ -161,9 +161,9 @@ WatchedCalibration& Watched::calibration_of(std::uint64_t calibration, double no
   return calibrations_.at(calibration);
 }
 
-void Watched::tell(double now_s, std::string text) {
-  happenings_.push_back({now_s, std::move(text)});
-  if (happenings_.size() > kMostHappenings) happenings_.pop_front();
+void Watched::add_notice(double now_s, std::string text) {
+  notices_.push_back({now_s, std::move(text)});
+  if (notices_.size() > kMostHappenings) notices_.pop_front();
 }
 
 const WatchedCalibration* Watched::calibration() const {

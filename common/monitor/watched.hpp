@@ -1,9 +1,11 @@
-// What one who watches has seen so far: calibrations, their evolutions, the islands and the workers.
+// What one who watches has seen so far: calibrations, their evolutions, the islands and the workers; and how fast an
+// evolution is.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,8 +55,8 @@ struct WatchedCalibration {
   bool is_live() const { return !lost && !is_over(stage.stage); }
 };
 
-/// Something that people are told in a sentence.
-struct Happening {
+/// A sentence for people about something that happened.
+struct Notice {
   double time_s = 0.0;
   std::string text;
 };
@@ -78,7 +80,7 @@ class Watched {
   /// Null where it was never heard of.
   const WatchedWorker* worker(const std::string& name) const;
   /// The last few, oldest first.
-  const std::deque<Happening>& happenings() const { return happenings_; }
+  const std::deque<Notice>& notices() const { return notices_; }
   bool has_seen_anything() const { return !calibrations_.empty() || !runs_.empty() || !workers_.empty(); }
 
  private:
@@ -91,13 +93,27 @@ class Watched {
   void note(const CalibrationLost& lost, double now_s);
   WatchedRun& run_of(RunId run, double now_s);
   WatchedCalibration& calibration_of(std::uint64_t calibration, double now_s);
-  void tell(double now_s, std::string text);
+  void add_notice(double now_s, std::string text);
 
   std::uint64_t order_ = 0;
   std::map<RunId, WatchedRun> runs_;
   std::map<std::uint64_t, WatchedCalibration> calibrations_;
   std::map<std::string, WatchedWorker> workers_;
-  std::deque<Happening> happenings_;
+  std::deque<Notice> notices_;
 };
+
+/// Evaluations of all workers together: as many as were seen to be done in the last ten seconds or, before one can
+/// tell, of each worker its islands' mean speed, times as many as it computes at once. 0 where nothing is left to breed
+/// or nothing is known.
+double evaluations_per_s(const Watched& watched, const WatchedRun& run, double now_s);
+
+/// The part of one worker in that, by what it reports of its islands.
+double evaluations_per_s(const Watched& watched, const WatchedRun& run, const WatchedWorker& worker, double now_s);
+
+/// Generations bred of those to be bred, over all islands; 0 to 1.
+double share_done(const WatchedRun& run);
+
+/// Seconds until all islands have bred their generations, at the present speed; nothing where that is not known.
+std::optional<double> time_left_s(const Watched& watched, const WatchedRun& run, double now_s);
 
 }  // namespace demecal

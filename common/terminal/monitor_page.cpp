@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "monitor/events.hpp"
-#include "monitor/pace.hpp"
+#include "monitor/watched.hpp"
 #include "terminal/island_grid.hpp"
 #include "terminal/text.hpp"
 
@@ -236,12 +236,12 @@ std::vector<std::string> round_lines(const WatchedCalibration* calibration, cons
 }
 
 std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options) {
-  const auto& happenings = watched.happenings();
-  if (happenings.empty()) return {};
-  const std::size_t count = happenings.size();
+  const auto& notices = watched.notices();
+  if (notices.empty()) return {};
+  const std::size_t count = notices.size();
   Lines lines;
   for (std::size_t i = options.rows != 0 && count > options.rows ? count - options.rows : 0; i < count; ++i) {
-    const std::string text = short_time(now_s - happenings[i].time_s) + " ago: " + happenings[i].text;
+    const std::string text = short_time(now_s - notices[i].time_s) + " ago: " + notices[i].text;
     lines.push_back(styled(truncated(text, options.columns), TextStyle::faint, options.colours));
   }
   return lines;

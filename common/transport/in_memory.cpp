@@ -1,4 +1,4 @@
-#include "transport/in_memory.hpp"
+#include "transport/transport.hpp"
 
 #include <unistd.h>
 

@@ -102,7 +102,7 @@ void Presence::lose(const WriterId& writer, Worker& worker) {
   mailbox_.put(participant_of(writer), WorkerLost{worker.status.worker});
 }
 
-bool Heralds::receive(const WriterId& writer, LoopNews news) {
+bool CalibrationPresence::receive(const WriterId& writer, LoopNews news) {
   const std::lock_guard lock(mutex_);
   const bool is_anothers = std::ranges::any_of(
       calibrations_, [&](const auto& other) { return other.first != writer && other.second == news.calibration; });
@@ -111,7 +111,7 @@ bool Heralds::receive(const WriterId& writer, LoopNews news) {
   return mailbox_.put(participant_of(writer), std::move(news));
 }
 
-void Heralds::departed(const WriterId& writer) {
+void CalibrationPresence::departed(const WriterId& writer) {
   const std::lock_guard lock(mutex_);
   const auto gone = calibrations_.extract(writer);
   if (gone) mailbox_.put(participant_of(writer), CalibrationLost{gone.mapped()});

@@ -16,7 +16,7 @@ namespace demecal {
 
 class Mailbox;
 
-/// What tells a network's participants apart: of DDS the GUID prefix.
+/// What distinguishes a network's participants: of DDS the GUID prefix.
 using ParticipantId = std::array<std::uint8_t, 12>;
 
 /// The participant of the worker with this name, computed from the name: no other participant can publish for it, since
@@ -71,9 +71,9 @@ class Presence {
 };
 
 /// Which calibrations' news have a writer. Any thread may call.
-class Heralds {
+class CalibrationPresence {
  public:
-  explicit Heralds(Mailbox& mailbox) : mailbox_(mailbox) {}
+  explicit CalibrationPresence(Mailbox& mailbox) : mailbox_(mailbox) {}
 
   /// News were read: put, unless another writer publishes for that calibration; whether they were.
   bool receive(const WriterId& writer, LoopNews news);

@@ -17,7 +17,7 @@ namespace demecal {
 /// Puts data, tasks and control into a mailbox. A run belongs to the participant that its number shows, or else to the
 /// one whose data come first; what others publish about it is rejected. Tasks and control that come before the data
 /// wait for them. An end from elsewhere waits until the owner is gone: a coordinator that resumes a job ends the run
-/// that its dead forerunner left. A run that ends without data is over: its data were withdrawn. A run whose owner has
+/// that its dead predecessor left. A run that ends without data is over: its data were withdrawn. A run whose owner has
 /// been gone for long is over too, for those that wait. Any thread may call.
 ///
 /// Numbers that show nobody serve tests alone: whoever is quick could take such a run.

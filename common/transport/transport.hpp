@@ -1,4 +1,5 @@
-// How messages travel: one participant's end of the topics, whatever carries them.
+// How messages travel: one participant's end of the topics, whatever carries them; and the transport inside one
+// process.
 #pragma once
 
 #include <chrono>
@@ -45,5 +46,12 @@ class Transport {
 };
 
 inline constexpr std::chrono::milliseconds kLease{2000};
+
+class Exchange;  ///< what the DDS domain is to the other: where in-memory participants meet
+
+std::shared_ptr<Exchange> make_exchange();
+/// Joins the exchange. `name` identifies a worker: when its transport is destroyed without a WorkerStatus that says
+/// `leaving`, the others receive WorkerLost{name}.
+std::unique_ptr<Transport> join(std::shared_ptr<Exchange> exchange, Role role, const std::string& name);
 
 }  // namespace demecal

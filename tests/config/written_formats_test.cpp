@@ -234,7 +234,7 @@ TEST(WrittenFormats, PageHasTheFilesThatTheSourcesName) {
 
 TEST(WrittenFormats, PageHasTheExitCodes) {
   static const std::regex code("= ([0-9]+)");
-  const std::string text = read_file(kSources / "coordinator/exit_codes.hpp");
+  const std::string text = read_file(kSources / "coordinator/commands.hpp");
   std::set<std::string> codes;
   for (std::sregex_iterator match(text.begin(), text.end(), code), end; match != end; ++match) {
     codes.insert((*match)[1].str());

@@ -7,9 +7,9 @@
 
 #include "config/model_file.hpp"
 #include "coordinator/result_folder.hpp"
-#include "in_memory_fleet.hpp"
-#include "lacking_puma.hpp"
+#include "scheduling/in_memory_fleet.hpp"
 #include "terminal/report_text.hpp"
+#include "workflows/lacking_puma.hpp"
 
 namespace demecal {
 namespace {
@@ -32,7 +32,6 @@ DataSet structured_puma() {
 CalibrateResult calibrated(const DataSet& data, const Job& job, bool interrupted = false) {
   const std::atomic<bool> interrupt{interrupted};
   CalibrateOptions options;
-  options.quiet = true;
   return calibrate(
       data, job,
       []() -> std::unique_ptr<Fleet> {

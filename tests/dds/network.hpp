@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "dds/dds_transport.hpp"
-#include "transport/in_memory.hpp"
+#include "transport/transport.hpp"
 
 namespace demecal {
 

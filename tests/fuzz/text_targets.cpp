@@ -2,8 +2,8 @@
 #include <sstream>
 
 #include "../protocol/small_run.hpp"
-#include "coordinator/journal_records.hpp"
-#include "coordinator/run_state.hpp"
+#include "scheduling/run_journal.hpp"
+#include "scheduling/run_state.hpp"
 #include "data/csv.hpp"
 #include "errors/input_error.hpp"
 #include "expression/argument_order.hpp"

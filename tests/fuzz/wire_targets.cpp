@@ -2,17 +2,17 @@
 
 #include "../protocol/random_messages.hpp"
 #include "../protocol/small_run.hpp"
-#include "coordinator/run_state.hpp"
 #include "dds/endpoints.hpp"
 #include "dds/parts.hpp"
 #include "evolution/island.hpp"
+#include "hosting/hosted_island.hpp"
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
 #include "protocol/faults.hpp"
 #include "protocol/message_bytes.hpp"
 #include "protocol/printable.hpp"
+#include "scheduling/run_state.hpp"
 #include "targets.hpp"
-#include "worker/tenancy.hpp"
 
 namespace demecal::fuzz {
 namespace {
@@ -41,14 +41,14 @@ void use(const CalibrationData& data) {
 void use(const IslandTask& task) {
   if (find_fault(task, the_run())) return;
   static const auto run = std::make_shared<RunData>(RunData{the_run()});
-  Tenancy tenancy(run, task);
-  if (!tenancy.finished()) {
-    tenancy.run_epoch({}, [] {});
-    demand(!find_fault(tenancy.last_migrants(), the_run()), "what an island sends is sound");
-    const auto progress = tenancy.due_progress("w", std::chrono::milliseconds(0));
+  HostedIsland island(run, task);
+  if (!island.finished()) {
+    island.run_epoch({}, [] {});
+    demand(!find_fault(island.last_migrants(), the_run()), "what an island sends is sound");
+    const auto progress = island.due_progress("w", std::chrono::milliseconds(0));
     demand(progress && !find_fault(*progress, the_run()), "what an island tells is sound");
   }
-  demand(!find_fault(tenancy.outcome("w"), the_run()) || !tenancy.finished(), "what an island ends with is sound");
+  demand(!find_fault(island.outcome("w"), the_run()) || !island.finished(), "what an island ends with is sound");
 }
 
 void use(const Migrants& migrants) {

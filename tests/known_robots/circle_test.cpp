@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "config/scenario_file.hpp"
-#include "coordinator/in_memory_fleet.hpp"
 #include "effects/measurement.hpp"
 #include "simulation/simulated_robot.hpp"
+#include "workflows/lacking_puma.hpp"
 
 namespace demecal {
 namespace {

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "coordinator/in_memory_fleet.hpp"
-#include "coordinator/lacking_puma.hpp"
+#include "workflows/lacking_puma.hpp"
 
 namespace demecal {
 namespace {

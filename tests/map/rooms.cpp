@@ -94,7 +94,9 @@ std::set<std::string> reachable_libraries(const Map& map, const Room& start) {
 }
 
 bool is_pure(const std::string& room) {
-  return room != "config" && room != "yaml" && room != "transport" && room != "dds" && room != "library";
+  static const std::set<std::string> impure{"yaml", "config",  "library",    "transport",
+                                            "dds",  "hosting", "scheduling", "workflows"};
+  return !impure.contains(room);
 }
 
 }  // namespace demecal::map

@@ -1,5 +1,5 @@
 // Speed and time left, against runs whose course is known.
-#include "monitor/pace.hpp"
+#include "monitor/watched.hpp"
 
 #include <gtest/gtest.h>
 

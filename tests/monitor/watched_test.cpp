@@ -83,7 +83,7 @@ TEST(Watched, KeepsNoMoreThanAFewRunsAndCalibrations) {
   EXPECT_EQ(watched.run()->islands.begin()->second.run, 100u);
   EXPECT_LT(watched.other_calibrations(), 10u);
   for (int i = 0; i < 100; ++i) watched.take(WorkerLost{"nobody"}, 101.0);
-  EXPECT_TRUE(watched.happenings().empty());
+  EXPECT_TRUE(watched.notices().empty());
 }
 
 TEST(Watched, TellsWorkersThatLeaveFromThoseThatAreLost) {
@@ -95,10 +95,10 @@ TEST(Watched, TellsWorkersThatLeaveFromThoseThatAreLost) {
   watched.take(WorkerLost{"two"}, 3.0);
   EXPECT_EQ(watched.worker("one")->presence, Presence::left);
   EXPECT_EQ(watched.worker("two")->presence, Presence::lost);
-  EXPECT_EQ(watched.happenings().back().text, "worker two is lost");
+  EXPECT_EQ(watched.notices().back().text, "worker two is lost");
   watched.take(status("two"), 4.0);
   EXPECT_EQ(watched.worker("two")->presence, Presence::here);
-  EXPECT_EQ(watched.happenings().back().text, "worker two is back");
+  EXPECT_EQ(watched.notices().back().text, "worker two is back");
 }
 
 TEST(Watched, ShowsWorkersThatAreHereOrHaveToDoWithTheRun) {

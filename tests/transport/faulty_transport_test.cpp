@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "transport/in_memory.hpp"
+#include "transport/transport.hpp"
 
 namespace demecal {
 namespace {

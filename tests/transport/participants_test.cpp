@@ -115,7 +115,7 @@ TEST_F(Presences, ARepeatedStatusIsNewsOnlyOfALostWorker) {
 }
 
 TEST_F(Presences, NewsOfACalibrationComeFromOneWriterWhileItIsThere) {
-  Heralds heralds(mailbox);
+  CalibrationPresence heralds(mailbox);
   LoopNews news;
   news.calibration = 3;
   EXPECT_TRUE(heralds.receive(kOne, news));

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <thread>
 
-#include "coordinator/local_workers.hpp"
+#include "coordinator/fleet.hpp"
 #include "figures.hpp"
+#include "hosting/worker.hpp"
 #include "load.hpp"
-#include "worker/worker.hpp"
 
 namespace {
 

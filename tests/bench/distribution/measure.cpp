@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "coordinator/evolution_run.hpp"
-#include "coordinator/local_workers.hpp"
+#include "coordinator/fleet.hpp"
 #include "processor_time.hpp"
+#include "scheduling/evolution_run.hpp"
 
 namespace demecal::bench {
 namespace {

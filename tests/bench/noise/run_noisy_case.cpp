@@ -9,7 +9,7 @@
 #include "bad_poses.hpp"
 #include "closed_loop/draw_truth.hpp"
 #include "closed_loop/truth.hpp"
-#include "coordinator/diagnose.hpp"
+#include "workflows/diagnose.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/searches.hpp"
 #include "effects/measurement.hpp"

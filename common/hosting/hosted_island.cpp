@@ -1,0 +1,109 @@
+#include "hosting/hosted_island.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "errors/check.hpp"
+
+namespace demecal {
+
+const TrainingTable& RunData::table(std::uint32_t joint) const {
+  const auto& joints = data.archipelago.joints;
+  const auto found = std::find(joints.begin(), joints.end(), joint);
+  DEMECAL_CHECK(found != joints.end(), "joint " << joint << " is not in the run");
+  return data.tables[static_cast<std::size_t>(found - joints.begin())];
+}
+
+HostedIsland::HostedIsland(std::shared_ptr<const RunData> run, const IslandTask& task)
+    : run_(std::move(run)),
+      island_(run_->data.parameters, run_->data.archipelago, run_->table(task.island.joint), task.island,
+              run_->data.seed),
+      attempt_(task.attempt),
+      sources_(demecal::sources(run_->data.archipelago, task.island)),
+      consumers_(demecal::consumers(run_->data.archipelago, task.island)),
+      first_epoch_(task.start.epoch),
+      recent_(task.recent.begin(), task.recent.end()),
+      checkpoint_epoch_(task.start.epoch),
+      checkpoint_sent_(std::chrono::steady_clock::now()) {
+  if (task.start.epoch > 0) island_.restore(task.start);
+  for (const Migrants& sent : recent_) migrants_sent_ += sent.individuals.size();
+}
+
+bool HostedIsland::is_ready(const MigrantStore& arrived) const {
+  return epoch() == 0 || run_->data.archipelago.asynchronous || arrived.holds(sources_, epoch());
+}
+
+Population HostedIsland::immigrants(const MigrantStore& arrived) {
+  if (epoch() == 0) return {};
+  if (run_->data.archipelago.asynchronous) return arrived.collect_new(sources_, taken_);
+  return arrived.collect(sources_, epoch()).value_or(Population{});
+}
+
+void HostedIsland::run_epoch(const Population& immigrants, const std::function<void()>& heartbeat) {
+  const std::uint64_t evaluations = island_.state().evaluations;
+  const auto begin = std::chrono::steady_clock::now();
+  island_.run_epoch(immigrants, heartbeat);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  evaluations_per_s_ = static_cast<double>(island_.state().evaluations - evaluations) / std::max(elapsed.count(), 1e-9);
+  const IslandState& state = island_.state();
+  unreported_.push_back({state.epoch, state.generation, island_.figures(), state.evaluations, state.migrants_taken});
+  recent_.push_back({run_->data.run, island(), epoch(), island_.emigrants(), {}});
+  migrants_sent_ += recent_.back().individuals.size();
+  while (recent_.size() > kMigrantEpochs) recent_.pop_front();
+  epoch_ended_ = std::chrono::steady_clock::now();
+}
+
+std::vector<Migrants> HostedIsland::unsent() {
+  if (std::exchange(all_recent_unsent_, false)) return {recent_.begin(), recent_.end()};
+  return {recent_.back()};
+}
+
+std::optional<Progress> HostedIsland::due_progress(const std::string& worker, std::chrono::milliseconds interval) {
+  const auto now = std::chrono::steady_clock::now();
+  if (unreported_.empty()) return std::nullopt;
+  if (!finished() && unreported_.size() < kMostReportedEpochs && now - progress_reported_ < interval)
+    return std::nullopt;
+  progress_reported_ = now;
+  const EpochFigures present = unreported_.back();
+  unreported_.pop_back();
+  return Progress{.run = run_->data.run,
+                  .island = island(),
+                  .worker = worker,
+                  .epoch = present.epoch,
+                  .generation = present.generation,
+                  .figures = present.figures,
+                  .evaluations = present.evaluations,
+                  .evaluations_per_s = evaluations_per_s_,
+                  .migrants_taken = present.migrants_taken,
+                  .migrants_sent = migrants_sent_,
+                  .waited_share = waited_.at(now),
+                  .before = std::exchange(unreported_, {})};
+}
+
+std::optional<Checkpoint> HostedIsland::due_checkpoint(const std::string& worker, std::chrono::milliseconds interval) {
+  constexpr std::uint32_t kCheckpointEpochs = kMigrantEpochs / 2;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - checkpoint_sent_ < interval && epoch() - checkpoint_epoch_ < kCheckpointEpochs) return std::nullopt;
+  checkpoint_epoch_ = epoch();
+  checkpoint_sent_ = now;
+  return checkpoint(worker);
+}
+
+Checkpoint HostedIsland::checkpoint(const std::string& worker) const {
+  return {run_->data.run, attempt_, island(), island_.state(), {recent_.begin(), recent_.end()}, worker};
+}
+
+Outcome HostedIsland::outcome(const std::string& worker) const {
+  const IslandState& state = island_.state();
+  return {.run = run_->data.run,
+          .attempt = attempt_,
+          .island = island(),
+          .worker = worker,
+          .generations = state.generation,
+          .evaluations = state.evaluations,
+          .migrants_taken = state.migrants_taken,
+          .front = state.front};
+}
+
+}  // namespace demecal

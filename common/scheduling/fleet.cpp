@@ -1,0 +1,37 @@
+#include "scheduling/fleet.hpp"
+
+#include <unistd.h>
+
+#include "hosting/worker.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr const char* kWorkerName = "in-process";
+
+}  // namespace
+
+InProcessFleet::InProcessFleet(std::uint32_t threads)
+    : threads_(threads), transport_(join(exchange_, Role::coordinator, "coordinator")) {}
+
+InProcessFleet::~InProcessFleet() {
+  if (!worker_.joinable()) return;
+  stop_ = true;
+  worker_transport_->wake();
+  worker_.join();
+}
+
+void InProcessFleet::launch(RunId) {
+  if (worker_.joinable()) return;
+  worker_transport_ = join(exchange_, Role::worker, kWorkerName);
+  worker_ = std::thread([this] {
+    WorkerOptions options;
+    options.name = kWorkerName;
+    options.host = "localhost";
+    options.process = static_cast<std::uint32_t>(::getpid());
+    options.slots = threads_;
+    Worker(*worker_transport_, options).serve(stop_);
+  });
+}
+
+}  // namespace demecal

@@ -1,0 +1,181 @@
+#include "scheduling/island_evolver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "errors/input_error.hpp"
+#include "protocol/faults.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::chrono::milliseconds kDismissTimeout{2000};
+
+/// Without a run's number yet.
+CalibrationData calibration_data(const Job& job, const std::vector<JointTraining>& trainings,
+                                 const EvolutionTerms& terms, bool asynchronous) {
+  CalibrationData data;
+  data.job = job.name;
+  data.seed = terms.seed;
+  data.parameters = job.gp;
+  data.parameters.number_generations = terms.generations;
+  data.parameters.shared_functions = terms.functions;
+  data.archipelago.demes_per_joint = job.islands.per_joint;
+  data.archipelago.topology = job.islands.topology;
+  data.archipelago.migration_interval = job.islands.migration_interval;
+  data.archipelago.migrants = job.islands.migrants;
+  data.archipelago.between_joints = job.islands.between_joints;
+  data.archipelago.asynchronous = asynchronous;
+  data.archipelago.replacement = job.islands.replacement;
+  data.archipelago.spread = job.islands.spread;
+  for (const JointTraining& training : trainings) {
+    data.archipelago.joints.push_back(training.joint);
+    data.tables.push_back(training.table);
+  }
+  return data;
+}
+
+/// Data that workers would refuse are the user's error.
+CalibrationData believable(CalibrationData data) {
+  CalibrationData named = data;
+  named.run = 1;
+  if (const Fault fault = find_fault(named)) {
+    throw InputError({}, data.job, "no worker would take this job: " + *fault);
+  }
+  return data;
+}
+
+std::vector<JointCandidates> candidates_of(const std::vector<JointTraining>& trainings, const RunResult& run) {
+  std::vector<JointCandidates> candidates;
+  for (const JointTraining& training : trainings) {
+    ParetoFront front;
+    for (const auto& [island, members] : run.fronts) {
+      if (island.joint != training.joint) continue;
+      for (const Individual& member : members) front.offer(member);
+    }
+    candidates.push_back({training, front.members()});
+  }
+  return candidates;
+}
+
+/// Has an observer and a journal follow what happens, as far as they are there.
+class RecordedRun final : public RunObserver {
+ public:
+  RecordedRun(RunObserver* observer, RunJournal* journal) : observer_(observer), journal_(journal) {}
+  void on_progress(const Progress& progress) override { notify(&RunObserver::on_progress, progress); }
+  void on_checkpoint(const Checkpoint& checkpoint) override { notify(&RunObserver::on_checkpoint, checkpoint); }
+  void on_outcome(const Outcome& outcome) override { notify(&RunObserver::on_outcome, outcome); }
+  void on_worker(const WorkerStatus& status) override { notify(&RunObserver::on_worker, status); }
+  void on_lost(const std::string& worker) override { notify(&RunObserver::on_lost, worker); }
+  void on_tick() override {
+    if (observer_ != nullptr) observer_->on_tick();
+    if (journal_ != nullptr) journal_->on_tick();
+  }
+
+ private:
+  template <class Event>
+  void notify(void (RunObserver::*on_event)(const Event&), const Event& event) {
+    if (observer_ != nullptr) (observer_->*on_event)(event);
+    if (journal_ != nullptr) (static_cast<RunObserver*>(journal_)->*on_event)(event);
+  }
+
+  RunObserver* observer_;
+  RunJournal* journal_;
+};
+
+}  // namespace
+
+EvolvedJoints IslandEvolver::evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) {
+  if (trainings.empty()) return {{}, end_ == RunEnd::finished};
+  const bool shown = terms.purpose != Purpose::null_distribution;
+  RunState state = known_state(believable(calibration_data(job_, trainings, terms, options_.asynchronous)));
+  RunResult result = state.all_finished() ? state.result(RunEnd::finished) : run(std::move(state), shown);
+  EvolvedJoints evolved{candidates_of(trainings, result), result.end == RunEnd::finished};
+  count(result, terms.generations, shown);
+  return evolved;
+}
+
+RunState IslandEvolver::known_state(const CalibrationData& data) {
+  auto recorded = options_.journal == nullptr ? std::nullopt : options_.journal->recorded(data);
+  if (recorded) facts_.resumed = true;
+  return recorded ? std::move(*recorded) : RunState(data);
+}
+
+/// Goes on from the state as a new run: workers may still be at the one that it comes from, which is over.
+RunResult IslandEvolver::run(RunState state, bool shown) {
+  while (true) {
+    RunResult result = attempt(state, shown);
+    if (result.end != RunEnd::stuck) return result;
+    state = RunState(state.data());
+    if (options_.journal != nullptr) options_.journal->forget();
+  }
+}
+
+/// Under a number that shows whose the run is.
+RunResult IslandEvolver::attempt(RunState& state, bool shown) {
+  if (!fleet_) fleet_ = make_fleet_();
+  Transport& transport = fleet_->transport();
+  state.rename(transport.new_run());
+  if (options_.journal != nullptr) {
+    options_.journal->begin(state.data());
+    for (const RunId left : options_.journal->take_left())
+      transport.publish(Control{left, Control::State::cancelled, state.data().job});
+  }
+  if (options_.observer != nullptr) options_.observer->on_run_begins(state.data(), state.progress(), shown);
+  fleet_->launch(state.data().run);
+  RecordedRun recorded(options_.observer, options_.journal);
+  RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, options_.patience);
+  present_ = std::move(result.present);
+  result.rejected -= std::exchange(rejected_, result.rejected);
+  if (options_.journal != nullptr) options_.journal->finish();
+  if (options_.observer != nullptr) options_.observer->on_run_ends(result.end);
+  if (result.end != RunEnd::finished) release_fleet();
+  return result;
+}
+
+void IslandEvolver::start_fleet() {
+  if (fleet_) return;
+  fleet_ = make_fleet_();
+  fleet_->launch(fleet_->transport().new_run());
+}
+
+void IslandEvolver::dismiss_fleet() {
+  // Those who served it must learn that the last run is over.
+  if (fleet_ && !interrupt_) fleet_->transport().flush(kDismissTimeout);
+  release_fleet();
+}
+
+void IslandEvolver::release_fleet() {
+  if (!fleet_) return;
+  fleet_.reset();
+  present_.clear();
+  rejected_ = 0;
+  if (options_.observer != nullptr) options_.observer->on_fleet_ends();
+}
+
+void IslandEvolver::add_effort(std::uint32_t generations, std::uint64_t evaluations) {
+  end_ = interrupt_ ? RunEnd::interrupted : RunEnd::finished;
+  facts_.generations += generations;
+  facts_.evaluations += evaluations;
+}
+
+void IslandEvolver::count(RunResult& result, int generations, bool shown) {
+  end_ = result.end;
+  for (Progress& progress : result.history) {
+    if (!shown) break;
+    progress.generation += generations_shown_;
+    history_.push_back(std::move(progress));
+  }
+  facts_.workers = std::max(facts_.workers, result.workers);
+  facts_.islands = std::max(facts_.islands, result.fronts.size());
+  facts_.generations += result.generations;
+  facts_.evaluations += result.evaluations;
+  facts_.migrations += result.migrations;
+  facts_.dropped_samples += result.rejected;
+  for (const auto& [worker, share] : result.waited_share) facts_.waited_share[worker] = share;
+  if (!shown) return;
+  generations_shown_ += static_cast<std::uint32_t>(generations);
+  fronts_ = std::move(result.fronts);
+}
+
+}  // namespace demecal

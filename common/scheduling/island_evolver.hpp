@@ -1,0 +1,86 @@
+// Evolution on islands: the Evolver that schedules them over a fleet of workers, run by run.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "report/make_report.hpp"
+#include "scheduling/evolution_run.hpp"
+#include "scheduling/fleet.hpp"
+#include "scheduling/run_journal.hpp"
+
+namespace demecal {
+
+/// Told what happens in the runs of an evolver, as it happens.
+class EvolutionObserver : public RunObserver {
+ public:
+  /// `reached`: figures of islands of a run that goes on from where it was broken off; no worker will give them again.
+  /// `shown`: whether the run is for people to see.
+  virtual void on_run_begins(const CalibrationData& /*data*/, const std::vector<Progress>& /*reached*/,
+                             bool /*shown*/) {}
+  virtual void on_run_ends(RunEnd /*end*/) {}
+  /// The workers that serve this coordinator alone are let go.
+  virtual void on_fleet_ends() {}
+};
+
+struct EvolverOptions {
+  RunPatience patience;
+  bool asynchronous = false;              ///< islands wait for no neighbour: the result depends on timing
+  EvolutionObserver* observer = nullptr;  ///< none: nobody
+  RunJournal* journal = nullptr;          ///< where runs are recorded and taken up again; none: nowhere
+};
+
+/// The evolutions of one calibration: the first, and those that follow when effects were found; each a run of its own.
+/// One fleet serves them all: its workers know each other, and begin with the next run at once. A run that the journal
+/// tells the end of is not run again; one that it tells the beginning of goes on from there. A run that is stuck is
+/// begun anew, on another fleet.
+class IslandEvolver final : public Evolver {
+ public:
+  IslandEvolver(const Job& job, MakeFleet make_fleet, const std::atomic<bool>& interrupt, const EvolverOptions& options)
+      : job_(job), make_fleet_(std::move(make_fleet)), interrupt_(interrupt), options_(options) {}
+
+  /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. All but searches
+  /// for the null distribution are for people to see, and in the history.
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override;
+  bool is_interrupted() const override { return interrupt_; }
+  void add_effort(std::uint32_t generations, std::uint64_t evaluations) override;
+
+  /// Has the fleet's workers start before anything is to be evolved: they take their time to come.
+  void start_fleet();
+  /// Lets the fleet go. It serves no more: another would be made.
+  void dismiss_fleet();
+  RunEnd end() const { return end_; }
+  /// Rows of all runs; the generations of a later one follow those of the earlier.
+  std::vector<Progress> take_history() { return std::move(history_); }
+  /// What the islands of the last run that was shown ended with.
+  std::map<IslandKey, Population> take_fronts() { return std::move(fronts_); }
+  const RunFacts& facts() const { return facts_; }
+
+ private:
+  RunState known_state(const CalibrationData& data);
+  RunResult run(RunState state, bool shown);
+  RunResult attempt(RunState& state, bool shown);
+  void count(RunResult& result, int generations, bool shown);
+  void release_fleet();
+
+  const Job& job_;
+  MakeFleet make_fleet_;
+  const std::atomic<bool>& interrupt_;
+  EvolverOptions options_;
+  std::unique_ptr<Fleet> fleet_;                 ///< from the first run on
+  std::map<std::string, WorkerStatus> present_;  ///< its workers when the last run ended
+  std::uint64_t rejected_ = 0;                   ///< by its transport, as counted so far
+  RunEnd end_ = RunEnd::finished;
+  std::vector<Progress> history_;
+  std::map<IslandKey, Population> fronts_;
+  RunFacts facts_;
+  std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
+};
+
+}  // namespace demecal

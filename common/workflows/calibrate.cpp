@@ -1,0 +1,199 @@
+#include "workflows/calibrate.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "calibration/shared_functions.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "closed_calibration/closed_calibration.hpp"
+#include "distal/learning.hpp"
+#include "random/random_purpose.hpp"
+#include "structure/structural_calibration.hpp"
+
+namespace demecal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// `search`: of the searches for the null distribution, which this is, from 1.
+std::string to_string(Purpose purpose, int search) {
+  if (purpose == Purpose::corrections) return "evolving the joint corrections anew beside the effects";
+  if (purpose == Purpose::formulas) return "evolving formulas over all circumstances on what is left";
+  return "the same search on permuted poses, to know what chance finds: number " + std::to_string(search);
+}
+
+/// Whether the corrections are evolved by workers, and not in this process.
+bool evolves_on_islands(const Job& job) {
+  return job.declared.joint_corrections && (job.method != Method::distal || job.distal.form == DistalForm::parallel);
+}
+
+std::string to_string(const std::vector<SharedFunction>& functions) {
+  if (functions.empty()) return "no structure shortens formulas of two joints: no function is shared yet";
+  std::string words = "joints share";
+  for (std::size_t i = 0; i < functions.size(); ++i) words += (i == 0 ? " " : "; ") + definition_text(functions[i], i);
+  return words;
+}
+
+/// The islands, with words for people about what the closed loop has them evolve.
+class AnnouncedEvolver final : public Evolver {
+ public:
+  AnnouncedEvolver(IslandEvolver& islands, CalibrationObserver& observer) : islands_(islands), observer_(observer) {}
+
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
+    EvolvedJoints evolved = islands_.evolve(trainings, terms);
+    if (islands_.end() == RunEnd::no_worker)
+      observer_.on_message("no worker is left: the loop's own corrections are kept");
+    return evolved;
+  }
+  void announce(Purpose purpose) override {
+    if (purpose == Purpose::null_distribution) ++null_searches_;
+    observer_.on_message(to_string(purpose, null_searches_));
+  }
+  bool is_interrupted() const override { return islands_.is_interrupted(); }
+  void add_effort(std::uint32_t generations, std::uint64_t evaluations) override {
+    islands_.add_effort(generations, evaluations);
+  }
+
+ private:
+  IslandEvolver& islands_;
+  CalibrationObserver& observer_;
+  int null_searches_ = 0;
+};
+
+/// Stages of evolution, each but the first with words for people about the functions it has.
+class StagedEvolver final : public Evolver {
+ public:
+  StagedEvolver(Evolver& evolver, CalibrationObserver& observer) : evolver_(evolver), observer_(observer) {}
+
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
+    if (!std::exchange(first_, false)) observer_.on_message(to_string(terms.functions));
+    return evolver_.evolve(trainings, terms);
+  }
+
+ private:
+  Evolver& evolver_;
+  CalibrationObserver& observer_;
+  bool first_ = true;
+};
+
+/// In stages where joints are to share functions.
+std::vector<JointCandidates> learn_directly(const DataSet& data, const Job& job, IslandEvolver& islands,
+                                            CalibrationObserver& observer, CalibrateResult& result) {
+  const std::vector<JointTraining>& training = result.preparation.training;
+  if (job.corrections.sharing.functions == 0)
+    return islands.evolve(training, {job.seed, job.gp.number_generations}).joints;
+  observer.on_learning_begins(data.robot);
+  StagedEvolver evolver(islands, observer);
+  StagedOutcome outcome = learn_in_stages(training, job, evolver);
+  result.functions = std::move(outcome.functions);
+  return std::move(outcome.candidates);
+}
+
+/// What islands or this process evolved for every joint, by the job's method; the run's end is in `islands`.
+std::vector<JointCandidates> learn(const DataSet& data, const Job& job, IslandEvolver& islands,
+                                   CalibrationObserver& observer, CalibrateResult& result) {
+  if (job.method != Method::distal) return learn_directly(data, job, islands, observer, result);
+  DistalOutcome outcome = learn_distally(data, job, result.preparation, islands);
+  result.distal = std::move(outcome.steps);
+  if (job.corrections.sharing.functions > 0) result.functions = std::move(outcome.functions);
+  return std::move(outcome.candidates);
+}
+
+/// Closes the loop around result.calibration.
+void close_the_loop(const DataSet& data, const Job& job, IslandEvolver& islands, const std::atomic<bool>& interrupt,
+                    CalibrationObserver& observer, CalibrateResult& result) {
+  observer.on_learning_begins(data.robot);
+  const auto watch = [&](const Round& round) {
+    observer.on_round(round, data.robot);
+    return !interrupt;
+  };
+  AnnouncedEvolver evolver(islands, observer);
+  ClosedCalibration closed =
+      close_calibration(data, job, result.preparation, result.calibration, evolver, watch, result.functions);
+  result.before = std::move(closed.before);
+  result.calibration = std::move(closed.calibration);
+  result.loop = std::move(closed.loop);
+  if (interrupt) result.end = RunEnd::interrupted;
+}
+
+}  // namespace
+
+CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration) {
+  return {.job = job.name,
+          .nominal = data.robot,
+          .method = job.method,
+          .declared = job.declared,
+          .robot = calibration.robot,
+          .estimates = calibration.estimates,
+          .joints = calibration.joints,
+          .posterior = posterior_of(data, job.declared, calibration),
+          .interval = interval_of(data, job.declared, calibration),
+          .measured = measured_ranges(data, calibration),
+          .data_name = data.name,
+          .data_sha256 = data.sha256,
+          .seed = job.seed,
+          .version = DEMECAL_VERSION};
+}
+
+CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& make_fleet,
+                          const std::atomic<bool>& interrupt, const CalibrateOptions& options) {
+  const Clock::time_point begin = Clock::now();
+  if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
+  CalibrateResult result;
+  CalibrationObserver nobody;
+  CalibrationObserver& observer = options.observer == nullptr ? nobody : *options.observer;
+  IslandEvolver islands(job, make_fleet, interrupt,
+                        {options.patience, options.asynchronous, &observer, options.journal});
+  if (evolves_on_islands(job)) islands.start_fleet();
+  result.preparation = prepare(data, job);
+  const std::vector<JointCandidates> candidates = learn(data, job, islands, observer, result);
+  result.end = islands.end();
+  result.fronts = islands.take_fronts();
+  result.calibration = conclude(data, job, result.preparation, candidates);
+  result.before = result.calibration.robot;
+  if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0) {
+    close_the_loop(data, job, islands, interrupt, observer, result);
+  }
+  islands.dismiss_fleet();
+  result.model = make_model(data, job, result.calibration);
+  result.model.functions = result.functions;
+  result.history = islands.take_history();
+  result.facts = islands.facts();
+  result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  result.facts.interrupted = result.end == RunEnd::interrupted;
+  result.facts.asynchronous = options.asynchronous;
+  return result;
+}
+
+CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
+                                       const CalibrateOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  Job without_corrections = job;
+  without_corrections.declared.joint_corrections = false;
+  CalibrateResult result;
+  result.preparation = prepare(data, without_corrections);
+  const StructureOptions search;
+  const auto watch = [&](int generation, double left) {
+    if (options.observer != nullptr) options.observer->on_structure_generation(generation, search.generations, left);
+    return !interrupt;
+  };
+  RandomStream random{job.seed, number_of(RandomPurpose::structure_search)};
+  StructuralCalibration found =
+      calibrate_structure(data, job.declared, result.preparation.registered.robot, search, random, watch);
+  result.calibration = conclude(data, without_corrections, result.preparation, {});
+  result.calibration.robot = std::move(found.robot);
+  result.calibration.estimates = std::move(found.estimates);
+  result.calibration.index_after_mm2 =
+      performance_index_mm2(result.calibration.robot, data, poses_of(data, PoseSet::calibration));
+  result.before = result.calibration.robot;
+  result.structure = std::move(found.transforms);
+  result.model = make_model(data, without_corrections, result.calibration);
+  if (interrupt) result.end = RunEnd::interrupted;
+  result.facts.generations = static_cast<std::uint64_t>(found.generations);
+  result.facts.evaluations = found.evaluations;
+  result.facts.interrupted = interrupt;
+  result.facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace demecal

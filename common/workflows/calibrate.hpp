@@ -1,0 +1,70 @@
+// The main job, everything but files and terminals: from measured poses and a job to a model and what is to be said of
+// it.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calibration/job.hpp"
+#include "data/data_set.hpp"
+#include "distal/steps.hpp"
+#include "report/make_report.hpp"
+#include "scheduling/island_evolver.hpp"
+#include "structure/structure_fit.hpp"
+
+namespace demecal {
+
+/// Told what happens in a calibration, as it happens. The result does not depend on it.
+class CalibrationObserver : public EvolutionObserver {
+ public:
+  /// What is learnt begins: joint corrections in stages, or the closed loop.
+  virtual void on_learning_begins(const Robot& /*described*/) {}
+  virtual void on_round(const Round& /*round*/, const Robot& /*described*/) {}
+  /// A sentence for people on what is being done.
+  virtual void on_message(const std::string& /*text*/) {}
+  /// A generation of the structural search is over; the best structure leaves `left` of the validation poses' squares.
+  virtual void on_structure_generation(int /*generation*/, int /*generations*/, double /*left*/) {}
+};
+
+struct CalibrateOptions {
+  RunPatience patience;
+  bool asynchronous = false;                ///< islands wait for no neighbour: the result depends on timing
+  CalibrationObserver* observer = nullptr;  ///< none: nobody
+  RunJournal* journal = nullptr;            ///< where evolutions are recorded and taken up again; none: nowhere
+};
+
+struct CalibrateResult {
+  RunEnd end = RunEnd::finished;
+  CalibratedModel model;
+  Preparation preparation;
+  Calibration calibration;
+  CorrectedRobot before;  ///< what the closed loop started from
+  LoopOutcome loop;
+  std::vector<Progress> history;
+  std::vector<DistalStep> distal;          ///< of distal learning, before the loop
+  KnownFunctions functions;                ///< that joints share; nothing where the job does not ask for any
+  std::vector<FoundTransform> structure;   ///< of the structural method
+  std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
+  RunFacts facts;
+  DataCheck check;  ///< of the data, before anything was fitted
+};
+
+/// The model of a calibration, and where it came from.
+CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration);
+
+/// Prepares, evolves on the fleet, concludes, and closes the loop unless the job allows it no effects. One fleet is
+/// asked for where joint corrections are evolved, and serves all evolutions; another takes its place after one that was
+/// stuck. The structural method evolves no corrections: it needs no fleet, and no loop follows. Throws InputError for
+/// data that the job cannot be fitted to.
+CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& make_fleet,
+                          const std::atomic<bool>& interrupt, const CalibrateOptions& options);
+
+/// By transforms between the links: searched for in this process, without workers. Base, tool, offsets and geometry as
+/// the job declares them are fitted for comparison; the search starts from base and tool alone. Interrupted, it keeps
+/// the best structure so far.
+CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
+                                       const CalibrateOptions& options);
+
+}  // namespace demecal

@@ -1,0 +1,104 @@
+#include "workflows/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "closed_calibration/closing.hpp"
+#include "closed_calibration/loop_passes.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+bool determines(const DataSet& data, const DeclaredModel& declared) {
+  std::size_t measured = 0;
+  for (const std::size_t pose : poses_of(data, PoseSet::calibration)) {
+    measured += static_cast<std::size_t>(rows_of(data.poses[pose]).total());
+  }
+  return measured >= 2 * free_parameters(data, declared, {}).size();
+}
+
+Preparation start_of(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {
+  if (!known) return prepare(data, job);
+  require_same_nominal_arm(*known, data);
+  CorrectedRobot model = known->robot;
+  model.described = data.robot;
+  return prepare_from(data, job.declared, model, job.targets);
+}
+
+bool same_link(const Joint& one, const Joint& other) {
+  constexpr double kRounding = 1e-9;  // m or rad
+  bool same = one.type == other.type;
+  for (int parameter = 0; parameter < kLinkParameters; ++parameter) {
+    const auto which = static_cast<LinkParameter>(parameter);
+    same = same && std::abs(one.parameter(which) - other.parameter(which)) < kRounding;
+  }
+  return same;
+}
+
+}  // namespace
+
+void require_same_arm(const CalibratedModel& model, const DataSet& data) {
+  if (data.robot.chain.size() != model.robot.chain.size()) {
+    throw InputError({data.file, 0}, std::to_string(data.robot.chain.size()),
+                     fmt::format("is not the number of joints of the model ({})", model.robot.chain.size()));
+  }
+  for (const MeasuredPose& pose : data.poses) {
+    if (!model.robot.tools.contains(pose.target)) {
+      throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
+    }
+  }
+}
+
+void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data) {
+  require_same_arm(model, data);
+  const Chain &one = model.nominal.chain, &other = data.robot.chain;
+  for (std::size_t i = 0; i < one.joints.size(); ++i) {
+    if (one.convention == other.convention && same_link(one.joints[i], other.joints[i])) continue;
+    throw InputError({data.file, 0}, data.robot.name,
+                     fmt::format("is not the arm that the model corrects: joint {} differs", i + 1));
+  }
+}
+
+DeclaredModel declared_by_default(const DataSet& data) {
+  for (const DeclaredModel& declared :
+       {DeclaredModel{.registration = true, .tool = true, .joint_offset = true, .geometry = true},
+        DeclaredModel{.registration = true, .tool = true, .joint_offset = true},
+        DeclaredModel{.registration = true, .tool = true}}) {
+    if (determines(data, declared)) return declared;
+  }
+  return {.registration = true};
+}
+
+Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
+                   const RoundWatcher& watch) {
+  const auto begin = std::chrono::steady_clock::now();
+  CalibrateResult result;
+  result.preparation = start_of(data, job, known);
+  const auto watched = [&](const Round& round) {
+    const bool go_on = !watch || watch(round);
+    if (!go_on) result.end = RunEnd::interrupted;
+    return go_on;
+  };
+  const Fit& declared = result.preparation.declared;
+  LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot),
+                                loop_options(job, declared.robot.effects.size()), watched);
+  drop_negligible_terms(found.before);
+  drop_negligible_terms(found.model);
+  LoopModels ends{std::move(found.before), std::move(found.model)};
+  std::optional<LastFit> last = last_fit(data, job.declared, ends);
+  if (last) ends = std::move(last->ends);
+  result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
+  if (last) result.calibration.unseen = last->unseen;
+  result.before = std::move(ends.before.robot);
+  result.loop = std::move(found.outcome);
+  update_rounds(result.loop, ends.after.robot, data.robot);
+  result.model = make_model(data, job, result.calibration);
+  result.facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.facts.interrupted = result.end == RunEnd::interrupted;
+  return {std::move(result), std::move(ends.after)};
+}
+
+}  // namespace demecal

@@ -1,0 +1,47 @@
+#include "workflows/study.hpp"
+
+#include <utility>
+
+#include "report/evaluation.hpp"
+
+namespace demecal {
+
+StudyRun figures_of(const DataSet& data, const CalibrateResult& result) {
+  const ErrorBySet errors = errors_by_set(result.model.robot, data);
+  StudyRun run;
+  run.calibration_mm = errors.calibration.rms_mm;
+  run.validation_mm = errors.validation.rms_mm;
+  if (const auto& unseen = result.calibration.unseen) run.validation_mm = unseen->after_mm;
+  run.accept_mm = errors.accept.rms_mm;
+  for (const JointCorrection& correction : result.model.robot.corrections) {
+    if (correction.is_neutral()) continue;
+    ++run.corrected;
+    run.nodes += correction.formula().size();
+  }
+  run.evaluations = result.facts.evaluations;
+  run.wall_s = result.facts.wall_s;
+  return run;
+}
+
+StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span<const std::uint64_t> seeds,
+                       const MakeFleet& make_fleet, const std::atomic<bool>& interrupt, const CalibrateOptions& options,
+                       const std::function<void(const StudyOutcome&)>& on_run) {
+  StudyOutcome outcome;
+  for (const std::uint64_t seed : seeds) {
+    for (std::size_t cell = 0; cell < jobs.size(); ++cell) {
+      Job job = jobs[cell];
+      job.seed = seed;
+      CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
+      outcome.end = result.end;
+      if (result.end != RunEnd::finished) return outcome;
+      outcome.runs.push_back(figures_of(data, result));
+      outcome.runs.back().cell = cell;
+      outcome.runs.back().seed = seed;
+      for (auto& [island, members] : result.fronts) outcome.fronts.push_back({island.joint, std::move(members)});
+      on_run(outcome);
+    }
+  }
+  return outcome;
+}
+
+}  // namespace demecal

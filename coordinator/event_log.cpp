@@ -1,0 +1,189 @@
+#include "coordinator/event_log.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "errors/input_error.hpp"
+#include "monitor/watched.hpp"
+#include "report/make_report.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+using Stage = LoopNews::Stage;
+using EventClock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kShutdownTimeout{300};
+constexpr double kShareOfNote = 0.05;  // less of a change in what a worker waited is not recorded
+
+std::uint64_t new_calibration() {
+  const auto moment = std::chrono::system_clock::now().time_since_epoch().count();
+  return (static_cast<std::uint64_t>(moment) << 16) ^ static_cast<std::uint64_t>(::getpid()) ^ 1U;
+}
+
+LoopNews::Verdict verdict_of(const Round& round) {
+  switch (round.verdict) {
+    case Verdict::added:
+      return LoopNews::Verdict::added;
+    case Verdict::rejected:
+      return LoopNews::Verdict::rejected;
+    case Verdict::none:
+      break;
+  }
+  return LoopNews::Verdict::none;
+}
+
+/// What a file holds that is gone on with.
+struct RecordedBefore {
+  double end_s = 0.0;
+  std::set<std::uint64_t> unended;  ///< calibrations that were broken off
+};
+
+void count(const Event& event, RecordedBefore& before) {
+  before.end_s = event.time_s;
+  if (const auto* lost = std::get_if<CalibrationLost>(&event.message)) before.unended.erase(lost->calibration);
+  const auto* news = std::get_if<LoopNews>(&event.message);
+  if (news == nullptr || news->round != 0) return;
+  before.unended.insert(news->calibration);
+  if (is_over(news->stage)) before.unended.erase(news->calibration);
+}
+
+/// Cuts off what follows the last whole line; a file that cannot be gone on with goes.
+RecordedBefore prepare_to_resume(const std::string& path) {
+  RecordedBefore before;
+  try {
+    const std::string text = read_file(path);
+    const std::size_t end = text.rfind('\n');
+    std::filesystem::resize_file(path, end == std::string::npos ? 0 : end + 1);
+    for (const Event& event : read_events(path)) count(event, before);
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    return {};
+  }
+  return before;
+}
+
+}  // namespace
+
+EventFile::EventFile(const std::string& path, bool resume) : begin_(EventClock::now()) {
+  const RecordedBefore before = resume ? prepare_to_resume(path) : RecordedBefore{};
+  begin_ -= std::chrono::duration_cast<EventClock::duration>(std::chrono::duration<double>(before.end_s));
+  file_.open(path, resume ? std::ios::app : std::ios::trunc);
+  if (before.end_s <= 0.0) file_ << first_event_line() << std::endl;
+  for (const std::uint64_t calibration : before.unended) note(CalibrationLost{calibration});
+}
+
+void EventFile::note(const Message& message) {
+  const std::string line = event_line(message, std::chrono::duration<double>(EventClock::now() - begin_).count());
+  if (!line.empty() && file_) file_ << line << std::endl;
+}
+
+std::vector<Event> read_events(const std::string& path) {
+  const std::string text = read_file(path);
+  std::vector<Event> events;
+  int line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    ++line;
+    if (auto event = read_event(text.substr(begin, end - begin), path, line)) events.push_back(std::move(*event));
+    begin = end + 1;
+  }
+  return events;
+}
+
+EventLog::EventLog(const std::string& folder, bool resume, std::string job, std::unique_ptr<Transport> herald)
+    : file_(folder + "/" + kEventFile, resume), herald_(std::move(herald)) {
+  stage_.calibration = new_calibration();
+  stage_.job = std::move(job);
+  publish_stage(Stage::preparing, "fitting what is declared");
+}
+
+EventLog::~EventLog() {
+  try {
+    if (!is_over(stage_.stage)) finish(Stage::failed, "failed");
+  } catch (const std::exception&) {
+    // Whoever waits for it learns from its participant's end.
+  }
+}
+
+void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool /*shown*/) {
+  stage_.run = data.run;
+  ++evolutions_;
+  publish_stage(Stage::evolving, evolutions_ == 1 ? "evolving the joint corrections"
+                                                  : fmt::format("closing the loop: evolution {}", evolutions_));
+  file_.note(data);
+  std::map<IslandKey, Progress> last;
+  for (const Progress& progress : reached) last[progress.island] = progress;
+  for (const auto& [island, progress] : last) {
+    file_.note(progress);
+    herald_->publish(progress);
+  }
+}
+
+void EventLog::on_run_ends(RunEnd end) {
+  const auto state = end == RunEnd::finished ? Control::State::finished : Control::State::cancelled;
+  file_.note(Control{stage_.run, state, stage_.job});
+  if (state == Control::State::finished) publish_stage(Stage::closing, "closing the loop");
+}
+
+void EventLog::on_fleet_ends() {
+  for (auto& [name, status] : workers_) {
+    if (status.only_run == 0 || status.leaving) continue;
+    status.leaving = true;  // nobody listens when it says so itself
+    file_.note(status);
+  }
+}
+
+void EventLog::on_worker(const WorkerStatus& status) {
+  const auto known = workers_.find(status.worker);
+  if (known != workers_.end()) {
+    WorkerStatus before = known->second;
+    const double change = std::abs(status.waited_share - before.waited_share);
+    before.waited_share = status.waited_share;
+    if (before == status && change < kShareOfNote) return;
+  }
+  workers_[status.worker] = status;
+  file_.note(status);
+}
+
+void EventLog::on_round(const Round& round, const Robot& described) {
+  LoopNews news = stage_;
+  news.round = static_cast<std::uint32_t>(round.number);
+  news.verdict = verdict_of(round);
+  if (!round.effect.kind.empty()) {
+    const EffectEntry effect = effect_entry(round.effect, described);
+    news.kind = effect.kind;
+    news.joint = static_cast<std::uint32_t>(effect.joint.value_or(0));
+    news.label = effect.name();
+  }
+  news.text = round.verdict == Verdict::added ? round.diagnosis : round.reason;
+  news.validation_before_m = 1e-3 * round.validation_before_mm;
+  news.validation_after_m = 1e-3 * round.validation_after_mm;
+  publish(news);
+}
+
+void EventLog::finish(LoopNews::Stage stage, const std::string& text) {
+  publish_stage(stage, text);
+  herald_->flush(kShutdownTimeout);
+}
+
+void EventLog::publish_stage(LoopNews::Stage stage, const std::string& text) {
+  stage_.stage = stage;
+  stage_.text = text;
+  publish(stage_);
+}
+
+void EventLog::publish(const LoopNews& news) {
+  file_.note(news);
+  herald_->publish(news);
+}
+
+}  // namespace demecal

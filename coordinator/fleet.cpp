@@ -1,0 +1,186 @@
+#include "coordinator/fleet.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include "scheduling/fleet.hpp"
+#include "transport/transport.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::chrono::milliseconds kTerminationGrace{2000};
+constexpr std::chrono::milliseconds kPollInterval{5};
+
+/// In the child: becomes the worker, or ends with 127.
+[[noreturn]] void become(const std::string& path, std::vector<char*>& arguments, pid_t parent) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // not even a worker that hangs or is stopped may outlive its coordinator
+  if (::getppid() != parent) ::_exit(127);  // the coordinator died before prctl
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  ::dup2(nowhere, STDIN_FILENO);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::execv(path.c_str(), arguments.data());
+  ::_exit(127);
+}
+
+pid_t start(const std::string& path, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{path};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error(std::string("cannot start a worker: ") + std::strerror(errno));
+  if (child == 0) become(path, pointers, parent);
+  return child;
+}
+
+std::vector<std::string> worker_arguments(const DdsOptions& options, RunId run) {
+  std::vector<std::string> arguments{"--domain", std::to_string(options.domain), "--only-run", std::to_string(run)};
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.emplace_back(option);
+    arguments.push_back(value);
+  };
+  if (options.reach == DdsOptions::Reach::network) arguments.emplace_back("--network");
+  for (const std::string& address : options.interfaces) add("--interface", address);
+  for (const std::string& peer : options.peers) add("--peer", peer);
+  if (!options.discovery_server.empty()) add("--discovery-server", options.discovery_server);
+  if (!options.security.empty()) add("--security", options.security);
+  return arguments;
+}
+
+/// `text` as --workers takes it. Throws CLI::ValidationError for anything else.
+void take_workers(const std::string& text, FleetArguments& fleet) {
+  constexpr int kMostWorkers = 256;
+  static const std::string kInProcess = "in-process";
+  fleet.in_process = text.starts_with(kInProcess);
+  std::string number = text;
+  if (fleet.in_process) {
+    const std::string rest = text.substr(kInProcess.size());
+    fleet.workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (rest.empty()) return;
+    number = rest.starts_with(':') ? rest.substr(1) : "";
+  }
+  int count = -1;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+  const int least = fleet.in_process ? 1 : 0;
+  if (error != std::errc() || end != number.data() + number.size() || count < least || count > kMostWorkers) {
+    throw CLI::ValidationError(
+        "--workers", fmt::format("'{}' is neither 0 to {} nor in-process nor in-process:1 to in-process:{}", text,
+                                 kMostWorkers, kMostWorkers));
+  }
+  fleet.workers = count;
+}
+
+}  // namespace
+
+std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
+  const auto dds = std::make_shared<DdsOptions>();
+  const auto reach_out = [dds](std::int64_t) { dds->reach = DdsOptions::Reach::network; };
+  command.add_option("--domain", dds->domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command.add_flag("--network", reach_out, "see other machines too, found by multicast");
+  command.add_option("--interface", dds->interfaces, "addresses of the network interfaces to use");
+  command.add_option("--peer", dds->peers, "addresses of other hosts, where there is no multicast");
+  command.add_option("--discovery-server", dds->discovery_server, "ADDRESS:PORT of a discovery server");
+  command
+      .add_option("--security", dds->security,
+                  "folder of certificates, from scripts/security; not with a discovery server")
+      ->excludes("--discovery-server");
+  command.parse_complete_callback([dds] {
+    if (!dds->peers.empty() || !dds->discovery_server.empty()) dds->reach = DdsOptions::Reach::network;
+  });
+  return dds;
+}
+
+void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
+  const auto take = [&fleet](const std::string& text) { take_workers(text, fleet); };
+  command
+      .add_option_function<std::string>(
+          "--workers", take,
+          "local worker processes; 0 waits for workers started elsewhere; in-process or in-process:N breeds on as many "
+          "threads of this process, without DDS: nobody else can work or watch")
+      ->type_name("N|in-process[:N]")
+      ->default_str("one per core");  // not their number: the manual page is of every machine
+  fleet.dds = add_dds_arguments(command);
+}
+
+MakeFleet fleet_maker(const FleetArguments& arguments) {
+  return [&arguments]() -> std::unique_ptr<Fleet> {
+    if (arguments.in_process) return std::make_unique<InProcessFleet>(static_cast<std::uint32_t>(arguments.workers));
+    return std::make_unique<DdsFleet>(*arguments.dds, arguments.workers);
+  };
+}
+
+std::unique_ptr<Transport> join_as_herald(const FleetArguments& arguments) {
+  constexpr const char* kName = "chronicle";
+  return arguments.in_process ? join(make_exchange(), Role::herald, kName)
+                              : join_dds(*arguments.dds, Role::herald, kName);
+}
+
+std::string to_string(const FleetArguments& arguments, double worker_timeout_s) {
+  if (arguments.in_process)
+    return fmt::format("{} thread{} of this process", arguments.workers, arguments.workers == 1 ? "" : "s");
+  return fmt::format("DDS domain {}, {}", arguments.dds->domain,
+                     arguments.workers > 0 ? fmt::format("{} local workers", arguments.workers)
+                                           : fmt::format("waiting up to {:g} s for workers", worker_timeout_s));
+}
+
+LocalWorkers::LocalWorkers(const std::string& path, const std::vector<std::string>& arguments, int count) {
+  if (count > 0 && ::access(path.c_str(), X_OK) != 0)
+    throw std::runtime_error("cannot start a worker: no program " + path);
+  for (int i = 0; i < count; ++i) processes_.push_back(start(path, arguments));
+}
+
+LocalWorkers::~LocalWorkers() {
+  for (const pid_t process : processes_) ::kill(process, SIGTERM);
+  const auto deadline = std::chrono::steady_clock::now() + kTerminationGrace;
+  while (any_alive() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(kPollInterval);
+  for (const pid_t process : processes_) {
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+  }
+}
+
+bool LocalWorkers::any_alive() {
+  std::erase_if(processes_, [](pid_t process) { return ::waitpid(process, nullptr, WNOHANG) != 0; });
+  return !processes_.empty();
+}
+
+std::string beside_this_program(const std::string& name) {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / name).string();
+}
+
+DdsFleet::DdsFleet(const DdsOptions& options, int local_workers)
+    : options_(options),
+      local_workers_(local_workers),
+      transport_(join_dds(options, Role::coordinator, "coordinator")) {}
+
+void DdsFleet::launch(RunId run) {
+  if (workers_ && workers_->any_alive()) return;
+  std::vector<std::string> arguments = worker_arguments(options_, run);
+  int processes = local_workers_;
+  if (!options_.security.empty() && processes > 0) {
+    arguments.insert(arguments.end(), {"--slots", std::to_string(processes)});
+    processes = 1;
+  }
+  workers_.emplace(beside_this_program("demecal-worker"), arguments, processes);
+}
+
+}  // namespace demecal

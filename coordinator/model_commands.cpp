@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "config/model_file.hpp"
+#include "config/robot_file.hpp"
+#include "coordinator/commands.hpp"
+#include "data_check/check_data.hpp"
+#include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
+#include "formulas/corrected_arm.hpp"
+#include "terminal/report_text.hpp"
+#include "workflows/diagnose.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
+
+namespace demecal {
+namespace {
+
+struct ExportRequest {
+  std::string file, out, target, format = "text";
+  int derivative = 0;  ///< by this joint, from 1; 0: none
+};
+
+const std::map<std::string, CodeLanguage>& languages() {
+  static const std::map<std::string, CodeLanguage> all{{"text", CodeLanguage::text},
+                                                       {"c", CodeLanguage::c},
+                                                       {"python", CodeLanguage::python},
+                                                       {"matlab", CodeLanguage::matlab}};
+  return all;
+}
+
+void require_target(const ExportRequest& request, const CorrectedRobot& robot) {
+  if (robot.tools.contains(request.target)) return;
+  std::string known;
+  for (const auto& [target, tool] : robot.tools) {
+    if (!target.empty()) known += (known.empty() ? "'" : ", '") + target + '\'';
+  }
+  throw InputError({request.file, 0}, request.target,
+                   known.empty() ? "is no target of this model, which has but one tool point"
+                                 : "is no target of this model; it has " + known);
+}
+
+/// A robot as its maker describes it.
+CorrectedRobot as_drawn(const Robot& robot) {
+  DataSet none;
+  none.robot = robot;
+  return nominal_robot(none);
+}
+
+Listing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
+                         const std::string& title) {
+  require_target(request, robot);
+  const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
+  for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
+  return listing_of(arm, robot, title);
+}
+
+/// By what the file says that it is: a model, a robot, or matrices.
+Listing listing_asked(Algebra& algebra, const ExportRequest& request) {
+  const YamlNode file = read_yaml(request.file);
+  if (file.find("demecal_matrices") != nullptr) return load_matrices(algebra, request.file);
+  if (file.find("demecal_robot") != nullptr) {
+    const Robot robot = load_robot(request.file);
+    return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it");
+  }
+  const CalibratedModel model = load_model(request.file);
+  const std::string title =
+      fmt::format("{} as calibrated by the job {} (demecal {})", model.nominal.name, model.job, model.version);
+  return listing_of_robot(algebra, request, model.robot, title);
+}
+
+ExitCode run(const ExportRequest& request) {
+  Algebra algebra;
+  Listing listing = listing_asked(algebra, request);
+  if (request.derivative > static_cast<int>(listing.actual.size())) {
+    throw InputError({request.file, 0}, std::to_string(request.derivative),
+                     "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
+  }
+  if (request.derivative > 0) listing = derivative(listing, request.derivative);
+  const std::string code = code_of(listing, languages().at(request.format));
+  if (request.out.empty()) {
+    fmt::print("{}", code);
+  } else {
+    write_file(request.out, code);
+  }
+  return ExitCode::done;
+}
+
+struct EvaluateRequest {
+  std::string model_file, data_file;
+  bool json = false, refit_base = false, force = false;
+};
+
+/// The model in the data's own frame: base and tool fitted on the calibration poses, everything else as it is.
+CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
+  const DeclaredModel base_and_tool{.registration = true, .tool = true};
+  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), base_and_tool, model.robot);
+  if (fit.status != FitStatus::converged) throw InputError({data.file, 0}, "", fit.sentence);
+  return fit.robot;
+}
+
+ExitCode run(const EvaluateRequest& request) {
+  const CalibratedModel model = load_model(request.model_file);
+  CheckedData checked = load_checked(request.data_file);
+  const DataSet& data = checked.data;
+  require_same_arm(model, data);
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  const CorrectedRobot robot = request.refit_base ? registered(model, data) : model.robot;
+  check_fitted(data, robot, checked.check);
+  Evaluation evaluation{errors_by_set(robot, data),
+                        pose_errors(data, model, robot, nullptr),
+                        data_check_entry(checked.check),
+                        unapplied_effects(robot, data),
+                        {}};
+  if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
+  fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
+  for (const UnappliedEffect& one : evaluation.effects_not_applied)
+    fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
+  fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<ExportRequest>();
+  CLI::App* command = app.add_subcommand("export", "the corrected forward model as formulas or code");
+  command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
+  command->add_option("--format", request->format, "text, c, python or matlab")
+      ->check(CLI::IsMember({"text", "c", "python", "matlab"}))
+      ->capture_default_str();
+  command->add_option("--out", request->out, "file to write; without it, standard output");
+  command->add_option("--target", request->target, "the tool point, where the model has several");
+  command->add_option("--derivative", request->derivative, "the pose's derivative by this joint, instead of the pose")
+      ->check(CLI::Range(1, kMaxJoints));
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+void add_evaluate(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<EvaluateRequest>();
+  CLI::App* command = app.add_subcommand("evaluate", "position error of a model on a data set");
+  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("data", request->data_file, "DATASET.yaml")->required();
+  command->add_flag("--json", request->json, "one line of JSON");
+  add_force(*command, request->force);
+  command->add_flag("--refit-base", request->refit_base,
+                    "fit base and tool to the data first, where the instrument or the tool was moved");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

@@ -1,0 +1,84 @@
+// A diagnosis tells what a declared model lacks, and takes up a model that was found before.
+#include "workflows/diagnose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "errors/input_error.hpp"
+#include "workflows/lacking_puma.hpp"
+
+namespace demecal {
+namespace {
+
+Job diagnosing_job(const DeclaredModel& declared) {
+  Job job = short_looping_job();
+  job.method = Method::diagnose;
+  job.declared = declared;
+  return job;
+}
+
+const DeclaredModel kSmooth{.registration = true, .joint_corrections = true};
+
+TEST(Diagnose, NamesUndeclaredBacklashBesideSmoothCorrections) {
+  const DataSet data = simulate(lacking_puma(true));
+  const Diagnosis diagnosis = diagnose(data, diagnosing_job(kSmooth), {}, {});
+  const std::vector<Effect>& effects = diagnosis.result.model.robot.effects;
+  EXPECT_TRUE(std::ranges::any_of(effects, is_backlash_of_joint_2));
+  EXPECT_TRUE(diagnosis.result.before.effects.empty());
+  EXPECT_TRUE(diagnosis.result.model.joints[0].kept);
+}
+
+TEST(Diagnose, FindsNothingMoreInTheModelThatItLeft) {
+  const DataSet data = simulate(lacking_puma(true));
+  const Job job = diagnosing_job(kSmooth);
+  const CalibratedModel first = diagnose(data, job, {}, {}).result.model;
+  const CalibrateResult again = diagnose(data, job, first, {}).result;
+  EXPECT_EQ(again.model.robot.effects.size(), first.robot.effects.size());
+  const auto accept = poses_of(data, PoseSet::accept);
+  EXPECT_NEAR(error_figures(again.model.robot, data, accept).rms_mm, error_figures(first.robot, data, accept).rms_mm,
+              0.01);
+}
+
+TEST(Diagnose, StopsAfterTheRoundAtWhichItIsTold) {
+  const DataSet data = simulate(lacking_puma(true));
+  int rounds = 0;
+  const CalibrateResult result =
+      diagnose(data, diagnosing_job(kSmooth), {}, [&](const Round&) { return ++rounds < 1; }).result;
+  EXPECT_EQ(rounds, 1);
+  EXPECT_EQ(result.end, RunEnd::interrupted);
+  EXPECT_TRUE(result.facts.interrupted);
+  EXPECT_EQ(result.loop.rounds.size(), 1U);
+}
+
+TEST(Diagnose, DeclaresByDefaultWhatThePosesDetermine) {
+  Scenario scenario = lacking_puma(true);
+  EXPECT_TRUE(declared_by_default(simulate(scenario)).geometry);
+  scenario.poses = {12, 0, 0};
+  const DeclaredModel few = declared_by_default(simulate(scenario));
+  EXPECT_FALSE(few.geometry);
+  EXPECT_TRUE(few.joint_offset);
+  scenario.poses = {3, 0, 0};
+  const DeclaredModel hardly = declared_by_default(simulate(scenario));
+  EXPECT_TRUE(hardly.registration);
+  EXPECT_FALSE(hardly.tool);
+}
+
+TEST(Diagnose, RefusesAModelOfAnotherArm) {
+  const DataSet data = simulate(lacking_puma(true));
+  const Job job = diagnosing_job({.registration = true});
+  CalibratedModel model = diagnose(data, job, {}, {}).result.model;
+  model.nominal.chain.joints[1].a_m += 0.001;
+  EXPECT_THROW(diagnose(data, job, model, {}), InputError);
+}
+
+TEST(Diagnose, WorksOnFewPosesWithoutValidation) {
+  Scenario scenario = lacking_puma(true);
+  scenario.poses = {15, 0, 0};
+  const DataSet data = simulate(scenario);
+  const CalibrateResult result = diagnose(data, diagnosing_job(declared_by_default(data)), {}, {}).result;
+  EXPECT_NE(result.loop.stopped, StopReason::not_run);
+}
+
+}  // namespace
+}  // namespace demecal
