@@ -74,7 +74,7 @@ ExitCode run(const PrepareRequest& request) {
   const std::optional<FrameKind> errors = frame_of_errors(asked, prepared);
   const DataSet data = prepared_data_set(raw, prepared, asked);
   const std::vector<WrittenFile> files = files_beside(raw, prepared, errors);
-  const Statistic statistic = error_statistic(raw, prepared);
+  const ErrorStatistic statistic = error_statistic(raw, prepared);
   warn(request, raw, prepared);
   const CheckedData checked{data, check_data(data)};
   if (refuses(checked, request.force)) return ExitCode::contradiction;

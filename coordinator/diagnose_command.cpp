@@ -50,15 +50,6 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
   return declared;
 }
 
-std::string to_string(const DeclaredModel& declared) {
-  std::string words = "registration";
-  if (declared.tool) words += ", tool";
-  if (declared.joint_offset) words += ", joint_offset";
-  if (declared.geometry) words += ", geometry";
-  if (declared.joint_corrections) words += ", joint_corrections";
-  return words;
-}
-
 Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   Job job;
   job.name = std::filesystem::path(request.data_file).stem().string();
@@ -97,10 +88,10 @@ ExitCode run(const DiagnoseRequest& request) {
   LoopDisplay display(stderr, data.robot, request.quiet);
   if (request.declared.empty() && !known && !job.declared.geometry) {
     fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",
-               to_string(job.declared));
+               fmt::join(job.declared.words(), ", "));
   }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
-                          to_string(job.declared)));
+                          fmt::join(job.declared.words(), ", ")));
   Diagnosis diagnosis = fit_or_report(request.out, job.name, checked, [&] {
     return diagnose(data, job, known, [&](const Round& round) {
       display.on_round(round);

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "baselines/regression.hpp"
-#include "effects/error_figures.hpp"
+#include "effects/measurement.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal {
@@ -16,7 +16,7 @@ constexpr std::size_t kMostCoefficients = 1000;  // of polynomials: beyond, a lo
 
 /// The parameter that the joint's variable adds to.
 LinkParameter variable_of(const Chain& chain, int joint) {
-  const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const bool revolute = is_revolute(chain, joint);
   return revolute ? LinkParameter::theta : LinkParameter::d;
 }
 

@@ -59,12 +59,12 @@ struct Samples {
 };
 
 std::vector<RidgeSums> sums_of(const Samples& samples, const Network& network) {
-  std::vector<RowSums> sums(kFoldsOfNetwork, RowSums(weight_of(network).size(), 3));
+  std::vector<BufferedRidgeSums> sums(kFoldsOfNetwork, BufferedRidgeSums(weight_of(network).size(), 3));
   for (std::size_t i = 0; i < samples.joints.size(); ++i) {
     sums[static_cast<std::size_t>(samples.folds[i])].add(network.row(samples.joints[i]), samples.error_m[i]);
   }
   std::vector<RidgeSums> by_fold;
-  for (RowSums& fold : sums) by_fold.push_back(fold.sums());
+  for (BufferedRidgeSums& fold : sums) by_fold.push_back(fold.sums());
   return by_fold;
 }
 

@@ -48,10 +48,10 @@ void RidgeSums::add(const RidgeSums& other) {
   residual += other.residual;
 }
 
-RowSums::RowSums(Eigen::Index parameters, Eigen::Index columns)
+BufferedRidgeSums::BufferedRidgeSums(Eigen::Index parameters, Eigen::Index columns)
     : sums_(parameters, columns), jacobian_(kRowsAtOnce, parameters), residuals_(kRowsAtOnce, columns) {}
 
-void RowSums::add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals) {
+void BufferedRidgeSums::add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals) {
   if (buffered_ + jacobian.rows() > kRowsAtOnce) sums();
   if (jacobian.rows() > kRowsAtOnce) return sums_.add(jacobian, residuals);
   jacobian_.middleRows(buffered_, jacobian.rows()) = jacobian;
@@ -59,7 +59,7 @@ void RowSums::add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residu
   buffered_ += jacobian.rows();
 }
 
-const RidgeSums& RowSums::sums() {
+const RidgeSums& BufferedRidgeSums::sums() {
   if (buffered_ > 0) sums_.add(jacobian_.topRows(buffered_), residuals_.topRows(buffered_));
   buffered_ = 0;
   return sums_;

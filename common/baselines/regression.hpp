@@ -30,9 +30,9 @@ struct RidgeSums {
 };
 
 /// Sums of rows that come a few at a time, taken in many at once.
-class RowSums {
+class BufferedRidgeSums {
  public:
-  RowSums(Eigen::Index parameters, Eigen::Index columns);
+  BufferedRidgeSums(Eigen::Index parameters, Eigen::Index columns);
   void add(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& residuals);
   /// The sums of all rows so far.
   const RidgeSums& sums();

@@ -81,7 +81,7 @@ RowScales scales_of(const RegisteredArm& arm, const std::vector<Observation>& ob
 std::vector<RidgeSums> sums_at(const RegisteredArm& arm, const VaryingModel& model, const RowScales& scales,
                                const std::vector<Observation>& observations, const std::vector<int>& folds,
                                const Eigen::VectorXd& coefficients) {
-  std::vector<RowSums> sums(kFoldsOfLinks, RowSums(model.size(), 1));
+  std::vector<BufferedRidgeSums> sums(kFoldsOfLinks, BufferedRidgeSums(model.size(), 1));
   ScaledRows rows;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const JointVector& q = observations[i].corrected;
@@ -90,7 +90,7 @@ std::vector<RidgeSums> sums_at(const RegisteredArm& arm, const VaryingModel& mod
     sums[static_cast<std::size_t>(folds[i])].add(-model.by_coefficients(rows.jacobian, q), rows.residual);
   }
   std::vector<RidgeSums> by_fold;
-  for (RowSums& fold : sums) by_fold.push_back(fold.sums());
+  for (BufferedRidgeSums& fold : sums) by_fold.push_back(fold.sums());
   return by_fold;
 }
 

@@ -10,7 +10,7 @@
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/prediction_interval.hpp"
+#include "fitting/posterior.hpp"
 
 namespace demecal {
 

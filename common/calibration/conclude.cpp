@@ -26,7 +26,7 @@ double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrectio
 
 std::string why_neutral(const Job& job, const Selection& selection, const DataSet& data, int joint) {
   if (!job.declared.joint_corrections) return "joint corrections are not declared";
-  if (data.robot.chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) return "a prismatic joint";
+  if (!is_revolute(data.robot.chain, joint)) return "a prismatic joint";
   for (const JointChoice& choice : selection.choices) {
     if (choice.joint == joint) return "no evolved correction earned its place on the validation poses";
   }

@@ -44,7 +44,7 @@ std::vector<AngleBranch> branches_of(const DataSet& data, std::span<const std::s
   std::vector<AngleBranch> branches(chain.joints.size());
   for (int joint = 0; joint < chain.size(); ++joint) {
     const Joint& link = chain.joints[static_cast<std::size_t>(joint)];
-    if (link.type != JointType::revolute) continue;
+    if (!is_revolute(link)) continue;
     std::vector<double> angles;
     for (const std::size_t pose : poses) angles.push_back(data.poses[pose].joints[joint]);
     branches[static_cast<std::size_t>(joint)] = choose_branch(angles, link.lower, link.upper);
@@ -61,7 +61,7 @@ double pose_weight(const InverseSolution& solution, const InverseOptions& option
 JointVector difference(const Chain& chain, const JointVector& to, const JointVector& from) {
   JointVector change = to - from;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute) {
+    if (is_revolute(chain, joint)) {
       change[joint] = wrap_near(change[joint], 0.0);
     }
   }
@@ -101,8 +101,7 @@ class ExactTargets {
 JointBelief belief_of(const Chain& chain, const TargetRule& rule) {
   JointBelief belief{Eigen::VectorXd::Constant(chain.size(), rule.options.joint_error_rad), rule.mean};
   for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type == JointType::prismatic)
-      belief.deviation[joint] *= kPrismaticPerRevolute_m;
+    if (!is_revolute(chain, joint)) belief.deviation[joint] *= kPrismaticPerRevolute_m;
   }
   return belief;
 }

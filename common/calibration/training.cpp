@@ -83,7 +83,7 @@ std::vector<JointTraining> training_tables(const Chain& chain, const JointTarget
   std::vector<JointTraining> tables;
   if (targets.poses.empty()) return tables;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
+    if (!is_revolute(chain, joint)) continue;
     JointTraining training = training_table(targets, joint);
     if (training.range_rad.upper - training.range_rad.lower <= kLeastMotionRad) continue;
     training.largest_rad = options.largest_rad;

@@ -9,6 +9,7 @@
 
 #include "diagnosis/loop.hpp"
 #include "effects/measurement.hpp"
+#include "fitting/distributions.hpp"
 #include "fitting/median.hpp"
 #include "fitting/scatter.hpp"
 #include "residuals/structure.hpp"
@@ -130,7 +131,7 @@ class PredictionScores {
 
  private:
   /// Of three axes, where no pose tells more.
-  static double normal_quantile() { return std::sqrt(7.815 / 3.0); }
+  static double normal_quantile() { return normal_length_quantile(3, kIntervalShare) / std::sqrt(3.0); }
 
   int fewest_axes() const { return std::ranges::min(scored_, {}, &ScoredPose::axes).axes; }
 

@@ -120,7 +120,7 @@ EvolvedJoints LoopPasses::learn(const Preparation& preparation) {
 /// Whether the model with the corrections evolved anew is the better one, and kept.
 bool LoopPasses::evolve_corrections_again() {
   const CorrectedRobot& present = closed_.calibration.robot;
-  const Preparation again = prepare_again(data_, preparation_, present);
+  const Preparation again = prepare_beside_effects(data_, preparation_, present);
   if (again.training.empty()) return false;
   EvolvedJoints candidates = learn(again);
   if (!candidates.is_complete) return false;

@@ -34,7 +34,7 @@ std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredM
 
 std::string why_neutral(const DeclaredModel& declared, const Joint& joint) {
   if (!declared.joint_corrections) return "joint corrections are not declared";
-  if (joint.type != JointType::revolute) return "a prismatic joint";
+  if (!is_revolute(joint)) return "a prismatic joint";
   return "no correction earned its place, or the joint hardly moves";
 }
 
@@ -92,7 +92,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
   return result;
 }
 
-Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
+Preparation prepare_beside_effects(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {
   Preparation again = first;
   again.declared.robot = without_corrections(model);
   again.targets = targets_about(data, first, model);

@@ -25,7 +25,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
 
 /// What stands before corrections are evolved anew: the declared model is `model` without its corrections, and the
 /// joints learn what its effects leave.
-Preparation prepare_again(const DataSet& data, const Preparation& first, const CorrectedRobot& model);
+Preparation prepare_beside_effects(const DataSet& data, const Preparation& first, const CorrectedRobot& model);
 
 /// Copies the figures "before" of the first calibration to a later one.
 void keep_first_figures(const Calibration& first, Calibration& calibration);

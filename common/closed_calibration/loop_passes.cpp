@@ -34,10 +34,6 @@ const Effect* held_effect(const CorrectedRobot& model, const Effect& effect) {
 
 constexpr double kSignificantDeviations = 2.0;  ///< standard errors
 
-bool is_formula(const Effect& effect) {
-  return effect.kind == "symbolic";
-}
-
 }  // namespace
 
 bool added_any(const LoopOutcome& outcome) {
@@ -80,15 +76,15 @@ void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robo
 
 CorrectedRobot without_formulas(const CorrectedRobot& robot) {
   CorrectedRobot bare = robot;
-  std::erase_if(bare.effects, is_formula);
+  std::erase_if(bare.effects, is_symbolic);
   return bare;
 }
 
 bool needs_formula_search(const LoopOutcome& loop, const CorrectedRobot& robot, const ClosedLoopOptions& options) {
-  const bool wanted = options.candidates.empty() || std::ranges::count(options.candidates, "symbolic") > 0;
+  const bool wanted = options.candidates.empty() || std::ranges::count(options.candidates, symbolic_kind()) > 0;
   const bool at_its_end = loop.stopped == StopReason::no_gain || loop.stopped == StopReason::no_structure;
   const bool left = loop.p_structure_left <= options.family_error;
-  return wanted && at_its_end && (left || std::ranges::any_of(robot.effects, is_formula));
+  return wanted && at_its_end && (left || std::ranges::any_of(robot.effects, is_symbolic));
 }
 
 double description_nats(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses,

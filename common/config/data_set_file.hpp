@@ -7,7 +7,7 @@
 
 #include "data/columns.hpp"
 #include "data/data_set.hpp"
-#include "effects/stop.hpp"
+#include "effects/arm_state.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal {

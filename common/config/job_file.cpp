@@ -100,16 +100,6 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
   return options;
 }
 
-struct DeclaredWord {
-  std::string_view word;
-  bool DeclaredModel::*flag;
-};
-constexpr std::array<DeclaredWord, 5> kDeclared{{{"registration", &DeclaredModel::registration},
-                                                 {"tool", &DeclaredModel::tool},
-                                                 {"joint_offset", &DeclaredModel::joint_offset},
-                                                 {"geometry", &DeclaredModel::geometry},
-                                                 {"joint_corrections", &DeclaredModel::joint_corrections}}};
-
 }  // namespace
 
 Job load_job(const std::filesystem::path& path) {
@@ -158,16 +148,10 @@ std::span<const std::string> effect_kinds() {
   return kinds;
 }
 
-std::vector<std::string> declared_words() {
-  std::vector<std::string> words;
-  for (const DeclaredWord& known : kDeclared) words.emplace_back(known.word);
-  return words;
-}
-
 DeclaredModel declared_model(std::span<const std::string> words) {
   DeclaredModel declared;
-  for (const DeclaredWord& known : kDeclared) {
-    declared.*known.flag = std::find(words.begin(), words.end(), known.word) != words.end();
+  for (const std::string& known : declared_words()) {
+    declared.*declared_flag(known) = std::find(words.begin(), words.end(), known) != words.end();
   }
   return declared;
 }
@@ -175,11 +159,10 @@ DeclaredModel declared_model(std::span<const std::string> words) {
 DeclaredModel read_declared(const YamlNode& list) {
   DeclaredModel declared;
   for (const YamlNode& item : list.list()) {
-    const auto found = std::find_if(kDeclared.begin(), kDeclared.end(),
-                                    [&](const DeclaredWord& known) { return known.word == item.text(); });
-    if (found == kDeclared.end()) item.fail_choice(declared_words());
-    if (declared.*found->flag) item.fail("is declared twice");
-    declared.*found->flag = true;
+    bool DeclaredModel::*const flag = declared_flag(item.text());
+    if (flag == nullptr) item.fail_choice(declared_words());
+    if (declared.*flag) item.fail("is declared twice");
+    declared.*flag = true;
   }
   return declared;
 }

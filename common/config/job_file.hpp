@@ -22,8 +22,6 @@ Job read_job(const YamlNode& root);
 /// The kinds of effects, by the words of reports.
 std::span<const std::string> effect_kinds();
 
-/// What may be declared.
-std::vector<std::string> declared_words();
 /// The model that declares what `words` say, each of them one of declared_words().
 DeclaredModel declared_model(std::span<const std::string> words);
 /// The same of a list in a file. Throws InputError where a word is unknown or there twice.

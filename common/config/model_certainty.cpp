@@ -25,11 +25,11 @@ std::string short_number(double value) {
 
 std::string range_text(const Joint& joint, const Interval& range) {
   const double ends[] = {range.lower, range.upper};
-  return std::string(joint.type == JointType::revolute ? "range_rad: " : "range_m: ") + yaml_numbers(ends);
+  return std::string(is_revolute(joint) ? "range_rad: " : "range_m: ") + yaml_numbers(ends);
 }
 
 Interval read_range(const YamlNode& node, const Joint& joint) {
-  const std::vector<double> ends = node.at(joint.type == JointType::revolute ? "range_rad" : "range_m").numbers();
+  const std::vector<double> ends = node.at(is_revolute(joint) ? "range_rad" : "range_m").numbers();
   if (ends.size() != 2 || !(ends[0] <= ends[1])) node.fail("", "must have a range of two numbers, the lower first");
   return {ends[0], ends[1]};
 }

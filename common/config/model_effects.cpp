@@ -21,7 +21,7 @@ std::string by_name(const std::vector<CoefficientLabel>& labels, const std::vect
 std::string ranges_text(const MeasuredRanges& ranges, const Chain& chain) {
   std::string text = "{";
   for (const auto& [joint, range] : ranges) {
-    const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const bool revolute = is_revolute(chain, joint);
     const double ends[] = {range.lower, range.upper};
     text += (text.size() > 1 ? ", q" : "q") + std::to_string(joint + 1) + (revolute ? "_rad: " : "_m: ") +
             yaml_numbers(ends);
@@ -92,7 +92,7 @@ void read_settings(const YamlNode& node, const EffectLaw& law, const Robot& robo
 MeasuredRanges read_ranges(const YamlNode& node, const Chain& chain) {
   std::vector<std::string> names;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const bool revolute = is_revolute(chain, joint);
     names.push_back("q" + std::to_string(joint + 1) + (revolute ? "_rad" : "_m"));
   }
   node.with_keys(names);
@@ -109,9 +109,9 @@ MeasuredRanges read_ranges(const YamlNode& node, const Chain& chain) {
 /// The keys an item may have.
 std::vector<std::string> keys_of(const EffectLaw& law, const std::vector<CoefficientLabel>& labels) {
   std::vector<std::string> keys = {"kind", "standard_errors", "ranges"};
-  if (law.of_joint()) keys.emplace_back("joint");
+  if (law.subject() == Subject::joint) keys.emplace_back("joint");
   if (!law.forms().empty()) keys.emplace_back("form");
-  if (law.kind() == "symbolic") keys.emplace_back("formula");
+  if (law.takes_formula()) keys.emplace_back("formula");
   for (std::string& name : law.settings()) keys.push_back(std::move(name));
   for (const CoefficientLabel& label : labels) keys.push_back(label.name);
   return keys;
@@ -129,9 +129,9 @@ std::vector<double> read_errors(const YamlNode& node, const std::vector<Coeffici
 Effect read_effect(const YamlNode& node, const Robot& robot) {
   const EffectLaw& law = read_kind(node.at("kind"));
   Effect effect{.kind = std::string(law.kind())};
-  if (law.of_joint()) effect.joint = joint_at(node, "joint", robot.chain);
+  if (law.subject() == Subject::joint) effect.joint = joint_at(node, "joint", robot.chain);
   if (const YamlNode* form = node.find("form")) effect.form = read_form(*form, law);
-  if (law.kind() == "symbolic") effect.formula = read_formula(node.at("formula"), robot.chain);
+  if (law.takes_formula()) effect.formula = read_formula(node.at("formula"), robot.chain);
   read_settings(node, law, robot, effect);
   const std::vector<CoefficientLabel> labels = law.coefficients(effect, robot);
   node.with_keys(keys_of(law, labels));

@@ -23,16 +23,6 @@ std::string rigid_text(const Eigen::Isometry3d& pose) {
   return "{position_mm: " + yaml_mm(pose.translation()) + ", quaternion_wxyz: " + yaml_numbers(quaternion) + "}";
 }
 
-std::string declared_text(const DeclaredModel& declared) {
-  std::vector<std::string> words;
-  if (declared.registration) words.emplace_back("registration");
-  if (declared.tool) words.emplace_back("tool");
-  if (declared.joint_offset) words.emplace_back("joint_offset");
-  if (declared.geometry) words.emplace_back("geometry");
-  if (declared.joint_corrections) words.emplace_back("joint_corrections");
-  return yaml_list(words);
-}
-
 std::string estimate_text(const ParameterEstimate& estimate) {
   const auto border = [&](double value) {
     return estimate.id.is_angle() ? degrees_text(value) : millimetres_text(value);
@@ -179,7 +169,7 @@ std::string model_text(const CalibratedModel& model) {
        << "\nmethod: " << to_string(model.method) << "\nseed: " << model.seed
        << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256) << "}\n";
   text << "robot:\n" << robot_text(model.nominal, 2);
-  text << "declared: " << declared_text(model.declared) << '\n';
+  text << "declared: " << yaml_list(model.declared.words()) << '\n';
   text << "base: " << rigid_text(model.robot.sensor_from_base) << "\ntools:\n";
   for (const auto& [target, tool] : model.robot.tools) {
     text << "  - {" << (target.empty() ? "" : "target: " + yaml_text(target) + ", ") << "pose: " << rigid_text(tool)

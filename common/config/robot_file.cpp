@@ -41,7 +41,7 @@ Joint read_joint(const YamlNode& node) {
   joint.d_m = metres(node.at("d_mm").number());
   joint.theta_rad = optional_angle(node.find("theta_offset_deg"));
   joint.beta_rad = optional_angle(node.find("beta_deg"));
-  const bool revolute = joint.type == JointType::revolute;
+  const bool revolute = is_revolute(joint);
   if (const YamlNode* wrong = node.find(revolute ? "limits_mm" : "limits_deg")) {
     wrong->fail("", std::string("is of the wrong unit: ") +
                         (revolute ? "a revolute joint has limits_deg" : "a prismatic joint has limits_mm"));
@@ -56,7 +56,7 @@ void check_reach(const YamlNode& joints, const Chain& chain) {
   double reach_m = 0.0;
   for (const Joint& joint : chain.joints) {
     reach_m += std::abs(joint.a_m) + std::abs(joint.d_m);
-    if (joint.type == JointType::prismatic) reach_m += std::max(std::abs(joint.lower), std::abs(joint.upper));
+    if (!is_revolute(joint)) reach_m += std::max(std::abs(joint.lower), std::abs(joint.upper));
   }
   if (reach_m > 0.0 && reach_m < kShortestReach_m) {
     joints.fail("", "reach less than " + number_text(millimetres(kShortestReach_m)) +
@@ -105,7 +105,7 @@ JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
 }
 
 std::string joint_text(const Joint& joint) {
-  const bool revolute = joint.type == JointType::revolute;
+  const bool revolute = is_revolute(joint);
   const auto limit = revolute ? degrees_text : millimetres_text;
   std::ostringstream text;
   text << "{type: " << (revolute ? "revolute" : "prismatic") << ", alpha_deg: " << degrees_text(joint.alpha_rad)
@@ -119,7 +119,7 @@ std::string joint_text(const Joint& joint) {
 std::string home_text(const Robot& robot) {
   std::string values;
   for (Eigen::Index i = 0; i < robot.home.size(); ++i) {
-    const bool revolute = robot.chain.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
+    const bool revolute = is_revolute(robot.chain, i);
     values += (i == 0 ? "" : ", ") + (revolute ? degrees_text(robot.home[i]) : millimetres_text(robot.home[i]));
   }
   return "[" + values + "]";

@@ -47,7 +47,7 @@ std::string numbered(std::string_view name, std::size_t index, std::string_view 
 ColumnGroup joint_columns(const Chain& chain) {
   ColumnGroup group{.key = "joints", .columns = {}};
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
-    const bool revolute = chain.joints[i].type == JointType::revolute;
+    const bool revolute = is_revolute(chain.joints[i]);
     group.columns.push_back({numbered("q", i, revolute ? "_deg" : "_mm"), [=](const MeasuredPose& pose) {
                                const double value = pose.joints[static_cast<Eigen::Index>(i)];
                                return revolute ? degrees_text(value) : millimetres_text(value);
@@ -196,7 +196,7 @@ struct JointColumn {
 std::vector<JointColumn> joint_columns(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {
   std::vector<JointColumn> joints;
   for (std::size_t i = 0; i < columns.joints.size(); ++i) {
-    const bool turns = chain.joints[i].type == JointType::revolute;
+    const bool turns = is_revolute(chain.joints[i]);
     const ColumnUnit unit = unit_of(columns.joints[i], turns ? Quantity::angle : Quantity::length, units);
     joints.push_back({columns.joints[i].name, unit.to_inside});
   }

@@ -36,7 +36,7 @@ std::string in_border_unit(double value, bool angle) {
 }
 
 void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const std::string& file) {
-  const bool angle = joint.type == JointType::revolute;
+  const bool angle = is_revolute(joint);
   const double margin = angle ? kLimitMargin_rad : kLimitMargin_m;
   const double value = pose.joints[static_cast<Eigen::Index>(index)];
   if (value >= joint.lower - margin && value <= joint.upper + margin) return;
@@ -168,7 +168,7 @@ MeasuredPose read_pose(const PoseColumns& columns, const CsvRow& row) {
 }  // namespace
 
 Quantity joint_quantity(const Joint& joint) {
-  return joint.type == JointType::revolute ? Quantity::angle : Quantity::length;
+  return is_revolute(joint) ? Quantity::angle : Quantity::length;
 }
 
 void check_column_map(const ColumnMap& columns, const Chain& chain) {

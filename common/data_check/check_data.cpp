@@ -9,6 +9,7 @@
 #include "data/read_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
+#include "fitting/distributions.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
@@ -191,7 +192,7 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
   if (errors.empty()) return;
   if (const auto other = find_other_frame(predicted, measured)) return check.findings.push_back(in_other_frame(*other));
   const double least_m = kNotableShare * Trial{data.robot.chain, {data.robot.chain.tool_m}, rows, 1}.reach_m();
-  const double deviation_m = std::max(median(errors) / length_quantile(0.5), 1e-6);
+  const double deviation_m = std::max(median(errors) / normal_length_quantile(3, 0.5), 1e-6);
   const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};
   for (Finding& finding : find_single_poses(data, rows, predict, least_m)) check.findings.push_back(std::move(finding));
 }

@@ -52,7 +52,7 @@ class Contradictions {
       return add_order(FindingKind::rows_shifted, *shift, as_given_m);
     }
     if (as_given_m < plausible_m) return;
-    if (const auto shuffled = as_shuffled(whole_, 2.0 * plausible_m))
+    if (const auto shuffled = find_shuffled_rows(whole_, 2.0 * plausible_m))
       return add_order(FindingKind::rows_shuffled, *shuffled, as_given_m);
     add_other_robot(as_given_m, reach_m);
   }
@@ -69,7 +69,7 @@ class Contradictions {
     add_order(FindingKind::rows_shifted, *shift, median(std::move(errors)));
   }
 
-  void add_readings(const Explained& explained, double as_given_m) {
+  void add_readings(const BestExplanation& explained, double as_given_m) {
     for (const Explanation& one : explained.explanations)
       add_reading(one, explained.fit, as_given_m, "The data fit if ");
     for (const Explanation& one : explained.equals)
@@ -88,7 +88,7 @@ class Contradictions {
                      ". Correct the data or the robot file."});
   }
 
-  void add_order(FindingKind kind, const Reordered& order, double as_given_m) {
+  void add_order(FindingKind kind, const RowReordering& order, double as_given_m) {
     std::string which;
     if (!order.poses.empty()) {
       const bool from_begin = order.poses.front() == whole_.rows.front().pose;

@@ -21,7 +21,7 @@ constexpr int kFineDecimals_mm = 3;  ///< digits behind the point, mm, that repe
 constexpr std::size_t kFewestPoses = 4;  ///< below which nothing is said of spread
 
 Finding constant_joint(const DataSet& data, int joint, double range) {
-  const bool revolute = data.robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const bool revolute = is_revolute(data.robot.chain, joint);
   const std::string moves =
       revolute ? fmt::format("{:.2g} deg", degrees(range)) : fmt::format("{:.2g} mm", millimetres(range));
   const std::string lead = range == 0.0
@@ -95,7 +95,7 @@ std::vector<Finding> find_lacking_spread(const DataSet& data) {
       lower = std::min(lower, data.poses[pose].joints[joint]);
       upper = std::max(upper, data.poses[pose].joints[joint]);
     }
-    const bool revolute = data.robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const bool revolute = is_revolute(data.robot.chain, joint);
     if (upper - lower < (revolute ? kHardlyMoving_rad : kHardlyMoving_m))
       found.push_back(constant_joint(data, joint, upper - lower));
   }
@@ -106,7 +106,7 @@ std::vector<Finding> find_lacking_spread(const DataSet& data) {
 std::vector<Finding> find_small_angles(const DataSet& data) {
   double largest = 0.0, widest = 0.0;
   for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
-    if (data.robot.chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
+    if (!is_revolute(data.robot.chain, joint)) continue;
     double lower = 0.0, upper = 0.0;
     for (const MeasuredPose& pose : data.poses) {
       lower = std::min(lower, pose.joints[joint]);

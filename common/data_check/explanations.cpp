@@ -19,10 +19,6 @@ constexpr double kEqual = 1.1;              ///< ratio of medians up to which ex
 constexpr double kToolDifference_m = 5e-3;  ///< by which the tool nearer to its description decides between equals
 constexpr int kMostTogether = 4;
 
-bool is_revolute(const Chain& chain, int joint) {
-  return chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
-}
-
 void scale_joint(Trial& trial, int joint, double factor) {
   for (TrialRow& row : trial.rows) row.joints[joint] *= factor;
 }
@@ -248,7 +244,7 @@ std::vector<Explanation> whole_set_explanations(const Chain& chain) {
   return all;
 }
 
-std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& placed, double good_m) {
+std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m) {
   std::vector<Tried> all;
   for (const Explanation& one : whole_set_explanations(trial.chain)) {
     all.push_back(attempt(trial, {one}));
@@ -268,7 +264,7 @@ std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& pl
     }
   }
   if (best.fit.median_m >= placed.median_m) return std::nullopt;
-  return Explained{std::move(best.explanations), std::move(best.fit), std::move(equals)};
+  return BestExplanation{std::move(best.explanations), std::move(best.fit), std::move(equals)};
 }
 
 }  // namespace demecal

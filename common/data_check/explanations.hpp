@@ -28,7 +28,7 @@ struct Explanation {
 std::vector<Explanation> whole_set_explanations(const Chain& chain);
 
 /// An explanation (or several together) and how well the arm fits with it.
-struct Explained {
+struct BestExplanation {
   std::vector<Explanation> explanations;
   TrialFit fit;
   std::vector<Explanation> equals{};  ///< others, each by itself, that fit as well: the points cannot tell
@@ -37,7 +37,7 @@ struct Explained {
 /// The explanation by which the trial fits best; of equals the first. Of those that leave more than `good_m` at the
 /// median, pairs of joint explanations and, one after the other, up to four are tried too. `placed`: the trial's own
 /// fit of base and tools. Nothing where none lowers its median.
-std::optional<Explained> best_explanation(const Trial& trial, const TrialFit& placed, double good_m);
+std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m);
 
 /// How a mirrored or exchanged pair of axes reads, by where the base then stands: `sensor_from_base` is that of a fit
 /// to points whose y is negated. In a frame that is the base's own, `is_base`, the axes can be named.
@@ -48,7 +48,7 @@ Explanation axes_explanation(const Eigen::Isometry3d& sensor_from_base, bool is_
 std::optional<Explanation> base_frame_explanation(const Eigen::Isometry3d& sensor_from_base);
 
 /// Rows that fit the arm otherwise than in the order given.
-struct Reordered {
+struct RowReordering {
   std::string clause;  ///< what fits: "each measured point is taken from the row before"
   double median_m = 0.0;
   std::vector<std::size_t> poses{};  ///< those it concerns; empty: all
@@ -56,15 +56,15 @@ struct Reordered {
 
 /// The shift of measured points against joints, by up to 30 rows either way, at which an arm fits best; `whole` has all
 /// rows in the file's order. Where only the rows behind or before a certain one are shifted it says so.
-std::optional<Reordered> best_shift(const Trial& whole);
+std::optional<RowReordering> best_shift(const Trial& whole);
 
 /// The shift, by up to 3 rows, of only the rows behind a certain one, or only of those before it.
-std::optional<Reordered> shift_of_rest(const Trial& whole);
+std::optional<RowReordering> shift_of_rest(const Trial& whole);
 
 /// Whether the measured points are those of the arm in another order: the two clouds of points, brought together from
 /// many turns by nearest neighbours (iterative closest point, Besl and McKay 1992), lie within `near_m` of each other
 /// and closer by far than points of a cloud do.
-std::optional<Reordered> as_shuffled(const Trial& whole, double near_m);
+std::optional<RowReordering> find_shuffled_rows(const Trial& whole, double near_m);
 
 /// A move of the instrument (or of the base) between two rows.
 struct InstrumentMove {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "data_check/explanations.hpp"
-#include "fitting/base_candidates.hpp"
+#include "fitting/base_search.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 
@@ -47,7 +47,7 @@ std::string shift_clause(int shift) {
                      shift > 0 ? "further down" : "further up");
 }
 
-std::optional<Reordered> shift_of_all(const Trial& whole) {
+std::optional<RowReordering> shift_of_all(const Trial& whole) {
   const int most = std::min<int>(kMostShift, static_cast<int>(whole.rows.size() / 2));
   int best = 0;
   bool target = false;
@@ -65,11 +65,11 @@ std::optional<Reordered> shift_of_all(const Trial& whole) {
   }
   if (best == 0) return std::nullopt;
   const Trial trial = shifted(whole, best, target);
-  return Reordered{shift_clause(best), fit_arm(trial, fit_base_and_tools(trial)).median_m};
+  return RowReordering{shift_clause(best), fit_arm(trial, fit_base_and_tools(trial)).median_m};
 }
 
 /// A fit to one end of the rows, and the shift of all behind (or before) a row that it then shows.
-std::optional<Reordered> shift_of_one_end(const Trial& whole, bool from_begin) {
+std::optional<RowReordering> shift_of_one_end(const Trial& whole, bool from_begin) {
   const std::size_t n = whole.rows.size(), kept = static_cast<std::size_t>(kShareOfRows * static_cast<double>(n));
   Trial end{whole.chain, whole.tools_m, {}, whole.stations};
   for (const std::size_t i : spread_indices(kept, kShiftRows))
@@ -99,7 +99,7 @@ std::optional<Reordered> shift_of_one_end(const Trial& whole, bool from_begin) {
       }
     }
     if (begin < 3 || begin + 3 > n || static_cast<double>(least) > 0.1 * static_cast<double>(n)) continue;
-    Reordered found{shift_clause(shift) + (from_begin ? ", from this row on" : ", up to this row"), fit.median_m};
+    RowReordering found{shift_clause(shift) + (from_begin ? ", from this row on" : ", up to this row"), fit.median_m};
     for (std::size_t i = from_begin ? begin : 0; i < (from_begin ? n : begin); ++i)
       found.poses.push_back(whole.rows[i].pose);
     return found;
@@ -163,19 +163,19 @@ double spacing(const Eigen::Matrix3Xd& points) {
 
 }  // namespace
 
-std::optional<Reordered> shift_of_rest(const Trial& whole) {
+std::optional<RowReordering> shift_of_rest(const Trial& whole) {
   if (whole.rows.size() < kFewestShifted) return std::nullopt;
-  std::optional<Reordered> behind = shift_of_one_end(whole, true), before = shift_of_one_end(whole, false);
+  std::optional<RowReordering> behind = shift_of_one_end(whole, true), before = shift_of_one_end(whole, false);
   return behind && (!before || behind->median_m <= before->median_m) ? behind : before;
 }
 
-std::optional<Reordered> best_shift(const Trial& whole) {
+std::optional<RowReordering> best_shift(const Trial& whole) {
   if (whole.rows.size() < kFewestShifted) return std::nullopt;
-  std::optional<Reordered> best = shift_of_all(whole), rest = shift_of_rest(whole);
+  std::optional<RowReordering> best = shift_of_all(whole), rest = shift_of_rest(whole);
   return rest && (!best || rest->median_m < 0.5 * best->median_m) ? rest : best;
 }
 
-std::optional<Reordered> as_shuffled(const Trial& whole, double near_m) {
+std::optional<RowReordering> find_shuffled_rows(const Trial& whole, double near_m) {
   constexpr std::size_t kFewest = 12, kMost = 3000;
   if (whole.rows.size() < kFewest || whole.rows.size() > kMost) return std::nullopt;
   const Clouds clouds = clouds_of(whole);
@@ -190,7 +190,7 @@ std::optional<Reordered> as_shuffled(const Trial& whole, double near_m) {
     least = std::min(least, brought_together(clouds, base));
   }
   if (least > enough_m) return std::nullopt;
-  return Reordered{"the measured points are this arm's, but in another order: no shift of the rows fits", least};
+  return RowReordering{"the measured points are this arm's, but in another order: no shift of the rows fits", least};
 }
 
 }  // namespace demecal

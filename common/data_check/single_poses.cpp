@@ -31,8 +31,7 @@ double quantile_of(std::vector<double> values, double share) {
 }
 
 std::string amount_at(const Joint& joint, double value) {
-  return joint.type == JointType::revolute ? fmt::format("{:.3f} deg", degrees(value))
-                                           : fmt::format("{:.3f} mm", millimetres(value));
+  return is_revolute(joint) ? fmt::format("{:.3f} deg", degrees(value)) : fmt::format("{:.3f} mm", millimetres(value));
 }
 
 class OutlierSearch {
@@ -132,7 +131,7 @@ class OutlierSearch {
   /// The value of one joint at which the row fits best: samples of its whole range, the best one refined.
   OtherJoints best_value(const TrialRow& row, int joint) const {
     const Joint& link = data_.robot.chain.joints[static_cast<std::size_t>(joint)];
-    const bool revolute = link.type == JointType::revolute;
+    const bool revolute = is_revolute(link);
     const double lower = revolute ? row.joints[joint] - radians(180.0) : link.lower,
                  upper = revolute ? row.joints[joint] + radians(180.0) : link.upper;
     double step = (upper - lower) / kSamplesPerTurn;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "fitting/distributions.hpp"
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
@@ -32,7 +33,7 @@ double deviation_of(std::vector<double> errors, double fitted_rows, double usual
   const double fitted = std::min(fitted_rows, n), rank = std::min(std::ceil(0.5 * (n + fitted)), n);
   const auto at = errors.begin() + static_cast<std::ptrdiff_t>(rank - 1.0);
   std::nth_element(errors.begin(), at, errors.end());
-  const double raw_m = *at / length_quantile((rank - 0.5) / n);
+  const double raw_m = *at / normal_length_quantile(3, (rank - 0.5) / n);
   const double deviation_m = std::sqrt((usual_m * usual_m + n * raw_m * raw_m) / (1.0 + n - fitted));
   return std::max(deviation_m, kSmallestScale_m);
 }
@@ -260,17 +261,6 @@ Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eige
   motion.linear() = svd.matrixU() * Eigen::Vector3d(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
   motion.translation() = to_mean - motion.linear() * from_mean;
   return motion;
-}
-
-double length_quantile(double share) {
-  double lower = 0.0, upper = 8.0;
-  for (int i = 0; i < 50; ++i) {
-    const double x = 0.5 * (lower + upper);
-    const double below =
-        std::erf(x / std::numbers::sqrt2) - std::sqrt(2.0 / std::numbers::pi) * x * std::exp(-0.5 * x * x);
-    (below < share ? lower : upper) = x;
-  }
-  return 0.5 * (lower + upper);
 }
 
 std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -9,45 +10,32 @@
 namespace demecal {
 namespace {
 
-/// No ratio of integers near it, and beyond the scan.
-constexpr double kImpossibleRatio = 1.7320508;
-
 bool is_wanted(const std::vector<std::string>& kinds, std::string_view kind) {
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-bool is_declared(std::string_view kind, const DeclaredModel& declared) {
-  return (kind == "registration" && declared.registration) || (kind == "tool" && declared.tool) ||
-         (kind == "joint_offset" && declared.joint_offset) || (kind == "geometry" && declared.geometry);
-}
-
 /// Whether a declared correction of the joint holds the effect already: a smooth function of that joint alone.
 bool is_in_correction(const Effect& effect, const Robot& robot, const DeclaredModel& declared) {
-  constexpr double kSmoothRatio = 3.0;
   if (!declared.joint_corrections || effect.joint < 0) return false;
-  if (robot.chain.joints[static_cast<std::size_t>(effect.joint)].type != JointType::revolute) return false;
-  if (effect.kind == "gear_harmonic") return effect.setting("ratio") <= kSmoothRatio;
-  return effect.kind == "gain" || effect.kind == "eccentricity" || effect.kind == "joint_offset";
+  if (!is_revolute(robot.chain, effect.joint)) return false;
+  return law_of(effect).is_smooth(effect);
 }
 
-bool has_kind(const std::vector<Candidate>& candidates, std::string_view kind) {
-  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.effect.kind == kind; });
-}
-
-/// A copy of every candidate of a kind (of the first of every joint) as a decoy.
-void add_decoys(std::vector<Candidate>& candidates, std::string_view kind, DecoyKind decoy_kind, double ratio) {
+/// Decoys of the first candidate of every kind and joint that has one.
+std::vector<Candidate> decoys_of(const std::vector<Candidate>& candidates, const Evidence& evidence) {
   std::vector<Candidate> decoys;
-  int last = -2;
   for (const Candidate& candidate : candidates) {
-    if (candidate.effect.kind != kind || candidate.effect.joint == last || candidate.decoy_kind != DecoyKind::none)
-      continue;
-    if (candidate.effect.form == "seated" || candidate.effect.form == "coupled") continue;
-    last = candidate.effect.joint;
+    const Effect& effect = candidate.effect;
+    const bool has_one =
+        !decoys.empty() && decoys.back().effect.kind == effect.kind && decoys.back().effect.joint == effect.joint;
+    if (has_one) continue;
+    const std::optional<DecoyEffect> decoy = law_of(effect).decoy(effect, evidence);
+    if (!decoy) continue;
     decoys.push_back(candidate);
-    decoys.back().decoy_kind = decoy_kind;
-    if (decoy_kind == DecoyKind::wrong_ratio) decoys.back().effect.settings["ratio"] = ratio;
+    decoys.back().effect = decoy->effect;
+    decoys.back().decoy_kind = decoy->kind;
   }
-  candidates.insert(candidates.end(), decoys.begin(), decoys.end());
+  return decoys;
 }
 
 constexpr double kVaried = 1e-9;
@@ -104,8 +92,8 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
                                       const CandidateOptions& options) {
   std::vector<Candidate> candidates;
   for (const EffectLaw* law : catalogue()) {
-    if (!is_wanted(options.kinds, law->kind()) || is_declared(law->kind(), declared)) continue;
-    const bool symbolic = law->kind() == "symbolic";
+    if (!is_wanted(options.kinds, law->kind()) || declared.holds(law->kind())) continue;
+    const bool symbolic = law->takes_formula();
     std::vector<Effect> proposals =
         symbolic && options.formulas ? formula_library(robot, evidence) : law->proposals(robot, evidence);
     std::map<std::string, int> alike;  // of one form each, so that a law does not grow dear by its further forms
@@ -118,13 +106,8 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
     }
   }
   if (!options.decoys) return candidates;
-  const bool harmonics = has_kind(candidates, "gear_harmonic"), sides = has_kind(candidates, "backlash");
-  const bool heat = has_kind(candidates, "thermal_offset");
-  if (harmonics) {
-    add_decoys(candidates, "gear_harmonic", DecoyKind::wrong_ratio, kImpossibleRatio * evidence.highest_ratio);
-  }
-  if (sides && evidence.approach) add_decoys(candidates, "backlash", DecoyKind::shuffled_approach, 0.0);
-  if (heat) add_decoys(candidates, "thermal_offset", DecoyKind::shuffled_temperature, 0.0);
+  std::vector<Candidate> decoys = decoys_of(candidates, evidence);
+  std::ranges::move(decoys, std::back_inserter(candidates));
   return candidates;
 }
 
@@ -188,18 +171,18 @@ Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses) {
 
 std::vector<UntestableKind> untestable_kinds(const Evidence& evidence, const std::vector<std::string>& kinds) {
   std::vector<UntestableKind> untestable;
-  const auto add = [&](const char* kind, bool seen, const char* reason) {
-    const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-    if (wanted && !seen) untestable.push_back({kind, reason});
+  const auto add_lacking = [&](Circumstance circumstance, bool recorded, const char* reason) {
+    if (recorded) return;
+    for (const EffectLaw* law : catalogue()) {
+      const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), law->kind()) != kinds.end();
+      if (wanted && law->prerequisite() == circumstance) untestable.push_back({std::string(law->kind()), reason});
+    }
   };
-  const char* approach = "no approach columns, or every joint always came from one side";
-  add("backlash", evidence.approach, approach);
-  add("hysteresis", evidence.approach, approach);
-  const char* temperature = "no temperature column, or one temperature only";
-  add("thermal_offset", evidence.temperature, temperature);
-  add("thermal_length", evidence.temperature, temperature);
-  add("drift", evidence.time, "no time column");
-  add("link_bending", evidence.masses, "no link masses in the robot's file");
+  add_lacking(Circumstance::approach, evidence.approach,
+              "no approach columns, or every joint always came from one side");
+  add_lacking(Circumstance::temperature, evidence.temperature, "no temperature column, or one temperature only");
+  add_lacking(Circumstance::time, evidence.time, "no time column");
+  add_lacking(Circumstance::masses, evidence.masses, "no link masses in the robot's file");
   return untestable;
 }
 

@@ -19,9 +19,6 @@ Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses);
 /// The kinds of `kinds` (empty: all) that such data cannot show, each with the reason.
 std::vector<UntestableKind> untestable_kinds(const Evidence& evidence, const std::vector<std::string>& kinds);
 
-/// From what a decoy's columns are made.
-enum class DecoyKind { none, wrong_ratio, shuffled_approach, shuffled_temperature };
-
 struct Candidate {
   Effect effect;
   DecoyKind decoy_kind = DecoyKind::none;

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "diagnosis/judgement.hpp"
-#include "effects/likely_causes.hpp"
+#include "effects/catalogue.hpp"
 
 namespace demecal {
 namespace {

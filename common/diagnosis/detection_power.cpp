@@ -7,6 +7,8 @@
 #include <numeric>
 #include <optional>
 
+#include "effects/catalogue.hpp"
+
 namespace demecal {
 namespace {
 
@@ -112,7 +114,7 @@ std::vector<NotFound> smallest_detectable(const std::vector<DetectableCandidate>
   if (detection.null_maxima.empty()) return all;
   for (const DetectableCandidate& one : candidates) {
     const Effect& effect = one.candidate.effect;
-    if (effect.kind == "symbolic") continue;
+    if (is_symbolic(effect)) continue;
     if (one.candidate.decoy_kind != DecoyKind::none || one.score.rank == 0 || holds_kind(model, effect)) continue;
     const auto same = std::find_if(all.begin(), all.end(), [&](const NotFound& other) {
       return other.effect.kind == effect.kind && other.effect.joint == effect.joint;
@@ -125,7 +127,7 @@ std::vector<NotFound> smallest_detectable(const std::vector<DetectableCandidate>
       continue;
     }
     CandidateSignal signal = signal_of(one, robot, detection);
-    if (effect.kind != "gear_harmonic" || signal.own_share() >= kLeastOwn) signals[place].push_back(std::move(signal));
+    if (!is_harmonic(effect.kind) || signal.own_share() >= kLeastOwn) signals[place].push_back(std::move(signal));
   }
   for (std::size_t i = 0; i < all.size(); ++i)
     all[i].smallest_detectable = signals[i].empty() ? kUndetectable : detectable_amplitude(signals[i]);

@@ -101,7 +101,7 @@ class Library {
 };
 
 Effect symbolic(int joint, const Tree& formula, const char* form, const Evidence& evidence) {
-  Effect effect{.kind = "symbolic", .joint = joint, .form = form};
+  Effect effect = symbolic_effect(joint, form);
   effect.formula = formula;
   if (evidence.temperature) effect.settings["reference_celsius"] = evidence.mean_temperature_celsius;
   return effect;
@@ -113,7 +113,7 @@ std::vector<Effect> formula_library(const Robot& robot, const Evidence& evidence
   const Library library(robot, evidence);
   std::vector<Effect> effects;
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
-    if (robot.chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
+    if (!is_revolute(robot.chain, joint)) continue;
     for (const Tree& formula : library.formulas()) effects.push_back(symbolic(joint, formula, "", evidence));
     for (const Tree& angle : library.angles()) effects.push_back(symbolic(joint, angle, "wave", evidence));
   }

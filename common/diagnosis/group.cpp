@@ -7,7 +7,7 @@
 
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/scan.hpp"
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 
 namespace demecal {
 namespace {
@@ -73,7 +73,7 @@ std::optional<std::size_t> Group::best_candidate() const {
     if (!best || scores_[i].gain_nats > scores_[*best].gain_nats) best = i;
   }
   if (!best) return best;
-  return simplest_equivalent(candidates_[*best].effect.kind == "symbolic" ? named_equivalent(*best) : *best);
+  return simplest_equivalent(is_symbolic(candidates_[*best].effect) ? named_equivalent(*best) : *best);
 }
 
 std::vector<Rival> Group::rivals(std::size_t index) const {
@@ -102,7 +102,7 @@ std::size_t Group::simplest_equivalent(std::size_t index) const {
 std::size_t Group::named_equivalent(std::size_t formula) const {
   std::size_t named = formula;
   for (const Rival& rival : rivals(formula)) {
-    if (rival.effect.kind == "symbolic" || (rival.cosine < kIdenticalCosine && rival.nats_behind > kNatsToDistinguish))
+    if (is_symbolic(rival.effect) || (rival.cosine < kIdenticalCosine && rival.nats_behind > kNatsToDistinguish))
       continue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (candidates_[i].decoy_kind != DecoyKind::none) continue;
@@ -172,7 +172,7 @@ Confirmation Group::confirmation_of(const Eigen::VectorXd& before, const Eigen::
 }
 
 std::string Group::rejection_reason(const Round& round, const Projection::Trial& trial) const {
-  if (round.p_family > rules_.family_error) return "not significant (p = " + number_words(round.p_family) + ")";
+  if (round.p_family > rules_.family_error) return "not significant (p = " + rounded_text(round.p_family) + ")";
   if (round.gain_nats <= 0.0) return "the description grows longer by it";
   if (projection_.freedom() - static_cast<double>(trial.rank) < kLeastFreedom)
     return "too few measured numbers are left";

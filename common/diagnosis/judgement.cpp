@@ -100,7 +100,7 @@ double rms_m(const DataSet& data, const std::vector<std::size_t>& poses, const C
 double whole_share(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model) {
   constexpr int kSteps = 12;
   constexpr double kLeft = 0.2;  ///< of the error, at most
-  const auto from = static_cast<Eigen::Index>(std::lround(effect.setting("from"))) - 1;
+  const auto from = law_of(effect).proportional_to(effect);
   for (const double whole : {1.0, -1.0}) {
     DataSet summed = problem.data;
     for (MeasuredPose& pose : summed.poses) pose.joints[effect.joint] += whole * pose.joints[from];
@@ -121,7 +121,7 @@ double whole_share(const Effect& effect, const DiagnosisProblem& problem, const 
 /// Controllers that report a joint against the horizontal, or through a parallelogram, give its angle as a sum.
 std::string unit_coupling(const Effect& effect, double share) {
   const std::string joint = std::to_string(effect.joint + 1),
-                    from = std::to_string(std::lround(effect.setting("from")));
+                    from = std::to_string(law_of(effect).proportional_to(effect) + 1);
   return "the data show a unit coupling: joint " + joint + " turns with joint " + from + ", by " +
          with_three_places(share) + " of its motion; that is how joint " + joint +
          " is reported, not an error of the arm: write its column as q" + joint + (share > 0 ? " + q" : " - q") + from;
@@ -235,17 +235,15 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
 }
 
 bool tilt_is_implausible(const Effect& effect) {
-  constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
-  if (effect.kind != "compliance" || effect.form != "tilted") return false;
-  return std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
+  return !law_of(effect).implausibility(effect).empty();
 }
 
 std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
                            const std::vector<ArmState>& states) {
   const LargestMotion largest = largest_motion(effect, problem.data.robot, states);
   if (largest.turn_rad <= kLargestTurn_rad && largest.shift_m <= kLargestShift_m)
-    return tilt_is_implausible(effect) ? "mounting tilt implausible (> 20 deg)" : "";
-  if (effect.kind == "coupling" && effect.form == "linear") {
+    return law_of(effect).implausibility(effect);
+  if (law_of(effect).proportional_to(effect) >= 0) {
     if (const double share = whole_share(effect, problem, model); share != 0.0) return unit_coupling(effect, share);
   }
   return "implausibly large for a real arm (> " +

@@ -262,7 +262,7 @@ void ClosedLoop::exclude_own_forms() {
   for (Round& round : outcome_.rounds) {
     std::erase_if(round.rivals, [&](const Rival& rival) {
       const Effect &own = round.effect, &other = rival.effect;
-      const bool named = own.kind != "symbolic" && own.kind == other.kind && own.joint == other.joint;
+      const bool named = !is_symbolic(own) && own.kind == other.kind && own.joint == other.joint;
       return other.same_law_as(own) || (named && other.settings == own.settings);
     });
   }

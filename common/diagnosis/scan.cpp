@@ -149,7 +149,7 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == named || all[i].decoy_kind != DecoyKind::none) continue;
     const double behind = scores[named].gain_nats - scores[i].gain_nats;
-    const bool unnamed = all[i].effect.kind == "symbolic" && all[named].effect.kind != "symbolic";
+    const bool unnamed = is_symbolic(all[i].effect) && !is_symbolic(all[named].effect);
     if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
     if (is_its_wave(all[named].effect, all[i].effect)) continue;
     if (cosines[i] > kRivalCosine || (cosines[i] > kRelated && std::abs(behind) < kRivalNats)) {

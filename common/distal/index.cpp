@@ -22,7 +22,7 @@ double mm_per_rad(const Fit& fit) {
 constexpr double kHold = 1e-3, kFirmHold = 1e8;
 
 /// Rows of all poses one after the other.
-Eigen::VectorXd effect_mm(std::span<const LinearisedPose> poses, const CorrectionShape& shape) {
+Eigen::VectorXd effect_mm(std::span<const LinearizedPose> poses, const CorrectionShape& shape) {
   std::vector<double> rows;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (const double slope : poses[i].jacobian_mm.col(static_cast<Eigen::Index>(shape.joint)))
@@ -31,9 +31,9 @@ Eigen::VectorXd effect_mm(std::span<const LinearisedPose> poses, const Correctio
   return Eigen::Map<Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
 }
 
-Eigen::VectorXd all_residuals_mm(std::span<const LinearisedPose> poses) {
+Eigen::VectorXd all_residuals_mm(std::span<const LinearizedPose> poses) {
   std::vector<double> rows;
-  for (const LinearisedPose& pose : poses) rows.insert(rows.end(), pose.residual_mm.begin(), pose.residual_mm.end());
+  for (const LinearizedPose& pose : poses) rows.insert(rows.end(), pose.residual_mm.begin(), pose.residual_mm.end());
   return Eigen::Map<Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
 }
 
@@ -79,39 +79,39 @@ double DistalIndex::operator()(const CorrectedRobot& robot) const {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
-std::vector<LinearisedPose> DistalIndex::linearised(const CorrectedRobot& robot) const {
+std::vector<LinearizedPose> DistalIndex::linearized(const CorrectedRobot& robot) const {
   // At the corrected joints, and without the corrections: their slopes are no part of what a change of theirs does.
   const CorrectedRobot bare = without_corrections(robot);
-  std::vector<LinearisedPose> poses;
+  std::vector<LinearizedPose> poses;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const MeasuredPose& pose = data_.poses[poses_[i]];
     const JointVector corrected = robot.corrected_joints(pose.joints);
     const Eigen::Isometry3d predicted_pose = predicted(robot, i);
     const auto motion = bare.predict_with_jacobian(Stop(pose).with_joints(corrected), pose.target).jacobian;
     const Eigen::MatrixXd slope = measurement_jacobian(predicted_pose, data_, pose) * motion;
-    LinearisedPose linearised_pose{corrected - pose.joints, weigh(pose, residual(predicted_pose, data_, pose)), slope};
+    LinearizedPose linearized_pose{corrected - pose.joints, weigh(pose, residual(predicted_pose, data_, pose)), slope};
     for (Eigen::Index joint = 0; joint < slope.cols(); ++joint) {
-      linearised_pose.jacobian_mm.col(joint) = weigh(pose, slope.col(joint));
+      linearized_pose.jacobian_mm.col(joint) = weigh(pose, slope.col(joint));
     }
-    poses.push_back(std::move(linearised_pose));
+    poses.push_back(std::move(linearized_pose));
   }
   return poses;
 }
 
-Eigen::VectorXd compensation_potentials(std::span<const LinearisedPose> poses) {
+Eigen::VectorXd compensation_potentials(std::span<const LinearizedPose> poses) {
   if (poses.empty()) return {};
   Eigen::VectorXd potentials = Eigen::VectorXd::Zero(poses.front().jacobian_mm.cols());
-  for (const LinearisedPose& pose : poses) potentials += (pose.jacobian_mm.transpose() * pose.residual_mm).cwiseAbs();
+  for (const LinearizedPose& pose : poses) potentials += (pose.jacobian_mm.transpose() * pose.residual_mm).cwiseAbs();
   return potentials;
 }
 
-CorrectionShape present_shape(std::span<const LinearisedPose> poses, std::size_t joint) {
+CorrectionShape present_shape(std::span<const LinearizedPose> poses, std::size_t joint) {
   CorrectionShape shape{joint, {}};
-  for (const LinearisedPose& pose : poses) shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(joint)]);
+  for (const LinearizedPose& pose : poses) shape.value_rad.push_back(pose.correction[static_cast<Eigen::Index>(joint)]);
   return shape;
 }
 
-AmplitudeFit::AmplitudeFit(std::span<const LinearisedPose> poses, std::span<const std::size_t> joints,
+AmplitudeFit::AmplitudeFit(std::span<const LinearizedPose> poses, std::span<const std::size_t> joints,
                            std::span<const CorrectionShape> shapes) {
   Eigen::VectorXd wanted = all_residuals_mm(poses);
   for (const std::size_t joint : joints) wanted += effect_mm(poses, present_shape(poses, joint));

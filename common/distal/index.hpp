@@ -1,4 +1,4 @@
-// The performance index of a whole model (thesis eq. 4.6): exact, and linearised in the joints' corrections, whose
+// The performance index of a whole model (thesis eq. 4.6): exact, and linearized in the joints' corrections, whose
 // amplitudes beside each other are then a linear least-squares problem.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace demecal {
 
 /// What a pose says near the present corrections: rows that the index squares, and how they fall as joints are
 /// corrected further.
-struct LinearisedPose {
+struct LinearizedPose {
   JointVector correction;       ///< present g, rad or m
   Eigen::VectorXd residual_mm;  ///< measured less predicted
   Eigen::MatrixXd jacobian_mm;  ///< rows x joints: change of the prediction, mm per rad or m of a joint's correction
@@ -31,7 +31,7 @@ class DistalIndex {
   /// Exact, through the robot's whole forward model.
   double operator()(const CorrectedRobot& robot) const;
   /// One per pose, in their order.
-  std::vector<LinearisedPose> linearised(const CorrectedRobot& robot) const;
+  std::vector<LinearizedPose> linearized(const CorrectedRobot& robot) const;
 
  private:
   Eigen::VectorXd weigh(const MeasuredPose& pose, const Eigen::VectorXd& rows) const;
@@ -45,7 +45,7 @@ class DistalIndex {
 
 /// Each joint's potential to compensate what is left: the sum over poses of |J_j' residual| (thesis eq. 4.11), mm^2 per
 /// rad or m.
-Eigen::VectorXd compensation_potentials(std::span<const LinearisedPose> poses);
+Eigen::VectorXd compensation_potentials(std::span<const LinearizedPose> poses);
 
 /// A joint's correction at every pose, rad.
 struct CorrectionShape {
@@ -53,23 +53,23 @@ struct CorrectionShape {
   std::vector<double> value_rad;
 };
 
-/// What a joint has about which the poses are linearised.
-CorrectionShape present_shape(std::span<const LinearisedPose> poses, std::size_t joint);
+/// What a joint has about which the poses are linearized.
+CorrectionShape present_shape(std::span<const LinearizedPose> poses, std::size_t joint);
 
 /// What choosing some shapes comes to.
 struct ChosenShapes {
   std::vector<double> factor;  ///< by which each is multiplied, in the order of choice
-  double index_mm2 = 0.0;      ///< linearised, with these shapes times factors for their joints' corrections
+  double index_mm2 = 0.0;      ///< linearized, with these shapes times factors for their joints' corrections
 };
 
-/// The linearised index of the model that has, instead of the joints' present corrections, shapes times factors.
+/// The linearized index of the model that has, instead of the joints' present corrections, shapes times factors.
 /// Factors are held near 1 by a thousandth of what the data weigh: where these cannot tell two joints apart, neither
 /// grows.
 class AmplitudeFit {
  public:
-  /// `poses` are linearised about the present corrections; shapes have a value for each of them, all finite. The
+  /// `poses` are linearized about the present corrections; shapes have a value for each of them, all finite. The
   /// present corrections of `joints` make way for what is chosen; those of others stay.
-  AmplitudeFit(std::span<const LinearisedPose> poses, std::span<const std::size_t> joints,
+  AmplitudeFit(std::span<const LinearizedPose> poses, std::span<const std::size_t> joints,
                std::span<const CorrectionShape> shapes);
 
   /// With the factors of least index; those of `held` shapes are 1 within a millionth. At most one shape a joint is

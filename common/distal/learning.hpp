@@ -20,8 +20,8 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
                              const KnownFunctions& functions = std::nullopt);
 
 /// The calibration poses' index of the preparation's declared robot, lowered round by round. In every round all joints
-/// evolve for their share of job.gp's generations against the linearised index, from populations that hold the fronts
-/// of the round before; then the model takes candidates (see take_candidates), so that its exact index never rises.
+/// evolve for their share of job.gp's generations against the linearized index, from populations that hold the fronts
+/// of the round before; then the model takes candidates (see accept_candidates), so that its exact index never rises.
 /// Ends with the rounds, or where evolution is cut off. Where the job has joints share functions, these are the known
 /// ones or, without any such list, found anew after every round. A function of data, job and what `evolver` finds.
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
@@ -29,8 +29,8 @@ DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& prepa
 
 /// The outcome's candidates: of every training's joint what is best of each length among `trees`, by the table against
 /// what the final model leaves, and the model's own correction.
-void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,
-                      const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome);
+void gather_candidates(const DistalIndex& index, const std::vector<JointTraining>& trainings,
+                       const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome);
 
 struct SequenceOutcome {
   DistalOutcome learnt;
@@ -41,7 +41,7 @@ struct SequenceOutcome {
 /// The calibration poses' index of the preparation's declared robot, lowered by the thesis's algorithm with one
 /// population a joint: the joint of the greatest compensation potential (eq. 4.11) is bred until the exact index falls;
 /// the model takes its fittest formula, and the joint is selected anew. A population that does not gain for 40
-/// generations begins anew around its fittest (as in the thesis's program). Formulas are ranked by the index linearised
+/// generations begins anew around its fittest (as in the thesis's program). Formulas are ranked by the index linearized
 /// about the present model, which differs from the exact one by parts in a thousand of what a correction changes. What
 /// would be the fittest but is not bounded (see is_bounded) loses its fitness. Ends after job.gp.number_generations in
 /// all, or when `may_go_on`, asked before every generation, says no. Where the job has amplitudes fitted (the thesis

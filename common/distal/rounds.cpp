@@ -62,7 +62,7 @@ std::vector<Tree> DistalRounds::seeds_of(std::size_t i) const {
 }
 
 void DistalRounds::prepare() {
-  const std::vector<LinearisedPose> poses = index_.linearised(outcome_.robot);
+  const std::vector<LinearizedPose> poses = index_.linearized(outcome_.robot);
   for (std::size_t i = 0; i < trainings_.size(); ++i) {
     JointTraining& training = trainings_[i];
     training = distal_training(training, poses, first_ ? std::nullopt : std::optional(training.scale_rad));
@@ -83,8 +83,8 @@ bool DistalRounds::round(Evolver& evolver, EvolutionTerms terms) {
   for (std::size_t i = 0; i < trees_.size(); ++i) trees_[i] = trees_of(evolved.joints[i].front);
   if (seeks_functions_) next_functions_ = shared_functions(evolved.joints, job_.corrections.sharing);
   const Amplitudes amplitudes = job_.distal.amplitudes.value_or(Amplitudes::fitted);
-  take_candidates(index_, evolved.joints, amplitudes, generation_, outcome_);
-  follow_amplitudes(outcome_.robot, trainings_);
+  accept_candidates(index_, evolved.joints, amplitudes, generation_, outcome_);
+  rescale_trainings(outcome_.robot, trainings_);
   return true;
 }
 
@@ -93,7 +93,7 @@ DistalOutcome DistalRounds::run(Evolver& evolver) {
   for (int number = 0; number < rounds && !trainings_.empty(); ++number) {
     if (!round(evolver, terms_of_round(job_.seed, generations, rounds, number))) break;
   }
-  offer_for_choice(index_, trainings_, trees_, outcome_);
+  gather_candidates(index_, trainings_, trees_, outcome_);
   return std::move(outcome_);
 }
 
@@ -104,9 +104,9 @@ DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& prepa
   return DistalRounds(index, preparation, job, functions).run(evolver);
 }
 
-void offer_for_choice(const DistalIndex& index, const std::vector<JointTraining>& trainings,
-                      const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome) {
-  const std::vector<LinearisedPose> poses = index.linearised(outcome.robot);
+void gather_candidates(const DistalIndex& index, const std::vector<JointTraining>& trainings,
+                       const std::vector<std::vector<Tree>>& trees, DistalOutcome& outcome) {
+  const std::vector<LinearizedPose> poses = index.linearized(outcome.robot);
   outcome.candidates.clear();
   for (std::size_t i = 0; i < trainings.size(); ++i) {
     JointCandidates joint{distal_training(trainings[i], poses, trainings[i].scale_rad), {}};

@@ -31,8 +31,8 @@ class DistalSequence {
   SequenceOutcome run();
 
  private:
-  std::size_t select(std::span<const LinearisedPose> poses) const;
-  void evolve(std::size_t i, std::span<const LinearisedPose> poses);
+  std::size_t select(std::span<const LinearizedPose> poses) const;
+  void evolve(std::size_t i, std::span<const LinearizedPose> poses);
   SharedPopulation enter(Breeder& breeder, const std::vector<Tree>& trees);
   std::vector<Tree> restarted(const Breeder& breeder, const SharedPopulation& population);
   double present_fitness(Breeder& breeder, const JointTraining& training) const;
@@ -51,7 +51,7 @@ class DistalSequence {
   SequenceOutcome outcome_;
 };
 
-std::size_t DistalSequence::select(std::span<const LinearisedPose> poses) const {
+std::size_t DistalSequence::select(std::span<const LinearizedPose> poses) const {
   const Eigen::VectorXd potentials = compensation_potentials(poses);
   const auto potential = [&](const JointTraining& one) { return potentials[static_cast<Eigen::Index>(one.joint)]; };
   const auto most = std::ranges::max_element(trainings_, {}, potential);
@@ -95,7 +95,7 @@ bool DistalSequence::take_fittest(const Breeder& breeder, SharedPopulation& popu
     const JointCorrection correction = correction_from(training, formula_of(breeder, population, i));
     if (is_bounded(correction, training)) {
       best = population.fitness[i];
-      return take_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
+      return accept_correction(index_, training, correction, outcome_.generations, outcome_.learnt);
     }
     exclude(population, population.roots[i]);
   }
@@ -103,7 +103,7 @@ bool DistalSequence::take_fittest(const Breeder& breeder, SharedPopulation& popu
 }
 
 /// Breeds one joint's population until the index falls.
-void DistalSequence::evolve(std::size_t i, std::span<const LinearisedPose> poses) {
+void DistalSequence::evolve(std::size_t i, std::span<const LinearizedPose> poses) {
   const bool is_new = trees_[i].empty();
   trainings_[i] = distal_training(trainings_[i], poses, is_new ? std::nullopt : std::optional(trainings_[i].scale_rad));
   const JointTraining& training = trainings_[i];
@@ -126,17 +126,17 @@ void DistalSequence::evolve(std::size_t i, std::span<const LinearisedPose> poses
 void DistalSequence::fit_amplitudes() {
   std::vector<JointCandidates> none;
   for (const JointTraining& training : trainings_) none.push_back({training, {}});
-  take_candidates(index_, none, Amplitudes::fitted, outcome_.generations, outcome_.learnt);
-  follow_amplitudes(outcome_.learnt.robot, trainings_);
+  accept_candidates(index_, none, Amplitudes::fitted, outcome_.generations, outcome_.learnt);
+  rescale_trainings(outcome_.learnt.robot, trainings_);
 }
 
 SequenceOutcome DistalSequence::run() {
   while (!trainings_.empty() && may_go_on()) {
-    const std::vector<LinearisedPose> poses = index_.linearised(outcome_.learnt.robot);
+    const std::vector<LinearizedPose> poses = index_.linearized(outcome_.learnt.robot);
     evolve(select(poses), poses);
     if (job_.distal.amplitudes == Amplitudes::fitted) fit_amplitudes();
   }
-  offer_for_choice(index_, trainings_, trees_, outcome_.learnt);
+  gather_candidates(index_, trainings_, trees_, outcome_.learnt);
   return std::move(outcome_);
 }
 

@@ -12,7 +12,7 @@
 namespace demecal {
 namespace {
 
-constexpr double kLeastGain = 1e-4;  ///< of the linearised index, by a choice that counts
+constexpr double kLeastGain = 1e-4;  ///< of the linearized index, by a choice that counts
 constexpr double kLargestFactor = 10.0;
 constexpr double kScaleDigits = 3.0;  ///< that formulas show
 
@@ -33,7 +33,7 @@ double rounded(double scale_rad) {
 
 class CandidateChoice {
  public:
-  CandidateChoice(std::span<const JointCandidates> candidates, std::span<const LinearisedPose> poses,
+  CandidateChoice(std::span<const JointCandidates> candidates, std::span<const LinearizedPose> poses,
                   Amplitudes amplitudes, const DistalOutcome& outcome)
       : candidates_(candidates), robot_(outcome.robot), amplitudes_(amplitudes) {
     for (std::size_t list = 0; list < candidates.size(); ++list) offer_candidates(list, poses);
@@ -46,7 +46,7 @@ class CandidateChoice {
   CorrectedRobot robot() const;
 
  private:
-  void offer_candidates(std::size_t list, std::span<const LinearisedPose> poses);
+  void offer_candidates(std::size_t list, std::span<const LinearizedPose> poses);
   void offer(CandidateOffer offer, CorrectionShape shape);
   void choose(double index_mm2);
   bool choose_one();
@@ -76,7 +76,7 @@ void CandidateChoice::offer(CandidateOffer offer, CorrectionShape shape) {
   shapes_.push_back(std::move(shape));
 }
 
-void CandidateChoice::offer_candidates(std::size_t list, std::span<const LinearisedPose> poses) {
+void CandidateChoice::offer_candidates(std::size_t list, std::span<const LinearizedPose> poses) {
   const JointTraining& training = candidates_[list].training;
   const JointCorrection& present = robot_.corrections[training.joint];
   if (!present.is_neutral())
@@ -181,14 +181,14 @@ CorrectedRobot CandidateChoice::robot() const {
 
 }  // namespace
 
-JointTraining distal_training(const JointTraining& previous, std::span<const LinearisedPose> poses,
+JointTraining distal_training(const JointTraining& previous, std::span<const LinearizedPose> poses,
                               std::optional<double> scale_rad) {
   const auto joint = static_cast<Eigen::Index>(previous.joint);
   JointTraining training = previous;
   training.table.loss = Loss::squared;
   training.table.seeds.clear();
   double most = 0.0;
-  for (const LinearisedPose& pose : poses) most = std::max(most, pose.jacobian_mm.col(joint).squaredNorm());
+  for (const LinearizedPose& pose : poses) most = std::max(most, pose.jacobian_mm.col(joint).squaredNorm());
   double sum = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto slope = poses[i].jacobian_mm.col(joint);
@@ -207,7 +207,7 @@ JointTraining distal_training(const JointTraining& previous, std::span<const Lin
   return training;
 }
 
-void follow_amplitudes(const CorrectedRobot& robot, std::span<JointTraining> trainings) {
+void rescale_trainings(const CorrectedRobot& robot, std::span<JointTraining> trainings) {
   for (JointTraining& training : trainings) {
     const JointCorrection& correction = robot.corrections[training.joint];
     if (correction.is_neutral()) continue;
@@ -218,8 +218,8 @@ void follow_amplitudes(const CorrectedRobot& robot, std::span<JointTraining> tra
   }
 }
 
-bool take_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
-                     std::uint32_t generation, DistalOutcome& outcome) {
+bool accept_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
+                       std::uint32_t generation, DistalOutcome& outcome) {
   JointCorrection& present = outcome.robot.corrections[training.joint];
   JointCorrection before = std::exchange(present, correction);
   const double index_mm2 = index(outcome.robot);
@@ -232,9 +232,9 @@ bool take_correction(const DistalIndex& index, const JointTraining& training, co
   return true;
 }
 
-bool take_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
-                     std::uint32_t generation, DistalOutcome& outcome) {
-  const std::vector<LinearisedPose> poses = index.linearised(outcome.robot);
+bool accept_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
+                       std::uint32_t generation, DistalOutcome& outcome) {
+  const std::vector<LinearizedPose> poses = index.linearized(outcome.robot);
   CorrectedRobot robot = CandidateChoice(candidates, poses, amplitudes, outcome).robot();
   const double index_mm2 = index(robot);
   if (!(index_mm2 < (1.0 - kLeastFall) * outcome.index_mm2)) return false;

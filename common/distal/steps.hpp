@@ -34,28 +34,28 @@ struct DistalOutcome {
 
 /// The table of `previous`'s joint against what all corrections leave: the squared rows of a pose are, as far as they
 /// are linear in this joint's correction g, a (g - b)^2 + c with a = |J|^2 and b = present g + J' residual / a, so that
-/// b is the target and a the weight. Fitness is then the linearised index but for a constant and a factor. The unit of
+/// b is the target and a the weight. Fitness is then the linearized index but for a constant and a factor. The unit of
 /// the target is `scale_rad` or, where none is given, of the size of its weighted mean. Rows of `previous` and `poses`
 /// belong together.
-JointTraining distal_training(const JointTraining& previous, std::span<const LinearisedPose> poses,
+JointTraining distal_training(const JointTraining& previous, std::span<const LinearizedPose> poses,
                               std::optional<double> scale_rad = std::nullopt);
 
 /// Gives every training the scale of its joint's correction, where it has one, for the unit of its targets: formulas
 /// evolved for the joint change as what the model took was changed.
-void follow_amplitudes(const CorrectedRobot& robot, std::span<JointTraining> trainings);
+void rescale_trainings(const CorrectedRobot& robot, std::span<JointTraining> trainings);
 
 /// Has the model take one correction of the training's joint if the exact index falls, and adds a step. Whether it did.
-bool take_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
-                     std::uint32_t generation, DistalOutcome& outcome);
+bool accept_correction(const DistalIndex& index, const JointTraining& training, const JointCorrection& correction,
+                       std::uint32_t generation, DistalOutcome& outcome);
 
 /// Has the model take those candidates of all joints together that lower the index most: of whichever joint, one after
-/// another, as long as the linearised index falls. Joints that evolved side by side have all learnt to make up for the
+/// another, as long as the linearized index falls. Joints that evolved side by side have all learnt to make up for the
 /// same errors, and what is taken for one joint makes another's too large or too small: with Amplitudes::fitted,
 /// every correction is multiplied by the factor that suits it to the others (see AmplitudeFit), for each choice anew,
 /// and so are those that stay. Nothing is taken whose factor is beyond 0.1 to 10, or that is not bounded, and all of it
 /// only if the exact index falls. Adds a step for every joint whose correction changed, each with the index of all
 /// together. Without any candidates the model's own corrections are fitted to one another. Whether the index fell.
-bool take_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
-                     std::uint32_t generation, DistalOutcome& outcome);
+bool accept_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
+                       std::uint32_t generation, DistalOutcome& outcome);
 
 }  // namespace demecal

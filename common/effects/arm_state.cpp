@@ -1,13 +1,13 @@
 #include "effects/arm_state.hpp"
 
 #include "errors/check.hpp"
-#include "kinematics/elementary.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal {
 namespace {
 
 /// Sets places and links: the frames met on the way from base to flange.
-void walk(const Chain& chain, ArmState& state) {
+void set_frames(const Chain& chain, ArmState& state) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   for (int i = 0; i < chain.size(); ++i) {
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
@@ -22,7 +22,7 @@ void walk(const Chain& chain, ArmState& state) {
 }
 
 /// Sets loads, from the payload inwards: a place bears what the next one bears, and its own link.
-void weigh(const Robot& robot, ArmState& state) {
+void set_loads(const Robot& robot, ArmState& state) {
   const std::size_t n = state.links.size();
   double mass_kg = state.stop.payload_kg;
   Eigen::Vector3d moment_kg_m = mass_kg * state.payload_point_m;  // of mass, about the base's origin
@@ -42,9 +42,22 @@ void weigh(const Robot& robot, ArmState& state) {
 
 }  // namespace
 
+Stop::Stop(const MeasuredPose& pose)
+    : joints(pose.joints),
+      approach(pose.approach.value_or(ApproachSigns{})),
+      payload_kg(pose.payload_kg.value_or(0.0)),
+      temperature_celsius(pose.temperature_celsius),
+      time_s(pose.time_s) {}
+
+Stop Stop::with_joints(const JointVector& commanded) const {
+  Stop stop = *this;
+  stop.joints = commanded;
+  return stop;
+}
+
 double ArmState::torque(const Chain& chain, int joint) const {
   const auto i = static_cast<std::size_t>(joint);
-  return chain.joints[i].type == JointType::revolute ? loads[i].moment_nm.z() : loads[i].force_n.z();
+  return is_revolute(chain.joints[i]) ? loads[i].moment_nm.z() : loads[i].force_n.z();
 }
 
 ArmState arm_state(const Robot& robot, const Stop& stop) {
@@ -57,9 +70,9 @@ ArmState arm_state(const Robot& robot, const Stop& stop) {
                  .gravity_mps2 = robot.gravity_mps2,
                  .payload_point_m = robot.chain.tool_m,
                  .tool_in_sensor_m = Eigen::Vector3d::Zero()};
-  walk(robot.chain, state);
+  set_frames(robot.chain, state);
   state.payload_point_m = state.places.back() * robot.chain.tool_m;
-  weigh(robot, state);
+  set_loads(robot, state);
   return state;
 }
 

@@ -1,13 +1,33 @@
-// How the nominal arm stands at a stop: its axes, its masses' weight on each of them, and its circumstances.
+// How the nominal arm stands at a stop: where it was commanded, its circumstances, its axes, and its masses' weight on
+// each of them.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "effects/stop.hpp"
 
 namespace demecal {
+
+/// One stop of the robot: where it was commanded, and the circumstances that its errors depend on.
+struct Stop {
+  JointVector joints;                           ///< commanded, rad or m
+  ApproachSigns approach;                       ///< -1, 0 or +1 per joint; empty: unknown, taken as 0
+  double payload_kg = 0.0;                      ///< at the tool point
+  std::optional<double> temperature_celsius{};  ///< none: effects take the arm to be at their reference
+  std::optional<double> time_s{};               ///< none: effects take the stop to be at their reference
+
+  /// A command alone: no approach, nothing carried, nothing known of warmth and time.
+  Stop(JointVector commanded) : joints(std::move(commanded)) {}  // NOLINT(google-explicit-constructor)
+  /// The same of an expression such as a sum of joint vectors.
+  template <typename Joints>
+  Stop(const Eigen::MatrixBase<Joints>& commanded) : joints(commanded) {}  // NOLINT(google-explicit-constructor)
+  explicit Stop(const MeasuredPose& pose);
+
+  /// The same circumstances at other joints.
+  Stop with_joints(const JointVector& commanded) const;
+};
 
 /// The places of an arm at which effects move it: place i < n is the frame whose z is the axis of joint i (from 0),
 /// before the joint's own motion; place n is the flange; kSensorPlace is the frame of the measurements.

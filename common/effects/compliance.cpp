@@ -1,9 +1,10 @@
+// Joints that give way where gravity pushes them.
 #include <array>
 #include <cmath>
 
-#include "effects/joint_words.hpp"
-#include "effects/laws.hpp"
-#include "effects/sampled_states.hpp"
+#include "effects/effect.hpp"
+#include "effects/law_terms.hpp"
+#include "effects/symbolic_state.hpp"
 #include "effects/weight_parts.hpp"
 #include "kinematics/units.hpp"
 
@@ -19,7 +20,7 @@ const std::string kGravityTurn = "gravity_turn";
 /// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known; gravity_turn: 1 or
 /// 2 takes the part of gravity that a leaning mount turns about either direction across it); `tilted`, of known masses
 /// where gravity leans a little from where it is said to point.
-class Compliance final : public EffectLaw {
+class ComplianceLaw final : public EffectLaw {
  public:
   std::string_view kind() const override { return "compliance"; }
   std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override;
@@ -32,6 +33,9 @@ class Compliance final : public EffectLaw {
   std::vector<std::string> settings() const override;
   bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
   std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted"}; }
+  bool bears_payload(const Effect& effect, const Robot& robot) const override;
+  std::string implausibility(const Effect& effect) const override;
+  void append_symbolic_motions(SymbolicWriter& writer) const override;
 };
 
 bool with_payload(const Effect& effect) {
@@ -48,7 +52,7 @@ std::size_t gravity_turn(const Effect& effect) {
 /// Motion of unknown weight: the unit of the joint's motion, per metre of lever for masses hung on a revolute joint.
 CoefficientLabel part_label(const Robot& robot, int joint, const WeightPart& part) {
   CoefficientLabel label = motion_label(robot, joint, "moment_" + name_of(part));
-  if (part.axis == 3 && is_revolute(robot, joint)) label = {label.name + "_per_m", "rad/m"};
+  if (part.axis == 3 && is_revolute(robot.chain, joint)) label = {label.name + "_per_m", "rad/m"};
   return label;
 }
 
@@ -57,7 +61,7 @@ double effort(const Robot& robot, const ArmState& state, int joint, double mass_
               const Eigen::Vector3d& gravity_mps2) {
   const Eigen::Isometry3d& place = state.places[static_cast<std::size_t>(joint)];
   const Eigen::Vector3d axis = place.linear().col(2);
-  if (!is_revolute(robot, joint)) return mass_kg * axis.dot(gravity_mps2);
+  if (!is_revolute(robot.chain, joint)) return mass_kg * axis.dot(gravity_mps2);
   return axis.dot((moment_kg_m - mass_kg * place.translation()).cross(gravity_mps2));
 }
 
@@ -83,7 +87,7 @@ ArmState under_turned_gravity(ArmState state, std::size_t turn) {
   return state;
 }
 
-std::vector<CoefficientLabel> Compliance::coefficients(const Effect& effect, const Robot& robot) const {
+std::vector<CoefficientLabel> ComplianceLaw::coefficients(const Effect& effect, const Robot& robot) const {
   const CoefficientLabel plain = compliance_label(robot, effect.joint);
   if (effect.form == "tilted") {
     return {plain, compliance_label(robot, effect.joint, "tilt_x"), compliance_label(robot, effect.joint, "tilt_y")};
@@ -95,8 +99,8 @@ std::vector<CoefficientLabel> Compliance::coefficients(const Effect& effect, con
   return labels;
 }
 
-void Compliance::unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
-                              std::vector<UnitMotion>& motions) const {
+void ComplianceLaw::unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                                 std::vector<UnitMotion>& motions) const {
   const int joint = effect.joint;
   int coefficient = 0;
   const auto append = [&](double size) { append_joint_motion(robot, joint, coefficient++, size, motions); };
@@ -128,7 +132,7 @@ void propose_single_parts(const Robot& robot, const std::vector<ArmState>& state
   }
 }
 
-std::vector<Effect> Compliance::proposals(const Robot& robot, const Evidence& evidence) const {
+std::vector<Effect> ComplianceLaw::proposals(const Robot& robot, const Evidence& evidence) const {
   std::vector<Effect> effects;
   const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
   const std::vector<ArmState> laden = sampled_states(robot, evidence, kSamplePayload_kg);
@@ -156,13 +160,13 @@ std::vector<Effect> Compliance::proposals(const Robot& robot, const Evidence& ev
   return effects;
 }
 
-Needs Compliance::needs(const Effect& effect, const Robot& /*robot*/) const {
+Needs ComplianceLaw::needs(const Effect& effect, const Robot& /*robot*/) const {
   if (effect.form == "payload") return {.payload = true};
   if (effect.form == "moments") return {.payload = with_payload(effect)};
   return {.masses = true};
 }
 
-std::string Compliance::formula(const Effect& effect, const Robot& robot) const {
+std::string ComplianceLaw::formula(const Effect& effect, const Robot& robot) const {
   const std::string joint = std::to_string(effect.joint + 1);
   if (effect.form == "payload") return write_joint_equation(effect, robot, {{0, "tau_payload" + joint}});
   if (effect.form == "tilted") {
@@ -177,27 +181,59 @@ std::string Compliance::formula(const Effect& effect, const Robot& robot) const 
   return write_joint_equation(effect, robot, terms);
 }
 
-std::string Compliance::diagnosis(const Effect& effect, const Robot& robot) const {
+std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) const {
   const std::string load = load_unit(robot, effect.joint);
   const std::string gives_way = joint_name(effect.joint) + " gives way ";
-  const auto amount = [&](double value) { return motion_words(robot, effect.joint, value) + " per " + load; };
+  const auto amount = [&](double value) { return motion_text(robot, effect.joint, value) + " per " + load; };
   if (effect.form == "payload") return gives_way + "by " + amount(effect.value(0)) + " of the payload's pull on it.";
   if (effect.form == "tilted") {
     const double lean = std::atan2(std::hypot(effect.value(1), effect.value(2)), std::abs(effect.value(0)));
     return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it, and gravity leans by " +
-           number_words(degrees(lean)) + " deg from where the robot's file says it points.";
+           rounded_text(degrees(lean)) + " deg from where the robot's file says it points.";
   }
   if (effect.form != "moments") return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it.";
   double largest = 0.0;
   const std::vector<WeightPart> parts = kept_parts(effect);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].axis < 3 || !is_revolute(robot, effect.joint)) largest += std::abs(effect.value(i));
+    if (parts[i].axis < 3 || !is_revolute(robot.chain, effect.joint)) largest += std::abs(effect.value(i));
   }
   return gives_way + "under the weight of the links beyond it, whose masses are not known: by up to " +
-         motion_words(robot, effect.joint, largest) + '.';
+         motion_text(robot, effect.joint, largest) + '.';
 }
 
-std::vector<std::string> Compliance::settings() const {
+bool ComplianceLaw::bears_payload(const Effect& effect, const Robot& robot) const {
+  return effect.form == "moments" ? with_payload(effect) : needs(effect, robot).masses;
+}
+
+std::string ComplianceLaw::implausibility(const Effect& effect) const {
+  constexpr double kLargestLean = 0.36;  // tangent of 20 degrees
+  if (effect.form != "tilted") return {};
+  const bool leans_too_far = std::hypot(effect.value(1), effect.value(2)) > kLargestLean * std::abs(effect.value(0));
+  return leans_too_far ? "mounting tilt implausible (> 20 deg)" : "";
+}
+
+void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
+  const Effect& effect = writer.effect;
+  const Eigen::Vector3d& gravity = writer.robot().gravity_mps2;
+  const auto turned = turned_gravity(gravity);
+  int coefficient = 0;
+  if (effect.form == "payload") return;
+  if (effect.form == "moments") {
+    const std::size_t turn = gravity_turn(effect);
+    const Eigen::Vector3d& pull = turn == 0 ? gravity : turned.at(turn - 1);
+    for (const WeightPart& part : kept_parts(effect)) {
+      writer.append_joint(coefficient++, lever(writer.state, effect.joint, part, pull));
+    }
+    return;
+  }
+  writer.append_joint(coefficient++, writer.torque(effect.joint));
+  if (effect.form != "tilted") return;
+  for (const Eigen::Vector3d& pull : turned) {
+    writer.append_joint(coefficient++, effort(writer.state, effect.joint, pull));
+  }
+}
+
+std::vector<std::string> ComplianceLaw::settings() const {
   std::vector<std::string> names{kGravityTurn};
   for (int link = 0; link < kMaxJoints; ++link) {
     for (int axis = 0; axis < 4; ++axis) names.push_back(std::string(kKeep) + name_of({link, axis}));
@@ -209,7 +245,7 @@ std::vector<std::string> Compliance::settings() const {
 }  // namespace
 
 const EffectLaw& compliance_law() {
-  static const Compliance law;
+  static const ComplianceLaw law;
   return law;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "effects/known_range.hpp"
+#include "effects/catalogue.hpp"
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 
@@ -26,7 +26,7 @@ double share_within(const Interval& range, double value) {
 }
 
 double nearest_turn(const Chain& chain, int joint, const Interval& range, double value) {
-  const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const bool revolute = is_revolute(chain, joint);
   return revolute ? wrap_near(value, 0.5 * (range.lower + range.upper)) : value;
 }
 
@@ -37,7 +37,7 @@ bool is_within(const Effect& effect, const JointVector& joints) {
 }
 
 /// Joints where the effect is known, and how much of what it is there holds.
-struct Anchor {
+struct HeldState {
   JointVector joints;
   double weight = 1.0;
 };
@@ -46,13 +46,13 @@ struct Anchor {
 /// across the turns that were not measured, and half the way from one to the other each counts as much.
 double weight_of_farther_end(const Chain& chain, int joint, const Interval& range, double value) {
   const double unmeasured = 2.0 * std::numbers::pi - (range.upper - range.lower);
-  if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute || unmeasured <= 0) return 0.0;
+  if (!is_revolute(chain, joint) || unmeasured <= 0) return 0.0;
   const double x = std::max(range.lower - value, value - range.upper) / unmeasured;
   return x * x * (3.0 - 2.0 * x);
 }
 
-std::vector<Anchor> anchors(const Effect& effect, bool fades, const Chain& chain, const JointVector& joints) {
-  std::vector<Anchor> all{{joints, 1.0}};
+std::vector<HeldState> held_states(const Effect& effect, bool fades, const Chain& chain, const JointVector& joints) {
+  std::vector<HeldState> all{{joints, 1.0}};
   for (const auto& [joint, range] : effect.ranges) {
     const double value = nearest_turn(chain, joint, range, joints[joint]);
     const double nearer = std::clamp(value, range.lower, range.upper);
@@ -78,6 +78,10 @@ double Effect::setting(const std::string& name) const {
   return found->second;
 }
 
+std::optional<DecoyEffect> EffectLaw::decoy(const Effect& /*effect*/, const Evidence& /*evidence*/) const {
+  return std::nullopt;
+}
+
 bool Effect::same_law_as(const Effect& other) const {
   return kind == other.kind && joint == other.joint && settings == other.settings && formula == other.formula &&
          form_of(*this) == form_of(other);
@@ -99,7 +103,7 @@ void append_unit_motions(const Effect& effect, const Robot& robot, const ArmStat
   const double share = fades ? known_share(effect, robot.chain, state.joints()) : 1.0;
   if (share == 0.0) return;
   ArmState held = state;
-  for (const Anchor& anchor : anchors(effect, fades, robot.chain, state.joints())) {
+  for (const HeldState& anchor : held_states(effect, fades, robot.chain, state.joints())) {
     held.stop.joints = anchor.joints;
     const std::size_t before = motions.size();
     law.unit_motions(effect, robot, held, motions);

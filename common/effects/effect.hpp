@@ -65,6 +65,18 @@ struct Evidence {
   std::vector<double> stated_ratios{};     ///< beyond the scan
 };
 
+/// Of what an effect is.
+enum class Subject { joint, tool, instrument };
+
+/// Without which nothing of a kind shows, whatever its form.
+enum class Circumstance { none, approach, temperature, time, masses };
+
+/// What makes a decoy impossible: a ratio that no gear has, or a circumstance dealt out anew over the poses.
+enum class DecoyKind { none, wrong_ratio, shuffled_approach, shuffled_temperature };
+
+struct DecoyEffect;     ///< an effect that cannot be true, tried among those that may be
+struct SymbolicWriter;  ///< see effects/symbolic_state.hpp
+
 /// A law of the catalogue. Laws know no coefficients' values unless an effect brings them.
 class EffectLaw {
  public:
@@ -91,13 +103,40 @@ class EffectLaw {
   virtual bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const { return true; }
   /// Names of the forms this law has; empty: one form only.
   virtual std::vector<std::string> forms() const { return {}; }
-  /// Whether the effect is of one joint.
-  virtual bool of_joint() const { return true; }
+  /// Of what its effects are; those of a joint have one.
+  virtual Subject subject() const { return Subject::joint; }
+  /// Without which no data show any of its effects.
+  virtual Circumstance prerequisite() const { return Circumstance::none; }
+  /// Whether its effects are what formulas say (Effect::formula), and their names tell nothing.
+  virtual bool takes_formula() const { return false; }
+  /// Whether proposals are a scan over periods a turn.
+  virtual bool is_harmonic() const { return false; }
+  /// Whether it is a smooth function of its own joint alone, which a correction of the joint holds as well.
+  virtual bool is_smooth(const Effect& /*effect*/) const { return false; }
+  /// The joint (from 0) in proportion to whose value it moves its own; -1: none.
+  virtual int proportional_to(const Effect& /*effect*/) const { return -1; }
+  /// Whether what the arm carries changes it, though it is not of the payload alone.
+  virtual bool bears_payload(const Effect& effect, const Robot& robot) const { return needs(effect, robot).masses; }
+  /// Why no real arm has these coefficients, whatever motions they make; empty where one may.
+  virtual std::string implausibility(const Effect& /*effect*/) const { return {}; }
+  /// The same effect as it cannot be, to be tried as a control; none where there is no such thing.
+  virtual std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& evidence) const;
   /// Whether it is nothing beyond the measured range, on average: a ripple. Others go on from what they are at its end.
   virtual bool fades(const Effect& /*effect*/) const { return false; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
   virtual std::vector<int> ranged_joints(const Effect& /*effect*/, const Robot& /*robot*/) const { return {}; }
+  /// Appends the unit motions as expressions of the joints (effects/symbolic_state.hpp); nothing where the effect
+  /// depends on more than the joints.
+  virtual void append_symbolic_motions(SymbolicWriter& /*motions*/) const {}
 };
+
+struct DecoyEffect {
+  Effect effect;
+  DecoyKind kind = DecoyKind::none;
+};
+
+/// Over which a ripple fades out beyond the joints it was measured at, rad or m.
+inline constexpr double kFade = 0.1;
 
 /// All laws, in the catalogue's order.
 const std::vector<const EffectLaw*>& catalogue();
@@ -106,6 +145,11 @@ const EffectLaw* find_law(std::string_view kind);
 /// The law of an effect, which must be of the catalogue.
 const EffectLaw& law_of(const Effect& effect);
 
+/// The kind of effects outside the catalogue's names, which formulas describe.
+std::string_view symbolic_kind();
+bool is_symbolic(const Effect& effect);
+/// One of a joint, its formula still to be set.
+Effect symbolic_effect(int joint, const std::string& form = {});
 /// What the formula of a symbolic effect may speak of: q1 .. qn (rad or m), and of its own joint tau (Nm or N, of
 /// gravity), s (approach sign) and T (K above the setting reference_celsius).
 VariableNames symbolic_variables(const Chain& chain);

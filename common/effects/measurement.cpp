@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "effects/error_figures.hpp"
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 

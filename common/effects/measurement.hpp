@@ -1,8 +1,10 @@
-// How a prediction meets what was measured: the residual rows of a pose, whichever quantities its instrument gives.
+// How a prediction meets what was measured: the residual rows of a pose, whichever quantities its instrument gives, and
+// the figures that users judge by.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "data/data_set.hpp"
 #include "effects/corrected_robot.hpp"
@@ -48,5 +50,8 @@ struct ErrorFigures {
   double mean_mm, rms_mm, p95_mm, max_mm;
 };
 ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses);
+
+/// As error_figures() of poses, of these tool errors, mm (none NaN); all NaN where there are none.
+ErrorFigures error_figures(std::vector<double> errors_mm);
 
 }  // namespace demecal

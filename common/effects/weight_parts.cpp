@@ -1,10 +1,11 @@
 #include "effects/weight_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
-#include "effects/joint_words.hpp"
-#include "effects/sampled_states.hpp"
+#include "effects/law_terms.hpp"
 
 namespace demecal {
 namespace {
@@ -30,6 +31,23 @@ std::vector<WeightPart> parts_beyond(const Robot& robot, int joint) {
   return parts;
 }
 
+constexpr int kStates = 64;
+constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
+
+/// The `index`-th number of van der Corput's sequence, in (0, 1) for index >= 1.
+double radical_inverse(int index, int base) {
+  double value = 0.0, digit = 1.0 / base;
+  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
+Interval range_of(const Robot& robot, const Evidence& evidence, std::size_t joint) {
+  if (joint < evidence.joint_ranges.size()) return evidence.joint_ranges[joint];
+  const Joint& link = robot.chain.joints[joint];
+  if (!is_revolute(link)) return {link.lower, link.upper};
+  return {-std::numbers::pi, std::numbers::pi};
+}
+
 }  // namespace
 
 double lever(const Robot& robot, const ArmState& state, int joint, const WeightPart& part) {
@@ -40,7 +58,7 @@ double lever(const Robot& robot, const ArmState& state, int joint, const WeightP
   const Eigen::Isometry3d& link = state.links[static_cast<std::size_t>(part.link)];
   const bool mass = part.axis == kMass;
   const Eigen::Vector3d axis = place.linear().col(2);
-  if (!is_revolute(robot, joint)) return mass ? axis.dot(down) : 0.0;
+  if (!is_revolute(robot.chain, joint)) return mass ? axis.dot(down) : 0.0;
   const Eigen::Vector3d arm =
       mass ? Eigen::Vector3d(link.translation() - place.translation()) : Eigen::Vector3d(link.linear().col(part.axis));
   return axis.dot(arm.cross(down));
@@ -91,6 +109,31 @@ std::optional<WeightPart> weight_part(std::string_view name) {
   const auto* const found = std::ranges::find(kNames, name.substr(2));
   if (found == kNames.end()) return std::nullopt;
   return WeightPart{name[0] - '1', static_cast<int>(found - kNames.begin())};
+}
+
+std::vector<ArmState> sampled_states(const Robot& robot, const Evidence& evidence, double payload_kg) {
+  std::vector<ArmState> states;
+  states.reserve(kStates);
+  for (int index = 1; index <= kStates; ++index) {
+    JointVector joints(robot.chain.size());
+    for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
+      const Interval range = range_of(robot, evidence, i);
+      joints[static_cast<Eigen::Index>(i)] =
+          range.lower + (range.upper - range.lower) * radical_inverse(index, kPrimes[i]);
+    }
+    Stop stop(joints);
+    stop.payload_kg = payload_kg;
+    states.push_back(arm_state(robot, stop));
+  }
+  return states;
+}
+
+std::vector<double> torques_by_size(const Robot& robot, const std::vector<ArmState>& states, int joint) {
+  std::vector<double> sizes;
+  sizes.reserve(states.size());
+  for (const ArmState& state : states) sizes.push_back(std::abs(state.torque(robot.chain, joint)));
+  std::ranges::sort(sizes);
+  return sizes;
 }
 
 }  // namespace demecal

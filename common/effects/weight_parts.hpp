@@ -1,4 +1,4 @@
-// The unknown weights of an arm, part by part: what the mass and the first moments of each link do to a joint.
+// The unknown weights of an arm, part by part, and where an arm is likely to stand: what a law could show of itself.
 #pragma once
 
 #include <array>
@@ -38,5 +38,15 @@ std::array<Eigen::Vector3d, 2> turned_gravity(const Eigen::Vector3d& gravity_mps
 std::string name_of(const WeightPart& part);
 /// The part of that name; nothing where there is none.
 std::optional<WeightPart> weight_part(std::string_view name);
+
+/// 64 states with `payload_kg`, joints within the measured ranges (where these are unknown: a turn, or a prismatic
+/// joint's limits), spread evenly by a Halton sequence.
+std::vector<ArmState> sampled_states(const Robot& robot, const Evidence& evidence, double payload_kg);
+
+/// |torque| (Nm or N) of gravity on the joint in each state, ascending.
+std::vector<double> torques_by_size(const Robot& robot, const std::vector<ArmState>& states, int joint);
+
+/// Loads and levers below this (N, Nm, m) are rounding.
+inline constexpr double kNoLoad = 1e-9;
 
 }  // namespace demecal

@@ -1,18 +1,20 @@
 #include "fitting/base_search.hpp"
 
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 
-#include "fitting/base_candidates.hpp"
 #include "fitting/least_squares.hpp"
 
 namespace demecal {
 namespace {
 
 /// What base and tool alone usually leave; only the ratio between the kinds matters here.
-constexpr double kLeft_m = 1e-3, kLeft_rad = 2e-3;
+constexpr double kTypicalResidual_m = 1e-3, kTypicalResidual_rad = 2e-3;
 constexpr int kFirstIterations = 10;
 
 /// At most `count` of the poses, spread over all: multiples of a stride that shares no divisor with their number, so
@@ -43,13 +45,13 @@ void turn_tools(CorrectedRobot& robot, const DataSet& data, const std::vector<Ob
 /// Without a tool to turn, measured orientations may be off by any fixed rotation: then only positions lead.
 RowScales search_scales(const RowCounts& count, bool tool) {
   const bool lead = tool || count[kPosition] + count[kDistance] == 0;
-  return {kLeft_m, lead ? kLeft_rad : 0.0, kLeft_m};
+  return {kTypicalResidual_m, lead ? kTypicalResidual_rad : 0.0, kTypicalResidual_m};
 }
 
-class Search {
+class BaseSearch {
  public:
-  Search(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
-         const CorrectedRobot& start, const FitOptions& options)
+  BaseSearch(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
+             const CorrectedRobot& start, const FitOptions& options)
       : data_(data),
         start_(start),
         tool_(declared.tool),
@@ -58,9 +60,9 @@ class Search {
         scales_(search_scales(count_rows(data, observations_), tool_)) {}
 
   CorrectedRobot best_of(const std::vector<Eigen::Isometry3d>& bases) const {
-    Placed best{start_};
+    PlacedRobot best{start_};
     for (const Eigen::Isometry3d& base : bases) {
-      Placed placed = refined(standing_at(base), kFirstIterations);
+      PlacedRobot placed = refined(with_base(base), kFirstIterations);
       if (placed.cost < best.cost) best = std::move(placed);
     }
     return refined(best.robot, 10 * kFirstIterations).robot;
@@ -69,19 +71,19 @@ class Search {
   const std::vector<Observation>& observations() const { return observations_; }
 
  private:
-  struct Placed {
+  struct PlacedRobot {
     CorrectedRobot robot;
     double cost = std::numeric_limits<double>::infinity();
   };
 
-  CorrectedRobot standing_at(const Eigen::Isometry3d& base) const {
+  CorrectedRobot with_base(const Eigen::Isometry3d& base) const {
     CorrectedRobot robot = start_;
     robot.sensor_from_base = base;
     if (tool_) turn_tools(robot, data_, observations_);
     return robot;
   }
 
-  Placed refined(const CorrectedRobot& robot, int iterations) const {
+  PlacedRobot refined(const CorrectedRobot& robot, int iterations) const {
     const ParameterSpace space(robot, ids_);
     const LeastSquares problem{.data = data_,
                                .space = space,
@@ -103,14 +105,116 @@ class Search {
   RowScales scales_;
 };
 
+/// The tool of an observation as the robot has it, in the robot's base.
+Eigen::Vector3d point_in_base(const DataSet& data, const CorrectedRobot& robot, const Observation& observation) {
+  return forward(robot.chain, observation.corrected) * robot.tool(data.poses[observation.pose].target).translation();
+}
+
+Eigen::Isometry3d base_through(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& point_in_base,
+                               const Eigen::Vector3d& point_in_sensor) {
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
+  base.linear() = rotation;
+  base.translation() = point_in_sensor - rotation * point_in_base;
+  return base;
+}
+
+struct RegisteredPoints {
+  Eigen::Matrix3Xd in_base;
+  Eigen::Matrix3Xd in_sensor;
+};
+
+/// The points of the observations that measured a position.
+RegisteredPoints measured_points(const DataSet& data, const std::vector<Observation>& observations,
+                                 const CorrectedRobot& robot) {
+  RegisteredPoints points;
+  for (const Observation& observation : observations) {
+    const MeasuredPose& pose = data.poses[observation.pose];
+    if (!pose.position_m) continue;
+    const Eigen::Index n = points.in_base.cols();
+    points.in_base.conservativeResize(3, n + 1);
+    points.in_sensor.conservativeResize(3, n + 1);
+    points.in_base.col(n) = point_in_base(data, robot, observation);
+    points.in_sensor.col(n) = *pose.position_m;
+  }
+  return points;
+}
+
+std::vector<Eigen::Isometry3d> candidates_from_points(const RegisteredPoints& points, int count) {
+  std::vector<Eigen::Isometry3d> bases;
+  bases.emplace_back(Eigen::umeyama(points.in_base, points.in_sensor, false));
+  const Eigen::Vector3d base_middle = points.in_base.rowwise().mean(),
+                        sensor_middle = points.in_sensor.rowwise().mean();
+  for (int i = 0; i < count; ++i) bases.push_back(base_through(spread_rotation(i, count), base_middle, sensor_middle));
+  return bases;
+}
+
+/// No direction, the six of a cube's faces and the eight of its corners.
+std::vector<Eigen::Vector3d> cube_directions() {
+  std::vector<Eigen::Vector3d> places;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const int off = std::abs(x) + std::abs(y) + std::abs(z);
+        if (off != 2) places.push_back(Eigen::Vector3d(x, y, z).stableNormalized());
+      }
+    }
+  }
+  return places;
+}
+
+struct ToolMiddle {
+  Eigen::Vector3d in_base = Eigen::Vector3d::Zero();
+  double distance_m = 0.0;
+};
+
+/// The mean point of the tool and its mean distance from the anchors.
+ToolMiddle middle_of(const DataSet& data, const std::vector<Observation>& observations, const CorrectedRobot& robot) {
+  ToolMiddle middle;
+  double distances = 0.0;
+  for (const Observation& observation : observations) {
+    middle.in_base += point_in_base(data, robot, observation) / static_cast<double>(observations.size());
+    for (const double distance : data.poses[observation.pose].distances_m)
+      middle.distance_m += distance, distances += 1;
+  }
+  if (distances > 0) middle.distance_m /= distances;
+  return middle;
+}
+
+double misfit(const DataSet& data, const std::vector<Observation>& observations, CorrectedRobot robot,
+              const Eigen::Isometry3d& base) {
+  robot.sensor_from_base = base;
+  return root_mean_squares(data, robot, observations)[kDistance];
+}
+
+std::vector<Eigen::Isometry3d> candidates_from_distances(const DataSet& data,
+                                                         const std::vector<Observation>& observations,
+                                                         const CorrectedRobot& robot, int count) {
+  const ToolMiddle middle = middle_of(data, observations, robot);
+  Eigen::Vector3d anchors = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& anchor : data.anchors_m) anchors += anchor / static_cast<double>(data.anchors_m.size());
+  std::vector<std::pair<double, Eigen::Isometry3d>> ranked;
+  for (int i = 0; i < count; ++i) {
+    for (const Eigen::Vector3d& place : cube_directions()) {
+      const Eigen::Isometry3d base =
+          base_through(spread_rotation(i, count), middle.in_base, anchors + middle.distance_m * place);
+      ranked.emplace_back(misfit(data, observations, robot, base), base);
+    }
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Eigen::Isometry3d> bases;
+  for (int i = 0; i < count; ++i) bases.push_back(ranked[static_cast<std::size_t>(i)].second);
+  return bases;
+}
+
 }  // namespace
 
-CorrectedRobot place(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
-                     const CorrectedRobot& start, const FitOptions& options) {
+CorrectedRobot locate_base_and_tools(const DataSet& data, std::span<const std::size_t> poses,
+                                     const DeclaredModel& declared, const CorrectedRobot& start,
+                                     const FitOptions& options) {
   if (options.starts == 0 || !(declared.registration || declared.tool)) return start;
   CorrectedRobot without_effects = start;
   without_effects.effects.clear();
-  const Search search(data, poses, declared, without_effects, options);
+  const BaseSearch search(data, poses, declared, without_effects, options);
   std::vector<Eigen::Isometry3d> bases{start.sensor_from_base};
   if (declared.registration && data.frame == Frame::sensor) {
     const auto others = base_candidates(data, search.observations(), without_effects, options.starts);
@@ -119,6 +223,32 @@ CorrectedRobot place(const DataSet& data, std::span<const std::size_t> poses, co
   CorrectedRobot placed = search.best_of(bases);
   placed.effects = start.effects;
   return placed;
+}
+
+std::vector<Eigen::Isometry3d> base_candidates(const DataSet& data, const std::vector<Observation>& observations,
+                                               const CorrectedRobot& robot, int count) {
+  const RegisteredPoints points = measured_points(data, observations, robot);
+  if (points.in_base.cols() > 0) return candidates_from_points(points, count);
+  if (count_rows(data, observations)[kDistance] > 0) return candidates_from_distances(data, observations, robot, count);
+  std::vector<Eigen::Isometry3d> bases;
+  for (int i = 0; i < count; ++i) bases.emplace_back(spread_rotation(i, count));
+  return bases;
+}
+
+Eigen::Matrix3d spread_rotation(int index, int count) {
+  constexpr double kPsi = 1.533751168755204288118;  // the root of psi^4 = psi + 4
+  const double s = index + 0.5, share = s / count;
+  const double alpha = 2 * std::numbers::pi * s / std::numbers::sqrt2, beta = 2 * std::numbers::pi * s / kPsi;
+  const double inner = std::sqrt(share), outer = std::sqrt(1 - share);
+  return Eigen::Quaterniond(outer * std::cos(beta), inner * std::sin(alpha), inner * std::cos(alpha),
+                            outer * std::sin(beta))
+      .toRotationMatrix();
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return svd.matrixU() * Eigen::Vector3d(1, 1, turn < 0 ? -1 : 1).asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace demecal

@@ -1,9 +1,12 @@
 // Finds where the base stands in the instrument's frame, and how the tool is held, from anywhere.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <span>
+#include <vector>
 
 #include "fitting/fit.hpp"
+#include "fitting/observation.hpp"
 
 namespace demecal {
 
@@ -14,7 +17,21 @@ namespace demecal {
 /// middle of the points brought together or, where only distances were measured, set down around the anchors. The base
 /// is searched for only in a data set whose frame is the instrument's. The start's effects are too small to matter to
 /// the search, which leaves them out. With options.starts 0 the start is trusted.
-CorrectedRobot place(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
-                     const CorrectedRobot& start, const FitOptions& options);
+CorrectedRobot locate_base_and_tools(const DataSet& data, std::span<const std::size_t> poses,
+                                     const DeclaredModel& declared, const CorrectedRobot& start,
+                                     const FitOptions& options);
+
+/// Poses of the base in the measurements' frame that the observations suggest. Where positions were measured: the
+/// closed-form registration of `robot`'s points to the measured ones (Horn 1987, Umeyama 1991), then `count`
+/// orientations spread over all, the middles of the points brought together. Where only distances were: the `count`
+/// best of these orientations set down in 15 places around the anchors. Otherwise: the orientations alone.
+std::vector<Eigen::Isometry3d> base_candidates(const DataSet& data, const std::vector<Observation>& observations,
+                                               const CorrectedRobot& robot, int count);
+
+/// The `index`-th of `count` rotations spread evenly over all (super-Fibonacci spiral, Alexa 2022).
+Eigen::Matrix3d spread_rotation(int index, int count);
+
+/// The rotation nearest to `matrix` (Frobenius).
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
 }  // namespace demecal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinematics/chain.hpp"
@@ -16,7 +17,17 @@ struct DeclaredModel {
   bool joint_corrections = false;  ///< evolved, not fitted here
 
   bool operator==(const DeclaredModel&) const = default;
+
+  /// What is declared, of declared_words() and in their order.
+  std::vector<std::string> words() const;
+  /// Whether effects of that kind are declared already.
+  bool holds(std::string_view kind) const;
 };
+
+/// What may be declared, as jobs and models call it; kinds of effects by the catalogue's word.
+std::vector<std::string> declared_words();
+/// The flag of one of these words; null for others.
+bool DeclaredModel::*declared_flag(std::string_view word);
 
 /// One number of the model that can be identified.
 struct ParameterId {

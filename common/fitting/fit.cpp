@@ -7,13 +7,13 @@
 #include "errors/input_error.hpp"
 #include "fitting/base_search.hpp"
 #include "fitting/identifiable.hpp"
+#include "fitting/row_sums.hpp"
 #include "fitting/scatter.hpp"
-#include "fitting/triangular_factor.hpp"
 
 namespace demecal {
 namespace {
 
-void refuse_unknown_anchors(const DataSet& data, std::span<const std::size_t> poses) {
+void require_known_anchors(const DataSet& data, std::span<const std::size_t> poses) {
   if (!data.anchors_unknown) return;
   for (const std::size_t pose : poses) {
     if (data.poses[pose].distances_m.empty()) continue;
@@ -43,7 +43,7 @@ Fit too_few(const CorrectedRobot& start, std::size_t poses, int rows, int parame
 }
 
 /// The effects of all parameters at the reference.
-Effects effects_of(const LeastSquares& problem) {
+ScaledJacobian jacobian_at_reference(const LeastSquares& problem) {
   TriangularFactor factor(problem.space.size());
   const ModelPoint point = problem.space.at(Eigen::VectorXd::Zero(problem.space.size()));
   ScaledRows rows;
@@ -51,32 +51,32 @@ Effects effects_of(const LeastSquares& problem) {
     scaled_rows(problem.data, problem.space, point, observation, problem.scales, rows);
     factor.add(rows.jacobian);
   }
-  return Effects(factor.factor());
+  return ScaledJacobian(factor.factor());
 }
 
-bool settled(const RowScales& before, const RowScales& after) {
-  constexpr double kSettled = 0.01;
+bool scales_agree(const RowScales& before, const RowScales& after) {
+  constexpr double kTolerance = 0.01;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-    if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1) > kSettled) return false;
+    if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1) > kTolerance) return false;
   }
   return true;
 }
 
-struct Result {
+struct ScaledFit {
   Minimum minimum;
   Scatter scatter;
 };
 
 /// Fits and takes the scales from what is left, in turn, until they settle.
-Result fit_and_scale(LeastSquares problem) {
+ScaledFit fit_and_scale(LeastSquares problem) {
   constexpr int kMostRounds = 20;
-  Result result;
+  ScaledFit result;
   result.minimum.change.setZero(problem.space.size());
   for (int round = 0; round < kMostRounds; ++round) {
     result.minimum = minimise(problem, result.minimum.change);
     result.scatter = scatter_at(problem, result.minimum.change);
     const RowScales& scales = problem.robust ? result.scatter.median_deviation : result.scatter.deviation;
-    if (settled(problem.scales, scales)) break;
+    if (scales_agree(problem.scales, scales)) break;
     problem.scales = scales;
   }
   return result;
@@ -104,7 +104,7 @@ std::string summary_of(const Fit& fit, std::size_t poses) {
 }
 
 /// Standard errors to the robot's effects: all of an effect's coefficients are free, or none.
-void tell_effects(const std::vector<ParameterEstimate>& estimates, std::vector<Effect>& effects) {
+void set_standard_errors(const std::vector<ParameterEstimate>& estimates, std::vector<Effect>& effects) {
   for (const ParameterEstimate& estimate : estimates) {
     if (estimate.id.kind != ParameterId::Kind::effect) continue;
     Effect& effect = effects[static_cast<std::size_t>(estimate.id.index)];
@@ -113,7 +113,7 @@ void tell_effects(const std::vector<ParameterEstimate>& estimates, std::vector<E
   }
 }
 
-Fit reported(const LeastSquares& problem, const Result& result, const CorrectedRobot& nominal,
+Fit make_fit(const LeastSquares& problem, const ScaledFit& result, const CorrectedRobot& nominal,
              const Eigen::MatrixXd& covariance) {
   const Scatter& scatter = result.scatter;
   const ModelPoint point = problem.space.at(result.minimum.change);
@@ -125,20 +125,20 @@ Fit reported(const LeastSquares& problem, const Result& result, const CorrectedR
   fit.sigma_distance_m = scatter.deviation[kDistance];
   fit.outliers = scatter.outliers;
   fit.estimates = estimates_of(problem.space, point, nominal, covariance);
-  tell_effects(fit.estimates, fit.robot.effects);
+  set_standard_errors(fit.estimates, fit.robot.effects);
   return fit;
 }
 
 Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double rank_tolerance) {
   const std::vector<ParameterId>& ids = problem.space.ids();
-  const Effects effects = effects_of(problem);
-  Identifiable seen = identifiable_subspace(effects, ids, rank_tolerance);
+  const ScaledJacobian jacobian = jacobian_at_reference(problem);
+  IdentifiableSubspace seen = identifiable_subspace(jacobian, ids, rank_tolerance);
   problem.basis = std::move(seen.basis);
-  const Result result = fit_and_scale(problem);
+  const ScaledFit result = fit_and_scale(problem);
   const Eigen::MatrixXd covariance = problem.basis * result.scatter.covariance * problem.basis.transpose();
-  Fit fit = reported(problem, result, nominal, covariance);
+  Fit fit = make_fit(problem, result, nominal, covariance);
   fit.unidentified = std::move(seen.held);
-  for (auto& weak : weak_directions(effects, ids, covariance, problem.prior.precision)) {
+  for (auto& weak : weak_directions(jacobian, ids, covariance, problem.prior.precision)) {
     fit.unidentified.push_back(std::move(weak));
   }
   fit.rank = problem.space.size() - static_cast<int>(fit.unidentified.size());
@@ -156,7 +156,7 @@ std::vector<ParameterId> parameters_of(const DataSet& data, const DeclaredModel&
 }
 
 /// Whether effects that depend on where the tool is seen are told something else at the robot fitted than at its start.
-bool moved_on(const std::vector<Observation>& before, const std::vector<Observation>& after) {
+bool motions_differ(const std::vector<Observation>& before, const std::vector<Observation>& after) {
   const auto same = [](const EffectMotion& a, const EffectMotion& b) { return a.unit.size == b.unit.size; };
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto &a = before[i].motions, &b = after[i].motions;
@@ -189,21 +189,23 @@ Fit fit_placed(const DataSet& data, const std::vector<Observation>& observations
 
 Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                  const CorrectedRobot& start, const FitOptions& options) {
-  refuse_unknown_anchors(data, poses);
+  require_known_anchors(data, poses);
   const std::vector<ParameterId> ids = parameters_of(data, declared, start, options);
   const auto parameters = static_cast<int>(ids.size());
   int measured = 0;
   for (const std::size_t pose : poses) measured += rows_of(data.poses[pose]).total();
   if (measured <= parameters) return too_few(start, poses.size(), measured, parameters);
-  const CorrectedRobot placed = place(data, poses, declared, start, options);
+  const CorrectedRobot placed = locate_base_and_tools(data, poses, declared, start, options);
   const auto observations = observe(data, poses, placed);
   Fit fit = fit_placed(data, observations, ids, placed, declared.tool, options);
   if (fit.status == FitStatus::too_few_poses) {
     fit.robot = start;
     return fit;
   }
-  const auto seen_anew = observe(data, poses, fit.robot);
-  return moved_on(observations, seen_anew) ? fit_placed(data, seen_anew, ids, fit.robot, declared.tool, options) : fit;
+  const auto observed_again = observe(data, poses, fit.robot);
+  return motions_differ(observations, observed_again)
+             ? fit_placed(data, observed_again, ids, fit.robot, declared.tool, options)
+             : fit;
 }
 
 Fit fit_registration(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,

@@ -21,21 +21,21 @@ double usual_change(const ParameterId& id) {
 
 /// The usual changes of all parameters. Effects are taken to move the measurements a thousandth as far as the other
 /// parameters do at least: what a link can explain is not laid at an effect's door.
-Eigen::VectorXd usual_changes(const Effects& effects, const std::vector<ParameterId>& ids) {
+Eigen::VectorXd usual_changes(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids) {
   constexpr double kLittle = 1e-3;
   const auto n = static_cast<Eigen::Index>(ids.size());
   Eigen::VectorXd usual(n);
   double least = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n; ++i) {
     usual[i] = usual_change(ids[static_cast<std::size_t>(i)]);
-    if (ids[static_cast<std::size_t>(i)].kind != ParameterId::Kind::effect && !effects.scaled.col(i).isZero(0.0)) {
-      least = std::min(least, usual[i] * effects.lengths[i]);
+    if (ids[static_cast<std::size_t>(i)].kind != ParameterId::Kind::effect && !jacobian.scaled.col(i).isZero(0.0)) {
+      least = std::min(least, usual[i] * jacobian.lengths[i]);
     }
   }
   if (!std::isfinite(least)) least = 1.0;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (ids[static_cast<std::size_t>(i)].kind != ParameterId::Kind::effect) continue;
-    usual[i] = kLittle * least / effects.lengths[i];
+    usual[i] = kLittle * least / jacobian.lengths[i];
   }
   return usual;
 }
@@ -72,7 +72,7 @@ Eigen::MatrixXd sparse_span(Eigen::MatrixXd rows) {
 }
 
 /// A direction by the effects (unit norm) its parameters have in it.
-UnidentifiedDirection named(const Eigen::VectorXd& shares, const std::vector<ParameterId>& ids) {
+UnidentifiedDirection direction_of(const Eigen::VectorXd& shares, const std::vector<ParameterId>& ids) {
   constexpr double kShare = 0.1;
   UnidentifiedDirection direction;
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -89,14 +89,15 @@ UnidentifiedDirection named(const Eigen::VectorXd& shares, const std::vector<Par
   return direction;
 }
 
-std::vector<UnidentifiedDirection> named_all(const Eigen::MatrixXd& rows, const Effects& effects,
-                                             const std::vector<ParameterId>& ids, bool weak) {
+std::vector<UnidentifiedDirection> readable_directions(const Eigen::MatrixXd& rows, const ScaledJacobian& jacobian,
+                                                       const std::vector<ParameterId>& ids, bool weak) {
   std::vector<UnidentifiedDirection> directions;
   const Eigen::MatrixXd readable = sparse_span(rows);
   for (Eigen::Index i = 0; i < readable.rows(); ++i) {
     const Eigen::VectorXd shares = readable.row(i).transpose().normalized();
-    directions.push_back(named(shares, ids));
-    directions.back().relative_singular = effects.largest > 0 ? (effects.scaled * shares).norm() / effects.largest : 0;
+    directions.push_back(direction_of(shares, ids));
+    directions.back().relative_singular =
+        jacobian.largest > 0 ? (jacobian.scaled * shares).norm() / jacobian.largest : 0;
     directions.back().weak = weak;
   }
   return directions;
@@ -118,7 +119,8 @@ Eigen::MatrixXd whitened(const Eigen::MatrixXd& factor, const Eigen::MatrixXd& b
 
 }  // namespace
 
-Effects::Effects(const Eigen::MatrixXd& factor) : scaled(factor), lengths(factor.colwise().norm().transpose()) {
+ScaledJacobian::ScaledJacobian(const Eigen::MatrixXd& factor)
+    : scaled(factor), lengths(factor.colwise().norm().transpose()) {
   constexpr double kRounding = 1e-13;
   if (lengths.size() == 0) return;
   const double smallest = kRounding * lengths.maxCoeff();
@@ -132,21 +134,22 @@ Effects::Effects(const Eigen::MatrixXd& factor) : scaled(factor), lengths(factor
   largest = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues()[0];
 }
 
-Identifiable identifiable_subspace(const Effects& effects, const std::vector<ParameterId>& ids, double rank_tolerance) {
+IdentifiableSubspace identifiable_subspace(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
+                                           double rank_tolerance) {
   const auto n = static_cast<Eigen::Index>(ids.size());
-  DEMECAL_CHECK(effects.lengths.size() == n, effects.lengths.size() << " columns of " << n << " parameters");
+  DEMECAL_CHECK(jacobian.lengths.size() == n, jacobian.lengths.size() << " columns of " << n << " parameters");
   if (n == 0) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(effects.scaled, Eigen::ComputeFullV);
-  const Eigen::Index held = (svd.singularValues().array() <= rank_tolerance * effects.largest).count();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian.scaled, Eigen::ComputeFullV);
+  const Eigen::Index held = (svd.singularValues().array() <= rank_tolerance * jacobian.largest).count();
   const Eigen::MatrixXd null = svd.matrixV().rightCols(held);
-  const Eigen::VectorXd usual = usual_changes(effects, ids);
-  const Eigen::VectorXd in_usual = (effects.lengths.array() * usual.array()).inverse();
+  const Eigen::VectorXd usual = usual_changes(jacobian, ids);
+  const Eigen::VectorXd in_usual = (jacobian.lengths.array() * usual.array()).inverse();
   const Eigen::MatrixXd seen = usual.asDiagonal() * complement(in_usual.asDiagonal() * null);
-  return {whitened(effects.scaled * effects.lengths.asDiagonal(), seen),
-          named_all(null.transpose(), effects, ids, false)};
+  return {whitened(jacobian.scaled * jacobian.lengths.asDiagonal(), seen),
+          readable_directions(null.transpose(), jacobian, ids, false)};
 }
 
-std::vector<UnidentifiedDirection> weak_directions(const Effects& effects, const std::vector<ParameterId>& ids,
+std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
                                                    const Eigen::MatrixXd& covariance,
                                                    const Eigen::VectorXd& precision) {
   constexpr double kPriorKnowsBetter = 0.5;
@@ -156,7 +159,7 @@ std::vector<UnidentifiedDirection> weak_directions(const Effects& effects, const
   const Eigen::Index weak = (eigen.eigenvalues().array() > kPriorKnowsBetter).count();
   // Base and tool move along as the covariance says, so that the whole direction is hardly seen.
   const Eigen::MatrixXd moves = covariance * precision.asDiagonal() * eigen.eigenvectors().rightCols(weak);
-  return named_all((effects.lengths.asDiagonal() * moves).transpose(), effects, ids, true);
+  return readable_directions((jacobian.lengths.asDiagonal() * moves).transpose(), jacobian, ids, true);
 }
 
 }  // namespace demecal

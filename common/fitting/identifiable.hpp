@@ -10,8 +10,8 @@ namespace demecal {
 
 /// A Jacobian's triangular factor R (n x n, R^T R = J^T J) with columns scaled to unit length, so that parameters of
 /// different units compare by their effect. Columns without effect are zero, their length 1.
-struct Effects {
-  explicit Effects(const Eigen::MatrixXd& factor);
+struct ScaledJacobian {
+  explicit ScaledJacobian(const Eigen::MatrixXd& factor);
 
   Eigen::MatrixXd scaled;
   Eigen::VectorXd lengths;
@@ -19,7 +19,7 @@ struct Effects {
 };
 
 /// The directions a fit may move in.
-struct Identifiable {
+struct IdentifiableSubspace {
   /// n x rank: changes of the parameters are basis * z. On the Jacobian it was made from, J * basis is orthonormal.
   Eigen::MatrixXd basis;
   std::vector<UnidentifiedDirection> held;
@@ -29,11 +29,12 @@ struct Identifiable {
 /// are held. Of all changes with the same effect the basis holds the smallest, a change of base or tool counting next
 /// to nothing and one of an effect's coefficients most: what a base or a tool can explain is not laid at a joint's
 /// door, nor what a joint can at an effect's.
-Identifiable identifiable_subspace(const Effects& effects, const std::vector<ParameterId>& ids, double rank_tolerance);
+IdentifiableSubspace identifiable_subspace(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
+                                           double rank_tolerance);
 
 /// The directions that the prior knows better than the poses do: those whose variance (`covariance` of the changes,
 /// n x n) is above half of what the prior (`precision`: see Prior) left open.
-std::vector<UnidentifiedDirection> weak_directions(const Effects& effects, const std::vector<ParameterId>& ids,
+std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
                                                    const Eigen::MatrixXd& covariance, const Eigen::VectorXd& precision);
 
 }  // namespace demecal

@@ -3,13 +3,13 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "fitting/information.hpp"
+#include "fitting/row_sums.hpp"
 
 namespace demecal {
 namespace {
 
 /// The cost at a point and its first two derivatives by z.
-struct Bend {
+struct QuadraticModel {
   double cost = 0.0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd curvature;
@@ -19,7 +19,8 @@ struct Bend {
 /// over norm, and does not curve along the residual. Residuals are taken to be linear in z.
 class PoseSum {
  public:
-  explicit PoseSum(const LeastSquares& problem) : problem_(problem), pulled_(problem.basis), straight_(problem.basis) {}
+  explicit PoseSum(const LeastSquares& problem)
+      : problem_(problem), weighted_(problem.basis), uncurved_(problem.basis) {}
 
   void add(const ModelPoint& point, const Observation& observation) {
     scaled_rows(problem_.data, problem_.space, point, observation, problem_.scales, rows_);
@@ -29,57 +30,57 @@ class PoseSum {
     const double threshold = problem_.robust ? huber_threshold(used) : norm;
     if (norm <= threshold) {
       cost_ += 0.5 * norm * norm;
-      pulled_.add(rows_.jacobian, rows_.residual, 1.0);
+      weighted_.add(rows_.jacobian, rows_.residual, 1.0);
       return;
     }
     cost_ += threshold * (norm - 0.5 * threshold);
-    pulled_.add(rows_.jacobian, rows_.residual, threshold / norm);
+    weighted_.add(rows_.jacobian, rows_.residual, threshold / norm);
     const Eigen::RowVectorXd along = (rows_.residual / norm).transpose() * rows_.jacobian;
-    straight_.add(along, Eigen::VectorXd::Zero(1), threshold / norm);
+    uncurved_.add(along, Eigen::VectorXd::Zero(1), threshold / norm);
   }
 
-  Bend bend() { return {cost_, pulled_.gradient(), pulled_.squares() - straight_.squares()}; }
+  QuadraticModel model() { return {cost_, weighted_.gradient(), weighted_.squares() - uncurved_.squares()}; }
 
  private:
   const LeastSquares& problem_;
-  Information pulled_, straight_;
+  Information weighted_, uncurved_;
   ScaledRows rows_;
   double cost_ = 0.0;
 };
 
-Bend bend_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
+QuadraticModel quadratic_model_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
   PoseSum poses(problem);
   const ModelPoint point = problem.space.at(change);
   for (const Observation& observation : problem.observations) poses.add(point, observation);
-  Bend bend = poses.bend();
+  QuadraticModel model = poses.model();
   const Eigen::VectorXd prior = problem.prior.residual(change);
   const Eigen::MatrixXd rows = problem.prior.precision.asDiagonal() * problem.basis;
-  bend.cost += 0.5 * prior.squaredNorm();
-  bend.gradient.noalias() += rows.transpose() * prior;
-  bend.curvature.noalias() += rows.transpose() * rows;
-  return bend;
+  model.cost += 0.5 * prior.squaredNorm();
+  model.gradient.noalias() += rows.transpose() * prior;
+  model.curvature.noalias() += rows.transpose() * rows;
+  return model;
 }
 
 /// A step of z, and by how much it should lower the cost.
-struct Step {
+struct DampedStep {
   Eigen::VectorXd z;
-  double promise = 0.0;
+  double model_cost_change = 0.0;
 };
 
 /// Newton's step with the curvature of every direction raised by `damping` times its mean.
-Step damped_step(const Bend& at, double damping) {
-  const double raise = damping * std::max(at.curvature.diagonal().mean(), 1e-300);
-  const Eigen::Index n = at.gradient.size();
-  const Eigen::MatrixXd damped = at.curvature + raise * Eigen::MatrixXd::Identity(n, n);
+DampedStep damped_step(const QuadraticModel& model, double damping) {
+  const double raise = damping * std::max(model.curvature.diagonal().mean(), 1e-300);
+  const Eigen::Index n = model.gradient.size();
+  const Eigen::MatrixXd damped = model.curvature + raise * Eigen::MatrixXd::Identity(n, n);
   const Eigen::LDLT<Eigen::MatrixXd> factor(damped);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return {Eigen::VectorXd::Zero(n), -1.0};
-  Step step{factor.solve(-at.gradient), 0.0};
-  step.promise = -at.gradient.dot(step.z) - 0.5 * step.z.dot(at.curvature * step.z);
+  DampedStep step{factor.solve(-model.gradient), 0.0};
+  step.model_cost_change = -model.gradient.dot(step.z) - 0.5 * step.z.dot(model.curvature * step.z);
   return step;
 }
 
 /// Marquardt's damping: less after every success, more after every failure.
-class Damping {
+class MarquardtDamping {
  public:
   double value() const { return value_; }
   void relax() {
@@ -90,7 +91,7 @@ class Damping {
     value_ *= growth_;
     growth_ *= 2.0;
   }
-  bool hopeless() const { return value_ > kMost; }
+  bool exhausted() const { return value_ > kMost; }
 
  private:
   static constexpr double kLeast = 1e-12, kMost = 1e16;
@@ -110,26 +111,43 @@ double huber_threshold(int rows) {
 }
 
 Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start) {
-  constexpr double kSettled = 1e-12;
+  constexpr double kFunctionTolerance = 1e-12;
   Minimum best{start, 0.0, true};
   if (problem.basis.cols() == 0) return best;
-  Bend at = bend_at(problem, start);
-  Damping damping;
-  best = {start, at.cost, false};
-  for (int i = 0; i < problem.max_iterations && std::isfinite(at.cost) && !damping.hopeless(); ++i) {
-    const Step step = damped_step(at, damping.value());
-    if (step.promise >= 0.0 && step.promise <= kSettled * (1.0 + at.cost)) return {best.change, at.cost, true};
+  QuadraticModel model = quadratic_model_at(problem, start);
+  MarquardtDamping damping;
+  best = {start, model.cost, false};
+  for (int i = 0; i < problem.max_iterations && std::isfinite(model.cost) && !damping.exhausted(); ++i) {
+    const DampedStep step = damped_step(model, damping.value());
+    if (step.model_cost_change >= 0.0 && step.model_cost_change <= kFunctionTolerance * (1.0 + model.cost))
+      return {best.change, model.cost, true};
     const Eigen::VectorXd there = best.change + problem.basis * step.z;
-    Bend ahead = step.promise > 0.0 ? bend_at(problem, there) : at;
-    if (ahead.cost < at.cost) {
-      at = std::move(ahead);
-      best = {there, at.cost, false};
+    QuadraticModel ahead = step.model_cost_change > 0.0 ? quadratic_model_at(problem, there) : model;
+    if (ahead.cost < model.cost) {
+      model = std::move(ahead);
+      best = {there, model.cost, false};
       damping.relax();
     } else {
       damping.tighten();
     }
   }
   return best;
+}
+
+Prior no_prior(int parameters) {
+  return {Eigen::VectorXd::Zero(parameters), Eigen::VectorXd::Zero(parameters)};
+}
+
+Prior link_prior(const ParameterSpace& space, const CorrectedRobot& nominal, const FitOptions& options) {
+  Prior prior = no_prior(space.size());
+  for (int i = 0; i < space.size(); ++i) {
+    const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
+    const double deviation = id.is_angle() ? options.prior_rad : options.prior_m;
+    if (id.kind != ParameterId::Kind::link || deviation <= 0) continue;
+    prior.precision[i] = 1 / deviation;
+    prior.offset[i] = parameter_value(space.reference(), id) - parameter_value(nominal, id);
+  }
+  return prior;
 }
 
 }  // namespace demecal

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "errors/check.hpp"
+#include "fitting/distributions.hpp"
 
 namespace demecal {
 
@@ -11,6 +12,26 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+MedianInterval median_interval(std::vector<double> values, double confidence) {
+  DEMECAL_CHECK(!values.empty(), "the median of nothing");
+  std::sort(values.begin(), values.end());
+  const std::size_t count = values.size();
+  MedianInterval interval{0.5 * (values[(count - 1) / 2] + values[count / 2]), values.front(), values.back(), {}};
+  for (std::size_t rank = 0; 2 * rank + 1 < count; ++rank) {
+    const double probability = median_coverage(count, rank);
+    if (probability < confidence) break;
+    interval = {interval.median, values[rank], values[count - 1 - rank], probability};
+  }
+  return interval;
+}
+
+std::size_t least_for_interval(double confidence) {
+  DEMECAL_CHECK(confidence < 1.0, "confidence=" << confidence);
+  std::size_t count = 2;
+  while (median_coverage(count, 0) < confidence) ++count;
+  return count;
 }
 
 }  // namespace demecal

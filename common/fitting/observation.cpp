@@ -7,7 +7,7 @@ namespace {
 
 /// Visits the rows in use: visit(row among the used, row among all, its scale). Returns how many there are.
 template <typename Visit>
-int for_rows_in_use(const MeasuredPose& pose, const RowScales& scales, Visit visit) {
+int for_each_row_in_use(const MeasuredPose& pose, const RowScales& scales, Visit visit) {
   const RowCounts count = count_rows(pose);
   int used = 0, all = 0;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
@@ -20,7 +20,7 @@ int for_rows_in_use(const MeasuredPose& pose, const RowScales& scales, Visit vis
 
 void scale_residual(const Eigen::VectorXd& all, const MeasuredPose& pose, const RowScales& scales, ScaledRows& rows) {
   rows.residual.resize(rows_in_use(pose, scales));
-  for_rows_in_use(pose, scales, [&](int to, int from, double scale) { rows.residual[to] = all[from] / scale; });
+  for_each_row_in_use(pose, scales, [&](int to, int from, double scale) { rows.residual[to] = all[from] / scale; });
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ RowCounts count_rows(const DataSet& data, const std::vector<Observation>& observ
 }
 
 int rows_in_use(const MeasuredPose& pose, const RowScales& scales) {
-  return for_rows_in_use(pose, scales, [](int, int, double) {});
+  return for_each_row_in_use(pose, scales, [](int, int, double) {});
 }
 
 int rows_in_use(const DataSet& data, const std::vector<Observation>& observations, const RowScales& scales) {
@@ -77,7 +77,7 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
   scale_residual(residual(rows.motion.predicted, data, pose), pose, scales, rows);
   const auto measured = measurement_jacobian(rows.motion.predicted, data, pose);
   rows.jacobian.resize(rows.residual.size(), space.size());
-  for_rows_in_use(pose, scales, [&](int to, int from, double scale) {
+  for_each_row_in_use(pose, scales, [&](int to, int from, double scale) {
     rows.jacobian.row(to).noalias() = (-1.0 / scale) * measured.row(from) * rows.motion.twists;
   });
 }

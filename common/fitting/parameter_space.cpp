@@ -12,13 +12,13 @@ using Kind = ParameterId::Kind;
 using Twist = SmallMotion;
 
 /// The rotation vectors a change holds, of the base and of each target's tool.
-struct Turns {
+struct RotationVectors {
   Eigen::Vector3d base = Eigen::Vector3d::Zero();
   std::map<std::string, Eigen::Vector3d> tools;
 };
 
-Turns turns_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& change) {
-  Turns turns;
+RotationVectors rotation_vectors_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& change) {
+  RotationVectors turns;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const double value = change[static_cast<Eigen::Index>(i)];
     if (ids[i].kind == Kind::base_rotation) turns.base[ids[i].index] = value;
@@ -29,7 +29,7 @@ Turns turns_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& chang
   return turns;
 }
 
-void add(CorrectedRobot& robot, const ParameterId& id, double change) {
+void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
   switch (id.kind) {
     case Kind::base_translation:
       robot.sensor_from_base.translation()[id.index] += change;
@@ -50,13 +50,13 @@ void add(CorrectedRobot& robot, const ParameterId& id, double change) {
 }
 
 /// What of a pose's prediction the twists of base and tool parameters are made from, in the measurements' frame.
-struct Frames {
+struct TwistFrames {
   Eigen::Matrix3d base;
   Eigen::Matrix3d flange;
   Eigen::Vector3d base_to_tool;
 };
 
-Twist twist_of(const ParameterId& id, const ModelPoint& point, const Frames& frames, const LinkJacobian& links) {
+Twist twist_of(const ParameterId& id, const ModelPoint& point, const TwistFrames& frames, const LinkJacobian& links) {
   Twist twist = Twist::Zero();
   switch (id.kind) {
     case Kind::base_translation:
@@ -89,20 +89,20 @@ bool is_of_other_tool(const ParameterId& id, const std::string& target) {
 }
 
 /// Fills predicted pose and twists of everything but effects.
-void move_declared(const std::vector<ParameterId>& ids, const ModelPoint& point, const Kinematics& at,
+void move_declared(const std::vector<ParameterId>& ids, const ModelPoint& point, const Kinematics& kinematics,
                    const std::string& target, ToolMotion& motion) {
   const CorrectedRobot& robot = point.robot;
-  const Eigen::Isometry3d flange = robot.sensor_from_base * at.flange;
+  const Eigen::Isometry3d flange = robot.sensor_from_base * kinematics.flange;
   motion.predicted = flange * robot.tool(target);
-  const Frames frames{robot.sensor_from_base.linear(), flange.linear(),
-                      motion.predicted.translation() - robot.sensor_from_base.translation()};
+  const TwistFrames frames{robot.sensor_from_base.linear(), flange.linear(),
+                           motion.predicted.translation() - robot.sensor_from_base.translation()};
   motion.twists.resize(6, static_cast<Eigen::Index>(ids.size()));
   for (std::size_t i = 0; i < ids.size(); ++i) {
     auto twist = motion.twists.col(static_cast<Eigen::Index>(i));
     if (is_of_other_tool(ids[i], target)) {
       twist.setZero();
     } else {
-      twist = twist_of(ids[i], point, frames, at.links);
+      twist = twist_of(ids[i], point, frames, kinematics.links);
     }
   }
 }
@@ -121,23 +121,23 @@ void move_by_sensor(const SmallMotion& sensor, ToolMotion& motion) {
 /// The twist of a tool point (measurements' frame) per unit of an effect's motion.
 class EffectTwists {
  public:
-  EffectTwists(const Chain& chain, const Displacement& by, const DisplacedKinematics& arm,
+  EffectTwists(const Chain& chain, const Displacement& displaced, const DisplacedKinematics& arm,
                const Eigen::Isometry3d& sensor_from_base, const Eigen::Vector3d& predicted_m)
       : chain_(chain),
-        by_(by),
+        displaced_(displaced),
         arm_(arm),
-        base_(moved(Eigen::Isometry3d::Identity(), by.sensor) * sensor_from_base),
+        base_(moved(Eigen::Isometry3d::Identity(), displaced.sensor) * sensor_from_base),
         predicted_m_(predicted_m),
         in_base_m_(base_.inverse() * predicted_m) {}
 
   Twist operator()(const UnitMotion& unit) const {
     if (unit.place == kSensorPlace) {
-      return unit_twist(Eigen::Isometry3d::Identity(), by_.sensor, unit.axis, predicted_m_);
+      return unit_twist(Eigen::Isometry3d::Identity(), displaced_.sensor, unit.axis, predicted_m_);
     }
     const auto place = static_cast<std::size_t>(unit.place);
     const Twist twist = is_joint_motion(chain_, unit)
-                            ? Twist(arm_.at.joints.col(unit.place))
-                            : unit_twist(arm_.places[place], by_.places.col(unit.place), unit.axis, in_base_m_);
+                            ? Twist(arm_.kinematics.joints.col(unit.place))
+                            : unit_twist(arm_.places[place], displaced_.places.col(unit.place), unit.axis, in_base_m_);
     Twist turned;
     turned << base_.linear() * twist.head<3>(), base_.linear() * twist.tail<3>();
     return turned;
@@ -145,7 +145,7 @@ class EffectTwists {
 
  private:
   const Chain& chain_;
-  const Displacement& by_;
+  const Displacement& displaced_;
   const DisplacedKinematics& arm_;
   Eigen::Isometry3d base_;
   Eigen::Vector3d predicted_m_, in_base_m_;
@@ -171,8 +171,8 @@ ParameterSpace::ParameterSpace(CorrectedRobot reference, std::vector<ParameterId
 ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
   DEMECAL_CHECK(change.size() == size(), change.size() << " changes of " << size() << " parameters");
   ModelPoint point{reference_, Eigen::Matrix3d::Identity(), {}};
-  for (int i = 0; i < size(); ++i) add(point.robot, ids_[static_cast<std::size_t>(i)], change[i]);
-  const Turns turns = turns_of(ids_, change);
+  for (int i = 0; i < size(); ++i) add_change(point.robot, ids_[static_cast<std::size_t>(i)], change[i]);
+  const RotationVectors turns = rotation_vectors_of(ids_, change);
   point.robot.sensor_from_base.linear() = rotation_of(turns.base) * reference_.sensor_from_base.linear();
   point.base_turns = left_jacobian(turns.base);
   for (const auto& [target, turn] : turns.tools) {
@@ -191,11 +191,12 @@ void ParameterSpace::move_tool(const ModelPoint& point, const JointVector& corre
     move_declared(ids_, point, differential_kinematics(robot.chain, corrected, point_m), target, motion);
     return;
   }
-  const Displacement by = displacement(robot.chain, robot.effects, motions);
-  const DisplacedKinematics arm = differential_kinematics(robot.chain, corrected + by.joints, point_m, by.places);
-  move_declared(ids_, point, arm.at, target, motion);
-  move_by_sensor(by.sensor, motion);
-  const EffectTwists twist(robot.chain, by, arm, robot.sensor_from_base, motion.predicted.translation());
+  const Displacement displaced = displacement(robot.chain, robot.effects, motions);
+  const DisplacedKinematics arm =
+      differential_kinematics(robot.chain, corrected + displaced.joints, point_m, displaced.places);
+  move_declared(ids_, point, arm.kinematics, target, motion);
+  move_by_sensor(displaced.sensor, motion);
+  const EffectTwists twist(robot.chain, displaced, arm, robot.sensor_from_base, motion.predicted.translation());
   for (const auto& [effect, unit] : motions) {
     const auto& columns = effect_columns_[static_cast<std::size_t>(effect)];
     const auto coefficient = static_cast<std::size_t>(unit.coefficient);

@@ -1,8 +1,33 @@
 #include "fitting/posterior.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include "effects/measurement.hpp"
 #include "errors/check.hpp"
+#include "fitting/distributions.hpp"
 
 namespace demecal {
+namespace {
+
+/// Of each score: its part of its group's one vote.
+std::vector<double> votes(std::span<const std::size_t> groups) {
+  std::map<std::size_t, double> members;
+  for (const std::size_t group : groups) members[group] += 1.0;
+  std::vector<double> parts;
+  for (const std::size_t group : groups) parts.push_back(1.0 / members[group]);
+  return parts;
+}
+
+bool is_of_distances(const MeasuredPose& pose) {
+  return !pose.position_m && !pose.distances_m.empty();
+}
+
+}  // namespace
 
 PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot& robot, const Stop& stop,
                                const std::string& target) {
@@ -25,6 +50,63 @@ PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot&
     spread += term.shape(stop.joints[term.joint]) * joints.col(term.joint) * posterior.factor.row(row++);
   }
   return spread * spread.transpose();
+}
+
+double conformal_quantile(std::span<const double> scores, std::span<const std::size_t> groups, double share) {
+  constexpr double kRounding = 1e-9;
+  DEMECAL_CHECK(scores.size() == groups.size(), scores.size() << " scores of " << groups.size() << " groups");
+  const std::vector<double> parts = votes(groups);
+  std::vector<std::size_t> ascending(scores.size());
+  std::iota(ascending.begin(), ascending.end(), std::size_t{0});
+  std::ranges::sort(ascending, {}, [&](std::size_t i) { return scores[i]; });
+  const double wanted = share * (std::round(std::accumulate(parts.begin(), parts.end(), 0.0)) + 1.0) - kRounding;
+  double reached = 0.0;
+  for (const std::size_t i : ascending) {
+    reached += parts[i];
+    if (reached >= wanted) return scores[i];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+double normal_quantile_of_scores(std::span<const double> scores, std::span<const std::size_t> groups, int rows,
+                                 double share) {
+  const std::vector<double> parts = votes(groups);
+  double count = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    count += parts[i];
+    squares += parts[i] * scores[i] * scores[i];
+  }
+  if (count <= 0.0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(fisher_quantile(share, rows, rows * count) * squares / count);
+}
+
+double posterior_square_m2(const Posterior& posterior, const CorrectedRobot& robot, const DataSet& data,
+                           const MeasuredPose& pose) {
+  const Stop stop(pose);
+  const PoseCovariance covariance = pose_covariance(posterior, robot, stop, pose.target);
+  if (!is_of_distances(pose)) return covariance.topLeftCorner<3, 3>().trace();
+  const Eigen::MatrixXd rows = measurement_jacobian(robot.predict(stop, pose.target), data, pose);
+  const auto count = static_cast<Eigen::Index>(pose.distances_m.size());
+  const Eigen::MatrixXd lines = rows.bottomRows(count);
+  return (lines * covariance * lines.transpose()).trace() / static_cast<double>(count);
+}
+
+double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& pose) {
+  const double model_error_m2 = std::pow(interval.model_error_m, 2);
+  if (is_of_distances(pose)) return std::pow(interval.distance_noise_m, 2) + model_error_m2;
+  return 3.0 * (std::pow(interval.noise_m, 2) + model_error_m2);
+}
+
+double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
+                  const DataSet& data, const MeasuredPose& pose) {
+  return interval.quantile *
+         std::sqrt(posterior_square_m2(posterior, robot, data, pose) + noise_square_m2(interval, pose));
+}
+
+double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
+                       const Stop& stop) {
+  const double posterior_m2 = pose_covariance(posterior, robot, stop).topLeftCorner<3, 3>().trace();
+  return interval.quantile * std::sqrt(posterior_m2 + 3.0 * std::pow(interval.model_error_m, 2));
 }
 
 }  // namespace demecal

@@ -5,23 +5,23 @@
 #include <array>
 #include <cmath>
 
-#include "fitting/information.hpp"
 #include "fitting/median.hpp"
+#include "fitting/row_sums.hpp"
 
 namespace demecal {
 namespace {
 
-constexpr double kSmallest = 1e-9;
+constexpr double kLeastDeviation = 1e-9;
 /// Of a normal distribution: the standard deviation over the median of absolute values.
 constexpr double kMedianToDeviation = 1.4826;
 
 /// Inverse of a symmetric matrix in the directions it does not send to nothing.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& symmetric) {
-  constexpr double kNothing = 1e-14;
+  constexpr double kSingular = 1e-14;
   if (symmetric.size() == 0) return symmetric;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
   Eigen::VectorXd inverse = eigen.eigenvalues();
-  const double least = kNothing * inverse.maxCoeff();
+  const double least = kSingular * inverse.maxCoeff();
   for (double& value : inverse) value = value > least ? 1 / value : 0.0;
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
@@ -31,15 +31,15 @@ double huber_weight(double norm, int rows) {
   return norm > threshold ? threshold / norm : 1.0;
 }
 
-/// Sums over the poses of a fit, of one kind of row: J^T J of z, squared residuals over scale, rows; by weight.
-struct Sums {
+/// RowKindSums over the poses of a fit, of one kind of row: J^T J of z, squared residuals over scale, rows; by weight.
+struct RowKindSums {
   Eigen::MatrixXd information;
   double squares = 0.0;
   double rows = 0.0;
 };
 
-std::array<Sums, kRowKinds> sum_up(const LeastSquares& problem, const Eigen::VectorXd& change) {
-  std::array<Sums, kRowKinds> sums;
+std::array<RowKindSums, kRowKinds> sum_up(const LeastSquares& problem, const Eigen::VectorXd& change) {
+  std::array<RowKindSums, kRowKinds> sums;
   std::vector<Information> information(kRowKinds, Information(problem.basis));
   const ModelPoint point = problem.space.at(change);
   ScaledRows rows;
@@ -99,7 +99,8 @@ RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
   }
   RowScales deviation{};
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-    if (!absolute[kind].empty()) deviation[kind] = std::max(kSmallest, kMedianToDeviation * median(absolute[kind]));
+    if (!absolute[kind].empty())
+      deviation[kind] = std::max(kLeastDeviation, kMedianToDeviation * median(absolute[kind]));
   }
   return deviation;
 }
@@ -107,7 +108,7 @@ RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
 Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
   const auto sums = sum_up(problem, change);
   Eigen::MatrixXd information = prior_information(problem), rescaled = information;
-  for (const Sums& sum : sums) information += sum.information;
+  for (const RowKindSums& sum : sums) information += sum.information;
   const Eigen::MatrixXd inverse = pseudo_inverse(information);
   const CorrectedRobot robot = problem.space.at(change).robot;
   const RowScales medians = median_deviations(problem.data, robot, problem.observations);
@@ -116,7 +117,7 @@ Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
     if (problem.scales[kind] <= 0) continue;
     const double taken = inverse.cwiseProduct(sums[kind].information).sum();
     const double left = std::max(sums[kind].rows - taken, 1.0);
-    scatter.deviation[kind] = std::max(kSmallest, problem.scales[kind] * std::sqrt(sums[kind].squares / left));
+    scatter.deviation[kind] = std::max(kLeastDeviation, problem.scales[kind] * std::sqrt(sums[kind].squares / left));
     scatter.median_deviation[kind] = medians[kind] * std::sqrt((left + taken) / left);
     rescaled += std::pow(problem.scales[kind] / scatter.deviation[kind], 2) * sums[kind].information;
   }

@@ -182,7 +182,7 @@ std::vector<FormulaTable> formula_tables(const DiagnosisProblem& problem, const 
   const Evidence evidence = evidence_of(problem.data, problem.fitted);
   std::vector<FormulaTable> tables;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type != JointType::revolute) continue;
+    if (!is_revolute(chain, joint)) continue;
     tables.push_back(table_of(linearization, residual, chain, joint, evidence));
   }
   return tables;
@@ -214,8 +214,7 @@ std::vector<PricedFormula> formula_candidates(const FormulaTable& table, const P
     const auto is_equivalent = [&](const Tree& other) { return explain_alike(one.formula, other, misfit); };
     if (std::ranges::any_of(taken, is_equivalent)) continue;
     taken.push_back(one.formula);
-    Candidate candidate{
-        .effect = {.kind = "symbolic", .joint = table.joint}, .naming_cost_nats = one.price_nats, .evolved = true};
+    Candidate candidate{.effect = symbolic_effect(table.joint), .naming_cost_nats = one.price_nats, .evolved = true};
     candidate.effect.formula = in_symbolic_variables(one.formula, table);
     if (table.reference_celsius) candidate.effect.settings["reference_celsius"] = *table.reference_celsius;
     found.push_back({std::move(candidate), one.gain_nats});

@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "fitting/levenberg_marquardt.hpp"
 
 namespace demecal {
 namespace {
@@ -19,42 +22,58 @@ std::vector<std::size_t> constants_of(const Tree& tree) {
   return places;
 }
 
-/// Least squares over the constants at `places`.
-Tree fitted(Tree tree, const std::vector<std::size_t>& places, FormulaMisfit& misfit) {
-  Eigen::VectorXd residual = misfit.residual(tree);
-  if (residual.size() == 0 || places.empty()) return tree;
-  const auto n = static_cast<Eigen::Index>(places.size());
-  double damping = 1e-3;
-  for (int step = 0; step < kSteps; ++step) {
-    Eigen::MatrixXd jacobian(residual.size(), n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      Tree moved = tree;
-      double& constant = moved[places[static_cast<std::size_t>(k)]].value;
-      const double step_size = 1e-6 * (1.0 + std::abs(constant));
-      constant += step_size;
-      const Eigen::VectorXd tried = misfit.residual(moved);
-      if (tried.size() == 0) return tree;
-      jacobian.col(k) = (tried - residual) / step_size;
+/// Least squares over the constants of a formula at `places`, by differences.
+class ConstantsProblem {
+ public:
+  ConstantsProblem(Tree tree, const std::vector<std::size_t>& places, FormulaMisfit& misfit)
+      : tree_(std::move(tree)), places_(places), misfit_(misfit), residual_(misfit.residual(tree_)) {}
+
+  const Tree& tree() const { return tree_; }
+
+  std::optional<double> linearize(double& /*damping*/) {
+    if (residual_.size() == 0 || places_.empty()) return std::nullopt;
+    jacobian_.resize(residual_.size(), static_cast<Eigen::Index>(places_.size()));
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      Tree moved = tree_;
+      double& constant = moved[places_[k]].value;
+      const double by = 1e-6 * (1.0 + std::abs(constant));
+      constant += by;
+      const Eigen::VectorXd there = misfit_.residual(moved);
+      if (there.size() == 0) return std::nullopt;
+      jacobian_.col(static_cast<Eigen::Index>(k)) = (there - residual_) / by;
     }
-    Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    return residual_.squaredNorm();
+  }
+
+  std::optional<double> try_step(double damping) {
+    Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
     normal.diagonal() *= 1.0 + damping;
     normal.diagonal().array() += 1e-12;
-    const Eigen::VectorXd change = -normal.ldlt().solve(jacobian.transpose() * residual);
-    Tree next = tree;
-    for (Eigen::Index k = 0; k < n; ++k) next[places[static_cast<std::size_t>(k)]].value += change[k];
-    const Eigen::VectorXd tried = misfit.residual(next);
-    if (tried.size() == 0 || !(tried.squaredNorm() < residual.squaredNorm())) {
-      damping *= 10.0;
-      if (damping > 1e6) break;
-      continue;
-    }
-    const bool done = residual.squaredNorm() - tried.squaredNorm() < 1e-9 * residual.squaredNorm();
-    tree = std::move(next);
-    residual = tried;
-    damping *= 0.1;
-    if (done) break;
+    const Eigen::VectorXd change = -normal.ldlt().solve(jacobian_.transpose() * residual_);
+    tried_ = tree_;
+    for (std::size_t k = 0; k < places_.size(); ++k) tried_[places_[k]].value += change[static_cast<Eigen::Index>(k)];
+    tried_residual_ = misfit_.residual(tried_);
+    if (tried_residual_.size() == 0) return std::nullopt;
+    return tried_residual_.squaredNorm();
   }
-  return tree;
+
+  void accept() {
+    tree_ = tried_;
+    residual_ = tried_residual_;
+  }
+
+ private:
+  Tree tree_, tried_;
+  const std::vector<std::size_t>& places_;
+  FormulaMisfit& misfit_;
+  Eigen::VectorXd residual_, tried_residual_;
+  Eigen::MatrixXd jacobian_;
+};
+
+Tree fitted(Tree tree, const std::vector<std::size_t>& places, FormulaMisfit& misfit) {
+  ConstantsProblem problem(std::move(tree), places, misfit);
+  levenberg_marquardt(problem, {.max_iterations = kSteps, .initial_damping = 1e-3, .max_damping = 1e6});
+  return problem.tree();
 }
 
 constexpr std::size_t kLongest = 20;  ///< nodes: longer formulas do not grow

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 #include "expression/simplify.hpp"
-#include "formulas/notes.hpp"
-#include "formulas/symbolic_laws.hpp"
-#include "formulas/wrapped.hpp"
+#include "formulas/held_units.hpp"
 
 namespace demecal {
 namespace {
@@ -24,10 +22,10 @@ struct SymbolicDisplacement {
 
   void add(const Chain& chain, const SymbolicUnit& unit, double value) {
     const auto axis = static_cast<std::size_t>(unit.axis), place = static_cast<std::size_t>(unit.place);
-    Expression& at = unit.place == kSensorPlace                                          ? sensor[axis]
-                     : is_joint_motion(chain, {unit.coefficient, unit.place, unit.axis}) ? joints[place]
-                                                                                         : places[place][axis];
-    at = at + value * unit.size;
+    Expression& sum = unit.place == kSensorPlace                                          ? sensor[axis]
+                      : is_joint_motion(chain, {unit.coefficient, unit.place, unit.axis}) ? joints[place]
+                                                                                          : places[place][axis];
+    sum = sum + value * unit.size;
   }
 };
 
@@ -52,11 +50,9 @@ SymbolicFrame flange(Algebra& algebra, const Chain& chain, const std::vector<Exp
   SymbolicFrame frame(algebra);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& link = chain.joints[i];
-    const LinkParameter variable = link.type == JointType::revolute ? LinkParameter::theta : LinkParameter::d;
     for (const Elementary& transform : elementary_transforms(chain.convention)) {
       if (transform.parameter == LinkParameter::theta) frame = moved(frame, places[i]);
-      const Expression fixed = algebra.constant(link.parameter(transform.parameter));
-      advance(frame, transform, transform.parameter == variable ? joints[i] + fixed : fixed);
+      advance(frame, transform, elementary_value(link, transform.parameter, joints[i]));
     }
   }
   return moved(frame, places.back());
@@ -68,6 +64,36 @@ SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std
   for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = joints[i] + by.joints[i];
   const SymbolicFrame base = moved(SymbolicFrame(algebra), by.sensor) * SymbolicFrame(algebra, robot.sensor_from_base);
   return base * (flange(algebra, robot.chain, joints, by.places) * SymbolicFrame(algebra, robot.tool(target)));
+}
+
+/// What it depends on beside joints and masses, by law.needs(); empty where on nothing.
+std::string circumstances(const Needs& needs) {
+  std::string words;
+  const auto add = [&](bool needed, const char* word) {
+    if (needed) words += (words.empty() ? "" : " and ") + std::string(word);
+  };
+  add(needs.approach, "the side from which joints come");
+  add(needs.payload, "the payload");
+  add(needs.temperature, "the temperature");
+  add(needs.time, "the time");
+  return words;
+}
+
+/// A sentence on an effect that depends on more than the joints, as formulas hold it or (not `held`) leave it out;
+/// empty where they hold the whole of it.
+std::string note_on(const Effect& effect, const Robot& robot, bool held) {
+  const std::string name =
+      effect.kind + (effect.joint < 0 ? std::string() : " of joint " + std::to_string(effect.joint + 1));
+  const Needs needs = law_of(effect).needs(effect, robot);
+  const std::string words = circumstances(needs);
+  if (!held) {
+    return name + " is left out" + (words.empty() ? "" : ", for it depends on " + words) + '.';
+  }
+  std::string note;
+  if (needs.approach || needs.temperature || needs.time) note = name + " is taken with s = 0 and T = 0.";
+  if (law_of(effect).bears_payload(effect, robot))
+    note += (note.empty() ? "" : " ") + name + " is that of an arm that carries nothing.";
+  return note;
 }
 
 }  // namespace
@@ -107,7 +133,7 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
   std::string units;
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
     units += (units.empty() ? "" : ", ") + joint_symbol(joint);
-    units += robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute ? " in rad" : " in m";
+    units += is_revolute(robot.chain, joint) ? " in rad" : " in m";
   }
   listing.remarks.push_back("Commanded joints: " + units + "; h1 .. hn say where the joints then are.");
   listing.remarks.emplace_back("The pose is the tool's in the frame of the measurements, lengths in m, row by row.");

@@ -1,10 +1,7 @@
+#include "formulas/held_units.hpp"
+
 #include <cmath>
 #include <numbers>
-
-#include "effects/joint_words.hpp"
-#include "effects/known_range.hpp"
-#include "formulas/symbolic_laws.hpp"
-#include "formulas/wrapped.hpp"
 
 namespace demecal {
 namespace {
@@ -24,7 +21,7 @@ Expression smooth_step(Expression x) {
 }
 
 /// One joint and the range in which the effect is known of it.
-struct Ranged {
+struct RangedJoint {
   int joint;
   Interval range;
   bool revolute;
@@ -34,11 +31,11 @@ struct Ranged {
   Expression beyond;  ///< how far outside, else 0
 };
 
-std::vector<Ranged> ranged(const Effect& effect, const SymbolicState& state) {
-  std::vector<Ranged> all;
+std::vector<RangedJoint> ranged_joints(const Effect& effect, const SymbolicState& state) {
+  std::vector<RangedJoint> all;
   for (const auto& [joint, range] : effect.ranges) {
     const Expression given = state.joints[static_cast<std::size_t>(joint)];
-    const bool revolute = is_revolute(*state.robot, joint);
+    const bool revolute = is_revolute(state.robot->chain, joint);
     const Expression value = revolute ? wrapped_near(given, middle(range)) : given;
     const Expression beyond = larger(larger(range.lower - value, value - range.upper), state.algebra().constant(0.0));
     all.push_back({joint, range, revolute, given, value, held_within(value, range), beyond});
@@ -47,8 +44,8 @@ std::vector<Ranged> ranged(const Effect& effect, const SymbolicState& state) {
 }
 
 /// Not negative where every joint is in its range as it stands.
-Expression inside(const std::vector<Ranged>& joints) {
-  const auto one = [](const Ranged& joint) {
+Expression inside(const std::vector<RangedJoint>& joints) {
+  const auto one = [](const RangedJoint& joint) {
     return smaller(joint.given - joint.range.lower, joint.range.upper - joint.given);
   };
   Expression all = one(joints.front());
@@ -56,27 +53,28 @@ Expression inside(const std::vector<Ranged>& joints) {
   return all;
 }
 
-struct Anchor {
+struct SymbolicHeldState {
   std::vector<Expression> joints;
   Expression weight;
 };
 
 /// The weight of the end farther from the joint: none where the ends are no neighbours.
-Expression weight_of_farther_end(const Ranged& joint) {
+Expression weight_of_farther_end(const RangedJoint& joint) {
   const double unmeasured = kTurn - width(joint.range);
   if (!joint.revolute || unmeasured <= 0.0) return joint.value.algebra().constant(0.0);
   return smooth_step((1.0 / unmeasured) * joint.beyond);
 }
 
-Expression farther_end(const Ranged& joint) {
+Expression farther_end(const RangedJoint& joint) {
   const Expression side = joint.value.algebra().function(Function::sign, {joint.value - middle(joint.range)});
   return middle(joint.range) - 0.5 * width(joint.range) * side;
 }
 
-std::vector<Anchor> anchors(const SymbolicState& state, const std::vector<Ranged>& joints, bool fades) {
+std::vector<SymbolicHeldState> held_states(const SymbolicState& state, const std::vector<RangedJoint>& joints,
+                                           bool fades) {
   Algebra& algebra = state.algebra();
-  std::vector<Anchor> all{{state.joints, algebra.constant(1.0)}};
-  for (const Ranged& joint : joints) {
+  std::vector<SymbolicHeldState> all{{state.joints, algebra.constant(1.0)}};
+  for (const RangedJoint& joint : joints) {
     const auto i = static_cast<std::size_t>(joint.joint);
     // Ranges of a turn and more hold the same place twice; an arm within all of them is taken as it stands.
     const bool wide = joint.revolute && width(joint.range) >= kTurn;
@@ -87,7 +85,7 @@ std::vector<Anchor> anchors(const SymbolicState& state, const std::vector<Ranged
     for (std::size_t k = 0; k < known; ++k) {
       all[k].joints[i] = near;
       if (weight.is(0.0)) continue;
-      Anchor far{all[k].joints, all[k].weight * weight};
+      SymbolicHeldState far{all[k].joints, all[k].weight * weight};
       far.joints[i] = farther_end(joint);
       all[k].weight = all[k].weight * (1.0 - weight);
       all.push_back(std::move(far));
@@ -102,13 +100,13 @@ std::vector<SymbolicUnit> held_units(const Effect& effect, const SymbolicState& 
   if (effect.ranges.empty()) return symbolic_units(effect, state, name);
   Algebra& algebra = state.algebra();
   const bool fades = law_of(effect).fades(effect);
-  const std::vector<Ranged> joints = ranged(effect, state);
+  const std::vector<RangedJoint> joints = ranged_joints(effect, state);
   Expression share = algebra.constant(1.0);
-  for (const Ranged& joint : joints) {
+  for (const RangedJoint& joint : joints) {
     if (fades) share = share * smooth_step(larger(algebra.constant(0.0), 1.0 - (1.0 / kFade) * joint.beyond));
   }
   std::vector<SymbolicUnit> all;
-  for (const Anchor& anchor : anchors(state, joints, fades)) {
+  for (const SymbolicHeldState& anchor : held_states(state, joints, fades)) {
     SymbolicState held = state;
     held.joints = anchor.joints;
     for (SymbolicUnit unit : symbolic_units(effect, held, name)) {

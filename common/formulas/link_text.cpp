@@ -19,7 +19,7 @@ struct LinkText {
 LinkText link_text(const Chain& chain, int joint, LinkNumbers numbers) {
   const Joint& link = chain.joints[static_cast<std::size_t>(joint)];
   const auto parameter = [&](LinkParameter which) {
-    const bool moves = which == (link.type == JointType::revolute ? LinkParameter::theta : LinkParameter::d);
+    const bool moves = which == moving_parameter(link);
     const double value = link.parameter(which);
     const std::string fixed = numbers == LinkNumbers::named ? parameter_name(which, joint) : digits(value);
     if (!moves) return fixed;

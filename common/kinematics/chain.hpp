@@ -1,7 +1,9 @@
-// A serial arm: its joints and links by Denavit-Hartenberg parameters, and its tool.
+// A serial arm: its joints and links by Denavit-Hartenberg parameters, and the elementary transforms they stand for.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -47,6 +49,17 @@ struct Chain {
   int size() const { return static_cast<int>(joints.size()); }
 };
 
+inline bool is_revolute(const Joint& joint) {
+  return joint.type == JointType::revolute;
+}
+inline bool is_revolute(const Chain& chain, int joint) {
+  return is_revolute(chain.joints[static_cast<std::size_t>(joint)]);
+}
+/// The parameter that the joint's variable adds to: theta of a revolute joint, d of a prismatic one.
+inline LinkParameter moving_parameter(const Joint& joint) {
+  return is_revolute(joint) ? LinkParameter::theta : LinkParameter::d;
+}
+
 /// Joints stated in deg, mm where one slides: one value per joint.
 JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> values);
 
@@ -54,5 +67,23 @@ JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> va
 /// so that d of one is not separable from d of the other and Hayati's beta is needed. `joint` counts from 0; the last
 /// joint has no successor: false.
 bool near_parallel_to_next(const Chain& chain, int joint, double tolerance_rad);
+/// Whether link `link` leads between near-parallel axes: its common normal has no certain place along them, and
+/// Hayati's beta stands for its d.
+bool leads_between_parallels(const Chain& chain, int link, double tolerance_rad);
+
+struct Elementary {
+  LinkParameter parameter;
+  bool rotates;  ///< about the axis; otherwise it translates along it
+  int axis;      ///< 0 x, 1 y, 2 z, of the frame it stands in
+};
+
+/// The order of a link's transforms: standard Rz Tz Tx Rx Ry, modified Rx Tx Ry Rz Tz (the y rotation is Hayati's).
+const std::array<Elementary, kLinkParameters>& elementary_transforms(Convention convention);
+
+/// The value of an elementary transform of a joint whose variable is `q`, rad or m.
+double elementary_value(const Joint& joint, LinkParameter parameter, double q);
+
+/// `frame` moved by an elementary transform of the given value.
+void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value);
 
 }  // namespace demecal

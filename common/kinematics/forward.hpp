@@ -1,8 +1,11 @@
-// Where the flange and the tool are: forward kinematics and its derivatives by every joint and link parameter.
+// Where the flange and the tool are, also with every axis moved a little from its place; and the derivatives by every
+// joint and link parameter.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
+#include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 
 namespace demecal {
@@ -33,5 +36,81 @@ struct Kinematics {
   LinkJacobian links;
 };
 Kinematics differential_kinematics(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m);
+
+/// A small rigid motion in the axes of the frame it moves: a shift (m) by the first three, after a turn by the rotation
+/// vector (rad) of the last three about the shifted origin.
+using SmallMotion = Eigen::Matrix<double, 6, 1>;
+/// Column i < n: of the frame whose z is the axis of joint i, before the joint's own motion; column n: of the flange.
+using PlaceMotions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxJoints + 1>;
+
+/// `frame` after the motion.
+Eigen::Isometry3d moved(const Eigen::Isometry3d& frame, const SmallMotion& motion);
+
+/// The twist (linear m, angular rad, base frame) of a point, given in the base frame, per unit of component `axis` of
+/// the motion `motion` of `frame`.
+SmallMotion unit_twist(const Eigen::Isometry3d& frame, const SmallMotion& motion, int axis,
+                       const Eigen::Vector3d& point);
+
+/// Pose of the flange in the base frame with the places moved; `motions` has chain.size() + 1 columns.
+Eigen::Isometry3d forward(const Chain& chain, const JointVector& q, const PlaceMotions& motions);
+
+/// The same with the Jacobians, and where the places stand (base frame) before their motions.
+struct DisplacedKinematics {
+  Kinematics kinematics;
+  std::array<Eigen::Isometry3d, kMaxJoints + 1> places;
+};
+DisplacedKinematics differential_kinematics(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m,
+                                            const PlaceMotions& motions);
+
+/// An elementary transform's axis in the base frame: its direction and a point on it.
+struct Screw {
+  bool rotates;
+  Eigen::Vector3d direction;
+  Eigen::Vector3d origin;
+};
+
+/// The motion of `point` per unit of the screw's parameter: linear, then angular.
+inline Eigen::Matrix<double, 6, 1> twist_at(const Screw& screw, const Eigen::Vector3d& point) {
+  Eigen::Matrix<double, 6, 1> twist;
+  if (screw.rotates) {
+    twist << screw.direction.cross(point - screw.origin), screw.direction;
+  } else {
+    twist << screw.direction, Eigen::Vector3d::Zero();
+  }
+  return twist;
+}
+
+/// Walks the chain from base to flange. Every joint's axis frame, and last the flange, is handed to `displace(place,
+/// frame)`, which may move it; every elementary transform's screw to `visit(joint, parameter, screw)`.
+template <typename Visit, typename Displace>
+Eigen::Isometry3d walk(const Chain& chain, const JointVector& q, const Visit& visit, const Displace& displace) {
+  DEMECAL_CHECK(q.size() == chain.size(), q.size() << " joint values for " << chain.size() << " joints");
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  const auto& transforms = elementary_transforms(chain.convention);
+  for (int joint = 0; joint < chain.size(); ++joint) {
+    const Joint& link = chain.joints[static_cast<std::size_t>(joint)];
+    for (const Elementary& transform : transforms) {
+      if (transform.parameter == LinkParameter::theta) displace(joint, frame);
+      visit(joint, transform.parameter,
+            Screw{transform.rotates, frame.linear().col(transform.axis), frame.translation()});
+      advance(frame, transform, elementary_value(link, transform.parameter, q[joint]));
+    }
+  }
+  displace(chain.size(), frame);
+  return frame;
+}
+
+/// The screws met on the way, and the Jacobians of a point by them.
+class ScrewList {
+ public:
+  void operator()(int joint, LinkParameter parameter, const Screw& screw) {
+    screws_[static_cast<std::size_t>(joint * kLinkParameters + static_cast<int>(parameter))] = screw;
+  }
+  /// The Jacobians of the point `point_m` fixed in the flange frame, by all parameters and by the joints' variables.
+  Kinematics kinematics(const Chain& chain, const Eigen::Isometry3d& flange, const Eigen::Vector3d& point_m) const;
+
+ private:
+  std::array<Screw, kMaxJoints * kLinkParameters> screws_;
+};
 
 }  // namespace demecal

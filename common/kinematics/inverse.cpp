@@ -1,5 +1,6 @@
 #include "kinematics/inverse.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace demecal {
 namespace {
 
-struct Step {
+struct NewtonStep {
   JointVector dq;
   double smallest_singular = 0.0;
 };
@@ -17,7 +18,7 @@ struct Step {
 /// more the closer it is to zero (Nakamura and Hanafusa, 1986), but by no more than the error itself (after Sugihara,
 /// 2011): steps stay below about half a radian, and the damping fades as the target is neared. Lengths count in units
 /// of `length_m`. A Jacobian that is not finite gives no step.
-Step newton_step(const Jacobian& jacobian, const PoseError& error, const InverseOptions& options) {
+NewtonStep newton_step(const Jacobian& jacobian, const PoseError& error, const InverseOptions& options) {
   if (!jacobian.allFinite() || !error.allFinite()) return {JointVector::Zero(jacobian.cols()), 0.0};
   Jacobian scaled = jacobian;
   PoseError scaled_error = error;
@@ -42,36 +43,86 @@ double merit(const PoseError& error, const InverseOptions& options) {
 /// Where the iteration stands.
 struct Iterate {
   JointVector q;
-  PoseAndJacobian at;
+  PoseAndJacobian reached;
   PoseError error;
 };
 
 Iterate iterate_at(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& q) {
-  PoseAndJacobian at = model(q);
-  const PoseError error = pose_error(at.pose, target);
-  return {q, std::move(at), error};
+  PoseAndJacobian reached = model(q);
+  const PoseError error = pose_error(reached.pose, target);
+  return {q, std::move(reached), error};
 }
 
-/// Goes as much of the step, halved as often as needed, as brings the target nearer; false if none of it does.
-bool advance_along(const JointVector& dq, const PoseFunction& model, const Eigen::Isometry3d& target,
-                   const InverseOptions& options, Iterate& iterate) {
-  for (double fraction = 1.0; fraction > 1e-4; fraction /= 2) {
-    Iterate tried = iterate_at(model, target, iterate.q + fraction * dq);
-    if (merit(tried.error, options) < merit(iterate.error, options)) {
-      iterate = std::move(tried);
-      return true;
-    }
+/// Tries the step, and halves of it as often as needed; false if `lowers_cost(fraction)` never holds.
+template <typename LowersCost>
+bool backtrack(const LowersCost& lowers_cost) {
+  constexpr double kSmallestFraction = 1e-4;
+  for (double fraction = 1.0; fraction > kSmallestFraction; fraction /= 2) {
+    if (lowers_cost(fraction)) return true;
   }
   return false;
 }
 
-}  // namespace
-
-Eigen::Vector3d rotation_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
-  // By way of the quaternion, which keeps all digits both of tiny rotations and near half a turn.
-  const Eigen::AngleAxisd change(Eigen::Matrix3d(to * from.transpose()));
-  return change.angle() * change.axis();
+bool newton_advance(const JointVector& step, const PoseFunction& model, const Eigen::Isometry3d& target,
+                    const InverseOptions& options, Iterate& iterate) {
+  return backtrack([&](double fraction) {
+    Iterate tried = iterate_at(model, target, iterate.q + fraction * step);
+    if (!(merit(tried.error, options) < merit(iterate.error, options))) return false;
+    iterate = std::move(tried);
+    return true;
+  });
 }
+
+constexpr double kSmallestStep = 1e-13;  // rad or m, below what any joint resolves
+
+/// Scales position rows to radians.
+PoseError row_scales(const DampingOptions& options) {
+  PoseError scales = PoseError::Ones();
+  scales.head<3>() /= options.length_m;
+  return scales;
+}
+
+/// A problem and how far from its start the joints are.
+struct DampedProblem {
+  const PoseFunction& model;
+  const Eigen::Isometry3d& target;
+  const JointVector& start;
+  const DampingOptions& options;
+  JointVector change;
+  PoseAndJacobian reached;
+  double cost;
+};
+
+double cost_of(const DampedProblem& problem, const PoseAndJacobian& reached, const JointVector& change) {
+  const PoseError error = row_scales(problem.options).cwiseProduct(pose_error(reached.pose, problem.target));
+  return error.squaredNorm() + problem.options.damping * problem.options.damping * change.squaredNorm();
+}
+
+JointVector gauss_newton_step(const DampedProblem& problem) {
+  const PoseError scales = row_scales(problem.options);
+  const Eigen::MatrixXd jacobian = scales.asDiagonal() * problem.reached.jacobian;
+  const PoseError error = scales.cwiseProduct(pose_error(problem.reached.pose, problem.target));
+  const double damping = problem.options.damping * problem.options.damping;
+  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  normal.diagonal().array() += damping;
+  const Eigen::VectorXd downhill = jacobian.transpose() * error - damping * problem.change;
+  return normal.ldlt().solve(downhill);
+}
+
+bool damped_advance(const JointVector& step, DampedProblem& problem) {
+  return backtrack([&](double fraction) {
+    const JointVector change = problem.change + fraction * step;
+    PoseAndJacobian ahead = problem.model(problem.start + change);
+    const double cost = cost_of(problem, ahead, change);
+    if (!(cost < problem.cost)) return false;
+    problem.change = change;
+    problem.reached = std::move(ahead);
+    problem.cost = cost;
+    return true;
+  });
+}
+
+}  // namespace
 
 PoseError pose_error(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& target) {
   PoseError error;
@@ -82,11 +133,11 @@ PoseError pose_error(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& tar
 InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                         const InverseOptions& options) {
   Iterate iterate = iterate_at(model, target, start);
-  Step step = newton_step(iterate.at.jacobian, iterate.error, options);
+  NewtonStep step = newton_step(iterate.reached.jacobian, iterate.error, options);
   const double smallest_singular = step.smallest_singular;
   for (int iteration = 0; iteration < options.max_iterations && !within(iterate.error, options); ++iteration) {
-    if (!advance_along(step.dq, model, target, options, iterate)) break;
-    step = newton_step(iterate.at.jacobian, iterate.error, options);
+    if (!newton_advance(step.dq, model, target, options, iterate)) break;
+    step = newton_step(iterate.reached.jacobian, iterate.error, options);
   }
   const bool singular = smallest_singular < options.singular_below;
   const InverseStatus status = within(iterate.error, options)     ? InverseStatus::converged
@@ -94,6 +145,17 @@ InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& targ
                                : singular || iterate.q.size() < 6 ? InverseStatus::damped
                                                                   : InverseStatus::diverged;
   return {iterate.q, status, smallest_singular, iterate.error.head<3>().norm(), iterate.error.tail<3>().norm()};
+}
+
+JointVector damped_least_squares(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
+                                 const DampingOptions& options) {
+  DampedProblem problem{model, target, start, options, JointVector::Zero(start.size()), model(start), 0.0};
+  problem.cost = cost_of(problem, problem.reached, problem.change);
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    const JointVector step = gauss_newton_step(problem);
+    if (!step.allFinite() || step.norm() < kSmallestStep || !damped_advance(step, problem)) break;
+  }
+  return start + problem.change;
 }
 
 }  // namespace demecal

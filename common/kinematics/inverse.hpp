@@ -1,10 +1,12 @@
-// Inverse kinematics by damped Newton steps from given joints, for any model whose pose and Jacobian can be computed.
+// Inverse kinematics of any model whose pose and Jacobian can be computed: exact by damped Newton steps, or nearest by
+// damped least squares.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <functional>
 
 #include "kinematics/forward.hpp"
+#include "kinematics/rotation_vector.hpp"
 
 namespace demecal {
 
@@ -44,11 +46,21 @@ struct InverseSolution {
 InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                         const InverseOptions& options = {});
 
-/// The rotation vector (rad, base frame) that takes `from` to `to`.
-Eigen::Vector3d rotation_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to);
-
 /// What is missing from `pose` to `target`: linear (m), then angular (rad), in the frame both are given in.
 using PoseError = Eigen::Matrix<double, 6, 1>;
 PoseError pose_error(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& target);
+
+struct DampingOptions {
+  double length_m = 0.01;  ///< position error that counts as much as 1 rad: position comes first
+  double damping = 0.02;   ///< orientation error, rad, that is accepted rather than move joints by 1 rad (or m)
+  int max_iterations = 30;
+};
+
+/// The joints q that minimise |position error / length|^2 + |orientation error|^2 + |damping (q - start)|^2 (damped
+/// least squares, Wampler, 1986). Unlike an inverse it is stable at singularities and defined for any number of joints:
+/// what a lost direction asks for is left undone instead of being bought with large motions. Stops at the best joints
+/// found.
+JointVector damped_least_squares(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
+                                 const DampingOptions& options = {});
 
 }  // namespace demecal

@@ -23,8 +23,13 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector_rad) {
 }
 
 Eigen::Vector3d vector_of(const Eigen::Matrix3d& rotation) {
+  // By way of the quaternion, which keeps all digits both of tiny rotations and near half a turn.
   const Eigen::AngleAxisd turn(rotation);
   return turn.angle() * turn.axis();
+}
+
+Eigen::Vector3d rotation_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  return vector_of(to * from.transpose());
 }
 
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad) {

@@ -113,7 +113,7 @@ class CsvTargets {
   ProgramColumns joint_columns(const std::string& stem) {
     ProgramColumns columns;
     for (std::size_t i = 0; i < arm_.joints.size(); ++i) {
-      const bool revolute = arm_.joints[i].type == JointType::revolute;
+      const bool revolute = is_revolute(arm_.joints[i]);
       const auto column = find(stem + std::to_string(i + 1), revolute ? kAngles : kLengths);
       if (!column) return {};
       columns.push_back(*column);

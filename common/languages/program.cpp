@@ -57,8 +57,7 @@ Eigen::Isometry3d stated_tool_pose(const Target& target) {
 std::vector<CellUnit> joint_units(const Chain& arm) {
   std::vector<CellUnit> units;
   for (const Joint& joint : arm.joints) {
-    units.push_back(joint.type == JointType::prismatic ? kMillimetres
-                                                       : CellUnit{std::numbers::pi / 180.0, kDecimalsDeg});
+    units.push_back(!is_revolute(joint) ? kMillimetres : CellUnit{std::numbers::pi / 180.0, kDecimalsDeg});
   }
   return units;
 }

@@ -131,7 +131,7 @@ class RapidReader {
     const std::array<std::size_t, 3> joints{0, 3, 5};
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const double quadrant = configuration[i].value;
-      if (arm_.joints[joints[i]].type != JointType::revolute || !(quadrant >= -100.0 && quadrant <= 100.0)) continue;
+      if (!is_revolute(arm_.joints[joints[i]]) || !(quadrant >= -100.0 && quadrant <= 100.0)) continue;
       hint.quadrants[joints[i]] = static_cast<int>(quadrant);
     }
     return hint;

@@ -166,7 +166,7 @@ class UrReader {
     }
     std::vector<CellUnit> units(kPose.begin(), kPose.end());
     for (std::size_t i = 0; !pose && i < units.size(); ++i) {
-      units[i] = arm_.joints[i].type == JointType::revolute ? kRadian : kMetre;
+      units[i] = is_revolute(arm_.joints[i]) ? kRadian : kMetre;
     }
     const auto cells = cells_of(text_, list.items, units, numbers, program_, target);
     if (!cells) return;

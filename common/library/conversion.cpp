@@ -43,7 +43,7 @@ Stop to_stop(const JointCommand& command, const Chain& chain) {
 std::vector<double> to_deg_or_mm(const JointVector& joints, const Chain& chain) {
   std::vector<double> values;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const bool revolute = is_revolute(chain, joint);
     values.push_back(revolute ? degrees(joints[joint]) : millimetres(joints[joint]));
   }
   return values;

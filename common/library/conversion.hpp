@@ -4,7 +4,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
-#include "effects/stop.hpp"
+#include "effects/arm_state.hpp"
 #include "library/demecal.hpp"
 #include "programs/command_model.hpp"
 

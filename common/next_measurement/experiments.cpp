@@ -6,7 +6,7 @@
 #include <set>
 
 #include "effects/arm_state.hpp"
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
@@ -79,12 +79,12 @@ class ExperimentDesign {
     for (const std::size_t i : problem_.fitted)
       most_kg = std::max(most_kg, problem_.data.poses[i].payload_kg.value_or(0.0));
     const double mass_kg = most_kg > 0 ? most_kg : kOwnPayload_kg;
-    return pairs(" measured both without and with a payload of " + number_words(mass_kg) + " kg",
+    return pairs(" measured both without and with a payload of " + rounded_text(mass_kg) + " kg",
                  [&](MeasuredPose& pose, bool laden) { pose.payload_kg = laden ? mass_kg : 0.0; });
   }
 
   Experiment temperature_step() {
-    return pairs(" measured both as warm as the present ones and " + number_words(kStep_kelvin) + " K warmer",
+    return pairs(" measured both as warm as the present ones and " + rounded_text(kStep_kelvin) + " K warmer",
                  [&](MeasuredPose& pose, bool warmer) {
                    if (warmer && pose.temperature_celsius) *pose.temperature_celsius += kStep_kelvin;
                  });
@@ -116,9 +116,9 @@ class ExperimentDesign {
 
  private:
   std::string words(int joint, const Interval& range) const {
-    const bool turns = is_revolute(problem_.data.robot, joint);
+    const bool turns = is_revolute(problem_.data.robot.chain, joint);
     const auto number = [&](double value) {
-      return number_words(std::round(turns ? degrees(value) : millimetres(value)));
+      return rounded_text(std::round(turns ? degrees(value) : millimetres(value)));
     };
     return number(range.lower) + " to " + number(range.upper) + (turns ? " deg" : " mm");
   }

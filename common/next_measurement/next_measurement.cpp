@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "effects/joint_words.hpp"
+#include "effects/law_terms.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
 
@@ -222,9 +222,9 @@ std::string to_string(const Effect& effect) {
   const std::vector<std::string> forms = law_of(effect).forms();
   if (!effect.form.empty() && effect.form != forms.front()) details.push_back(effect.form);
   for (const auto& [name, value] : effect.settings) {
-    if (name == "from") details.push_back("from joint " + number_words(value));
-    if (name == "ratio" || name == "order") details.push_back(name + ' ' + number_words(value));
-    if (name == "gravity_turn") details.push_back("gravity turned " + number_words(value));
+    if (name == "from") details.push_back("from joint " + rounded_text(value));
+    if (name == "ratio" || name == "order") details.push_back(name + ' ' + rounded_text(value));
+    if (name == "gravity_turn") details.push_back("gravity turned " + rounded_text(value));
     if (name.starts_with("keep_")) details.push_back(name.substr(5));
   }
   for (std::size_t i = 0; i < details.size(); ++i) text += (i == 0 ? " (" : ", ") + details[i];

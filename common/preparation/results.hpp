@@ -30,22 +30,22 @@ struct FrameDifference {
   double turn_deg = 0.0;               ///< between the frames
 };
 
-struct Statistic {
+struct ErrorStatistic {
   std::vector<SetStatistic> sets{};  ///< those that have poses
   std::optional<FrameDifference> apart;
   std::optional<double> taught_difference_mm{};  ///< largest, of the distances between the three points
   bool fitted_to_calibration = true;
 };
 
-Statistic error_statistic(const RawMeasurements& raw, const Prepared& prepared);
+ErrorStatistic error_statistic(const RawMeasurements& raw, const Prepared& prepared);
 
 /// A table of both frames side by side, and sentences about what they differ by; at most 100 columns.
-std::string statistic_table(const Statistic& statistic, const std::string& name);
+std::string statistic_table(const ErrorStatistic& statistic, const std::string& name);
 
 /// One JSON object on one line: {"name", "frame", "sets": {"calibration": {"poses", "readings", "spread_mm",
 /// "three_points": {"mean", "rms", "p95", "max", "mean_difference"}, "best_fit": ...}}, "frames_apart", "files"}; what
 /// does not exist is null. `frame` is the data set's.
-std::string statistic_json(const Statistic& statistic, const std::string& name, const std::string& frame,
+std::string statistic_json(const ErrorStatistic& statistic, const std::string& name, const std::string& frame,
                            const std::vector<std::string>& files);
 
 /// A file to be written beside the data set.

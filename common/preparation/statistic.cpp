@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/error_figures.hpp"
+#include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
@@ -116,8 +116,9 @@ Json json_of(const std::optional<FrameFigures>& figures) {
 
 }  // namespace
 
-Statistic error_statistic(const RawMeasurements& raw, const Prepared& prepared) {
-  Statistic statistic{.apart = frame_difference(prepared), .fitted_to_calibration = prepared.fitted_to_calibration};
+ErrorStatistic error_statistic(const RawMeasurements& raw, const Prepared& prepared) {
+  ErrorStatistic statistic{.apart = frame_difference(prepared),
+                           .fitted_to_calibration = prepared.fitted_to_calibration};
   for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
     const Indices indices = poses_of_set(prepared, set);
     if (!indices.empty()) statistic.sets.push_back(statistic_of_set(prepared, set, indices));
@@ -126,7 +127,7 @@ Statistic error_statistic(const RawMeasurements& raw, const Prepared& prepared) 
   return statistic;
 }
 
-std::string statistic_table(const Statistic& statistic, const std::string& name) {
+std::string statistic_table(const ErrorStatistic& statistic, const std::string& name) {
   std::string text = fmt::format("{}: measured - nominal before calibration, mm\n", name);
   text += fmt::format("  {:<12}{:>6}  {:<32}  {}\n", "", "", "  three-point frame", "  best fit");
   text += fmt::format("  {:<12}{:>6}  {:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>8}{:>8}\n", "set", "poses", "mean", "rms",
@@ -147,7 +148,7 @@ std::string statistic_table(const Statistic& statistic, const std::string& name)
   return text;
 }
 
-std::string statistic_json(const Statistic& statistic, const std::string& name, const std::string& frame,
+std::string statistic_json(const ErrorStatistic& statistic, const std::string& name, const std::string& frame,
                            const std::vector<std::string>& files) {
   Json json{{"name", name}, {"frame", frame}, {"sets", Json::object()}};
   for (const SetStatistic& set : statistic.sets) {

@@ -12,16 +12,15 @@
 namespace demecal {
 namespace {
 
-/// Whether the effect is of the instrument's frame.
 bool is_of_instrument(const Effect& effect) {
-  return effect.kind == "registration" || effect.kind == "drift" || effect.kind == "sensor_scale";
+  return law_of(effect).subject() == Subject::instrument;
 }
 
 constexpr double kLargestToolError = 0.01;  ///< m
 constexpr double kLargestToolTurn = 0.05;   ///< rad
 
 bool is_of_tool(const Effect& effect) {
-  return effect.kind == "tool";
+  return law_of(effect).subject() == Subject::tool;
 }
 
 /// Leaves out the numbers of effects that are `gone`, and counts those that stay anew.
@@ -171,7 +170,7 @@ std::optional<Interval> outside_measured(const CommandModel& model, int joint, d
   constexpr double kMargin_rad = 0.035, kMargin_m = 0.02;
   if (model.measured.empty()) return std::nullopt;
   const Interval& range = model.measured[static_cast<std::size_t>(joint)];
-  const bool revolute = model.nominal.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const bool revolute = is_revolute(model.nominal.chain, joint);
   const double margin = revolute ? kMargin_rad : kMargin_m;
   return beyond(range, value, revolute) > margin ? std::optional(range) : std::nullopt;
 }
@@ -179,7 +178,7 @@ std::optional<Interval> outside_measured(const CommandModel& model, int joint, d
 double distance_outside_calibrated(const CorrectedRobot& robot, int joint, double value) {
   const std::optional<Interval> range = calibrated_range(robot, joint);
   if (!range) return 0.0;
-  const bool revolute = robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const bool revolute = is_revolute(robot.chain, joint);
   return beyond(*range, value, revolute);
 }
 

@@ -6,7 +6,6 @@
 
 #include "effects/corrected_robot.hpp"
 #include "fitting/posterior.hpp"
-#include "fitting/prediction_interval.hpp"
 
 namespace demecal {
 

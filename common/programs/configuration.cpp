@@ -16,7 +16,7 @@ constexpr std::size_t kMostBranches = 16;  ///< that six revolute joints can hav
 /// Whether two joint positions are one but for whole turns.
 bool alike(const Chain& arm, const JointVector& one, const JointVector& other) {
   for (Eigen::Index i = 0; i < one.size(); ++i) {
-    const bool revolute = arm.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
+    const bool revolute = is_revolute(arm, i);
     const double difference = revolute ? wrap_near(one[i] - other[i], 0.0) : one[i] - other[i];
     if (std::abs(difference) > kAlike) return false;
   }

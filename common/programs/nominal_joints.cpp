@@ -72,7 +72,7 @@ JointVector search_start(const Chain& arm, int index) {
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
     double lower = -std::numbers::pi, upper = std::numbers::pi;
-    if (joint.type == JointType::prismatic || (limited(joint) && joint.upper - joint.lower < 2.0 * std::numbers::pi)) {
+    if (!is_revolute(joint) || (limited(joint) && joint.upper - joint.lower < 2.0 * std::numbers::pi)) {
       lower = joint.lower;
       upper = joint.upper;
     }
@@ -82,7 +82,7 @@ JointVector search_start(const Chain& arm, int index) {
 }
 
 double nearest_turn(const Joint& joint, double value, double reference) {
-  if (joint.type == JointType::prismatic) return value;
+  if (!is_revolute(joint)) return value;
   const double near = wrap_near(value, reference);
   double best = near;
   for (const double turned : {near - 2.0 * std::numbers::pi, near + 2.0 * std::numbers::pi}) {

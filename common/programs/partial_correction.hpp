@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "effects/command.hpp"
+#include "effects/corrected_robot.hpp"
 
 namespace demecal {
 

@@ -77,7 +77,7 @@ TargetFigures target_figures(const Target& target, const CorrectedTarget& correc
     figures.difference.push_back(command - nominal);
   };
   for (int joint = 0; joint < arm.size() && !target.is_pose(); ++joint) {
-    const bool revolute = arm.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+    const bool revolute = is_revolute(arm, joint);
     const UnitConversion to_border = revolute ? degrees : millimetres;
     add("q" + std::to_string(joint + 1), revolute ? "deg" : "mm", to_border(corrected.nominal[joint]),
         to_border(corrected.command[joint]));

@@ -97,7 +97,7 @@ std::string fixed_text(double value, int decimals) {
 }
 
 std::string joint_amount(const Joint& joint, double value) {
-  if (joint.type == JointType::prismatic) return fixed_text(millimetres(value), 3) + " mm";
+  if (!is_revolute(joint)) return fixed_text(millimetres(value), 3) + " mm";
   return fixed_text(degrees(value), 4) + " deg";
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/command.hpp"
+#include "effects/corrected_robot.hpp"
 #include "kinematics/units.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"

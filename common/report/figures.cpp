@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
-#include "effects/likely_causes.hpp"
 
 namespace demecal {
 namespace {
@@ -132,7 +132,7 @@ std::map<std::uint64_t, std::vector<Harmonic>> harmonics_of(const std::vector<Ef
   std::map<std::uint64_t, std::vector<Harmonic>> joints;
   for (const EffectEntry& effect : effects) {
     const std::optional<double> cycles = effect.parameter("ratio");
-    if (effect.kind != "gear_harmonic" || !effect.joint || !effect.amplitude || !cycles) continue;
+    if (!is_harmonic(effect.kind) || !effect.joint || !effect.amplitude || !cycles) continue;
     joints[*effect.joint].push_back({*cycles, std::abs(*effect.amplitude), largest_error(effect), effect.unit});
   }
   for (auto& [joint, harmonics] : joints) std::ranges::stable_sort(harmonics, {}, &Harmonic::cycles);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/likely_causes.hpp"
+#include "effects/catalogue.hpp"
 #include "kinematics/units.hpp"
 #include "report/figures.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evolution/building_blocks.hpp"
-#include "fitting/median_interval.hpp"
+#include "fitting/median.hpp"
 
 namespace demecal {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fitting/median.hpp"
+#include "fitting/row_sums.hpp"
 #include "fitting/scatter.hpp"
-#include "fitting/triangular_factor.hpp"
 #include "residuals/noise.hpp"
 
 namespace demecal {

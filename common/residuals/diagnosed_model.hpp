@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fitting/prior.hpp"
+#include "fitting/least_squares.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/smooth_corrections.hpp"
 

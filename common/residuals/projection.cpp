@@ -4,7 +4,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "fitting/triangular_factor.hpp"
+#include "fitting/row_sums.hpp"
 
 namespace demecal {
 namespace {

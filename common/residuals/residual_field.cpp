@@ -42,8 +42,7 @@ double root_weight_of(double norm, int rows) {
 std::vector<Eigen::Index> turns_of(const Chain& chain) {
   std::vector<Eigen::Index> columns;
   for (int joint = 0; joint < chain.size(); ++joint) {
-    if (chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute)
-      columns.push_back(motion_column(joint, kTurnAboutZ));
+    if (is_revolute(chain, joint)) columns.push_back(motion_column(joint, kTurnAboutZ));
   }
   return columns;
 }

@@ -197,13 +197,13 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
     const Joint& link = robot.chain.joints[at];
     std::vector<double> angles;
     for (const std::size_t pose : poses) angles.push_back(data.poses[pose].joints[joint]);
-    if (link.type == JointType::revolute) smooth.branches[at] = choose_branch(angles, link.lower, link.upper);
+    if (is_revolute(link)) smooth.branches[at] = choose_branch(angles, link.lower, link.upper);
     if (!smooth.base[at].is_neutral()) smooth.branches[at] = smooth.base[at].branch();
     for (double& angle : angles) angle = smooth.branches[at](angle);
     const auto [lower, upper] = std::minmax_element(angles.begin(), angles.end());
     if (lower == angles.end()) continue;
     smooth.ranges[at] = {*lower, *upper};
-    const bool moves = link.type == JointType::revolute && usual_range(angles) > kLeastMotion_rad;
+    const bool moves = is_revolute(link) && usual_range(angles) > kLeastMotion_rad;
     if (declared && moves) add_terms(smooth, joint, smooth.ranges[at], offset_declared, most_terms(angles));
   }
   smooth.coefficients.setZero(static_cast<Eigen::Index>(smooth.terms.size()));

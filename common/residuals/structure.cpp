@@ -6,9 +6,9 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <unsupported/Eigen/SpecialFunctions>
 #include <utility>
 
+#include "fitting/distributions.hpp"
 #include "residuals/noise.hpp"
 
 namespace demecal {
@@ -130,7 +130,7 @@ Eigen::MatrixXd joint_errors(const ResidualField& field, const std::vector<std::
     const Eigen::Index count = field.rows_of_pose(poses[i]);
     const auto rows = residual.segment(first, count);
     for (int joint = 0; joint < chain.size(); ++joint) {
-      const bool revolute = chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+      const bool revolute = is_revolute(chain, joint);
       const auto column = field.motions.block(first, motion_column(joint, revolute ? 5 : 2), count, 1);
       const double length = column.norm();
       errors(static_cast<Eigen::Index>(i), joint) = length > 1e-12 ? column.col(0).dot(rows) / length : 0.0;
@@ -207,9 +207,7 @@ double lack_of_fit_p_value(const PureError& pure, double squares_m2, double free
   if (more <= 0.0 || excess <= 0.0) return 1.0;
   if (pure.squares <= 0.0) return 0.0;
   const double ratio = (excess / more) / (pure.squares / pure.freedom);
-  // P(F > ratio) by the regularised incomplete beta function (Abramowitz and Stegun, 26.6.2).
-  const double at = pure.freedom / (pure.freedom + more * ratio);
-  return Eigen::numext::betainc(0.5 * pure.freedom, 0.5 * more, at);
+  return fisher_p_value(ratio, more, pure.freedom);
 }
 
 }  // namespace demecal

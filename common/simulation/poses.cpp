@@ -51,7 +51,7 @@ Eigen::Vector3d random_vector(const Eigen::Vector3d& lower, const Eigen::Vector3
 std::optional<JointVector> within_limits(const Chain& chain, JointVector q, const JointVector& home) {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
-    if (joint.type == JointType::revolute) {
+    if (is_revolute(joint)) {
       q[i] = wrap_near(q[i], home[i]);
       if (q[i] < joint.lower || q[i] > joint.upper) q[i] = wrap_near(q[i], 0.5 * (joint.lower + joint.upper));
     }
@@ -64,7 +64,7 @@ std::optional<JointVector> within_limits(const Chain& chain, JointVector q, cons
 double farthest_reach(const Chain& chain) {
   double reach = chain.tool_m.norm();
   for (const Joint& joint : chain.joints) {
-    const bool slides = joint.type == JointType::prismatic;
+    const bool slides = !is_revolute(joint);
     const double slide = slides ? std::max(std::abs(joint.lower), std::abs(joint.upper)) : 0.0;
     reach += std::hypot(joint.a_m, std::abs(joint.d_m) + slide);
   }

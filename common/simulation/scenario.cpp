@@ -15,39 +15,41 @@ void require_joint(int joint, int joints, const std::string& key) {
           key + ": joint must be from 1 to " + std::to_string(joints));
 }
 
-template <typename Error>
-void require_joints(const std::vector<Error>& errors, int joints, const std::string& key) {
-  for (const Error& error : errors) require_joint(error.joint, joints, key);
-}
+/// Visits the fields of an error, and refuses what contradicts the robot.
+class ErrorCheck {
+ public:
+  ErrorCheck(std::string key, int joints) : key_(std::move(key)), joints_(joints) {}
 
-void check_formulas(const Scenario& scenario, int joints) {
-  for (const JointError& error : scenario.joint_errors) {
-    require(is_valid(error.formula, 1), "", "joint_errors: the formula must be complete and know theta alone");
+  int joints() const { return joints_; }
+  void joint(const char* /*key*/, int joint) const { require_joint(joint, joints_, key_); }
+  void formula(const char* /*key*/, const Tree& formula, const VariableNames& names) const {
+    require(is_valid(formula, static_cast<int>(names.size())), "",
+            key_ + ": the formula must be complete and know " +
+                (names.size() == 1 ? "theta alone" : "q1 .. qn, tau, s, T"));
   }
-  const auto symbols = static_cast<int>(symbolic_variables(joints).size());
-  for (const SymbolicError& error : scenario.symbolic) {
-    require(is_valid(error.formula, symbols), "",
-            "symbolic: the formula must be complete and know q1 .. qn, tau, s, T");
-  }
-}
+  void number(const char*, double) const {}
+  void optional(const char*, double) const {}
+  void positive(const char*, double) const {}
+  void order(const char*, int) const {}
+  void motion(const char*, double) const {}
+  void optional_motion(const char*, double) const {}
+  void per_load(const char*, const char*, double) const {}
+  void tilts(const char*, const Eigen::Vector2d&) const {}
+
+ private:
+  std::string key_;
+  int joints_;
+};
 
 void check_truth(const Scenario& scenario, int joints) {
-  require_joints(scenario.geometry, joints, "geometry");
-  require_joints(scenario.joint_errors, joints, "joint_errors");
-  require_joints(scenario.backlash, joints, "backlash");
-  require_joints(scenario.compliance, joints, "compliance");
-  require_joints(scenario.gear_harmonics, joints, "gear_harmonics");
-  require_joints(scenario.gains, joints, "gains");
-  require_joints(scenario.eccentricities, joints, "eccentricities");
-  require_joints(scenario.couplings, joints, "couplings");
-  for (const Coupling& error : scenario.couplings) require_joint(error.from, joints, "couplings");
-  require_joints(scenario.hysteresis, joints, "hysteresis");
-  require_joints(scenario.link_bending, joints, "link_bending");
-  require_joints(scenario.axis_wobble, joints, "axis_wobble");
-  require_joints(scenario.thermal_offsets, joints, "thermal_offsets");
-  require_joints(scenario.thermal_lengths, joints, "thermal_lengths");
-  require_joints(scenario.symbolic, joints, "symbolic");
-  check_formulas(scenario, joints);
+  visit_joint_errors(scenario, [joints](const char* key, const auto& errors) {
+    for (auto error : errors) {
+      require_joint(error.joint, joints, key);
+      if constexpr (requires { error.visit_fields(ErrorCheck(key, joints)); }) {
+        error.visit_fields(ErrorCheck(key, joints));
+      }
+    }
+  });
 }
 
 void check_poses(const Scenario& scenario, std::size_t joints) {

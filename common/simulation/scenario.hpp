@@ -9,16 +9,12 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "simulation/axis_truth.hpp"
-#include "simulation/friction_truth.hpp"
-#include "simulation/gear_truth.hpp"
-#include "simulation/instrument_truth.hpp"
-#include "simulation/load_truth.hpp"
-#include "simulation/thermal_truth.hpp"
+#include "simulation/truth.hpp"
 
 namespace demecal {
 
-struct Scenario {
+/// What is wrong with it is its TrueErrors.
+struct Scenario : TrueErrors {
   std::string name;
   std::string robot_file;  ///< as written to the data set
   Robot robot;
@@ -39,27 +35,8 @@ struct Scenario {
   double noise_m = 0.0;  ///< standard deviation per axis
   bool orientation_measured = false;
   double orientation_noise_rad = 0.0;
-  Eigen::Vector3d tool_error_m = Eigen::Vector3d::Zero();
   std::vector<double> payloads_kg;  ///< drawn per pose; empty: no payload column
   bool approach_recorded = true;
-
-  // what is wrong with it
-  std::vector<GeometryError> geometry;
-  std::vector<JointError> joint_errors;
-  std::vector<Backlash> backlash;
-  std::vector<Compliance> compliance;
-  std::vector<GearHarmonic> gear_harmonics;
-  std::vector<Gain> gains;
-  std::vector<Eccentricity> eccentricities;
-  std::vector<Coupling> couplings;
-  std::vector<Hysteresis> hysteresis;
-  std::vector<LinkBending> link_bending;
-  std::vector<AxisWobble> axis_wobble;
-  std::vector<ThermalOffset> thermal_offsets;
-  std::vector<ThermalLength> thermal_lengths;
-  std::vector<SymbolicError> symbolic;
-  Drift drift;
-  SensorScale sensor_scale;
 
   // its circumstances
   double seconds_per_pose = 0.0;                 ///< time from one measurement to the next; 0: no time column

@@ -1,20 +1,11 @@
 #include "simulation/simulated_robot.hpp"
 
+#include "random/random_purpose.hpp"
+#include "simulation/poses.hpp"
 #include "simulation/stance.hpp"
-#include "simulation/statics.hpp"
 
 namespace demecal {
 namespace {
-
-template <typename Error>
-void add_deviations(JointVector& joints, const std::vector<Error>& errors, const Situation& situation) {
-  for (const Error& error : errors) joints[error.joint] += deviation(error, situation);
-}
-
-template <typename Error>
-void add_tilts(std::vector<Eigen::Vector3d>& tilts, const std::vector<Error>& errors, const Situation& situation) {
-  for (const Error& error : errors) tilts[static_cast<std::size_t>(error.joint)] += tilt(error, situation);
-}
 
 Eigen::Vector3d normal_vector(double deviation, RandomStream& random) {
   Eigen::Vector3d vector;
@@ -22,11 +13,82 @@ Eigen::Vector3d normal_vector(double deviation, RandomStream& random) {
   return vector;
 }
 
+/// Moves below this, rad or m, leave a gear where it was: they give a joint no direction.
+constexpr double kSmallestMove = 2e-3;
+
+ApproachSigns signs_of_move(const JointVector& from, const JointVector& to) {
+  ApproachSigns signs(to.size());
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    const double move = to[i] - from[i];
+    signs[i] = move > kSmallestMove ? 1.0 : move < -kSmallestMove ? -1.0 : 0.0;
+  }
+  return signs;
+}
+
+PoseSet set_of(std::size_t pose, const std::array<int, 3>& counts) {
+  const auto number = static_cast<int>(pose);
+  if (number < counts[0]) return PoseSet::calibration;
+  return number < counts[0] + counts[1] ? PoseSet::validation : PoseSet::accept;
+}
+
+/// Any pose but `pose`; the only one where there is no other.
+std::size_t another(std::size_t pose, std::size_t poses, RandomStream& random) {
+  return poses < 2 ? pose : (pose + 1 + random.index(poses - 1)) % poses;
+}
+
+double draw_payload(const std::vector<double>& payloads_kg, RandomStream& random) {
+  return payloads_kg.empty() ? 0.0 : payloads_kg[random.index(payloads_kg.size())];
+}
+
+class Tour {
+ public:
+  explicit Tour(const Scenario& scenario)
+      : scenario_(scenario),
+        noise_{scenario.seed, number_of(SimulationPurpose::noise)},
+        payload_{scenario.seed, number_of(SimulationPurpose::payload)},
+        repeats_{scenario.seed, number_of(SimulationPurpose::repeats)} {
+    RandomStream random{scenario.seed, number_of(SimulationPurpose::poses)};
+    poses_ = draw_poses(scenario, scenario.poses[0] + scenario.poses[1] + scenario.poses[2], random);
+  }
+
+  std::vector<MeasuredPose> measure(const SimulatedRobot& robot) {
+    std::vector<MeasuredPose> rows;
+    for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+      const double payload_kg = draw_payload(scenario_.payloads_kg, payload_);
+      for (int repeat = 0; repeat < scenario_.repeats; ++repeat) {
+        const Visit visit{.commanded = poses_[pose],
+                          .approach = signs_of_move(come_from(pose, repeat), poses_[pose]),
+                          .payload_kg = payload_kg,
+                          .time_s = scenario_.seconds_per_pose * static_cast<double>(rows.size())};
+        rows.push_back(robot.measure(visit, noise_));
+        rows.back().set = set_of(pose, scenario_.poses);
+        rows.back().pose_id = std::to_string(pose + 1).insert(0, 1, 'P');
+      }
+    }
+    return rows;
+  }
+
+ private:
+  const JointVector& come_from(std::size_t pose, int repeat) {
+    if (repeat > 0) return poses_[another(pose, poses_.size(), repeats_)];
+    if (pose > 0) return poses_[pose - 1];
+    return scenario_.home.size() > 0 ? scenario_.home : poses_[0];
+  }
+
+  const Scenario& scenario_;
+  RandomStream noise_, payload_, repeats_;  ///< apart, so that another noise leaves the poses as they are
+  std::vector<JointVector> poses_;
+};
+
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const Scenario& scenario) : scenario_(scenario), true_chain_(scenario.robot.chain) {
   check(scenario_);
-  for (const GeometryError& error : scenario_.geometry) deform(true_chain_, error);
+  visit_joint_errors(scenario_, [this](const char* /*key*/, const auto& errors) {
+    if constexpr (requires { deform(true_chain_, errors.front()); }) {
+      for (const auto& error : errors) deform(true_chain_, error);
+    }
+  });
   true_chain_.tool_m += scenario_.tool_error_m;
 }
 
@@ -41,25 +103,23 @@ Situation SimulatedRobot::situation(const Visit& visit) const {
   return situation;
 }
 
-JointVector SimulatedRobot::joints_in(const Situation& at) const {
-  JointVector joints = at.commanded;
-  add_deviations(joints, scenario_.joint_errors, at);
-  add_deviations(joints, scenario_.gains, at);
-  add_deviations(joints, scenario_.eccentricities, at);
-  add_deviations(joints, scenario_.gear_harmonics, at);
-  add_deviations(joints, scenario_.couplings, at);
-  add_deviations(joints, scenario_.backlash, at);
-  add_deviations(joints, scenario_.hysteresis, at);
-  add_deviations(joints, scenario_.compliance, at);
-  add_deviations(joints, scenario_.thermal_offsets, at);
-  add_deviations(joints, scenario_.symbolic, at);
+JointVector SimulatedRobot::joints_in(const Situation& circumstances) const {
+  JointVector joints = circumstances.commanded;
+  visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
+    if constexpr (requires { deviation(errors.front(), circumstances); }) {
+      for (const auto& error : errors) joints[error.joint] += deviation(error, circumstances);
+    }
+  });
   return joints;
 }
 
-std::vector<Eigen::Vector3d> SimulatedRobot::axis_tilts(const Situation& at) const {
+std::vector<Eigen::Vector3d> SimulatedRobot::axis_tilts(const Situation& circumstances) const {
   std::vector<Eigen::Vector3d> tilts(true_chain_.joints.size(), Eigen::Vector3d::Zero());
-  add_tilts(tilts, scenario_.link_bending, at);
-  add_tilts(tilts, scenario_.axis_wobble, at);
+  visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
+    if constexpr (requires { tilt(errors.front(), circumstances); }) {
+      for (const auto& error : errors) tilts[static_cast<std::size_t>(error.joint)] += tilt(error, circumstances);
+    }
+  });
   return tilts;
 }
 
@@ -68,10 +128,14 @@ JointVector SimulatedRobot::true_joints(const Visit& visit) const {
 }
 
 Eigen::Isometry3d SimulatedRobot::true_pose(const Visit& visit) const {
-  const Situation at = situation(visit);
+  const Situation circumstances = situation(visit);
   Chain chain = true_chain_;
-  for (const ThermalLength& error : scenario_.thermal_lengths) deform(chain, error, at);
-  Eigen::Isometry3d pose = stand(chain, joints_in(at), axis_tilts(at)).links.back();
+  visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
+    if constexpr (requires { deform(chain, errors.front(), circumstances); }) {
+      for (const auto& error : errors) deform(chain, error, circumstances);
+    }
+  });
+  Eigen::Isometry3d pose = stand(chain, joints_in(circumstances), axis_tilts(circumstances)).links.back();
   pose.translate(chain.tool_m);
   return drifted(scenario_.sensor_from_base * pose, scenario_.drift, visit.time_s);
 }
@@ -90,6 +154,16 @@ MeasuredPose SimulatedRobot::measure(const Visit& visit, RandomStream& random) c
   if (scenario_.temperature) measured.temperature_celsius = temperature_celsius(*scenario_.temperature, visit.time_s);
   if (scenario_.seconds_per_pose > 0.0) measured.time_s = visit.time_s;
   return measured;
+}
+
+DataSet simulate(const Scenario& scenario) {
+  const SimulatedRobot robot(scenario);
+  DataSet data;
+  data.name = scenario.name;
+  data.robot = scenario.robot;
+  data.frame = scenario.sensor_from_base.matrix().isIdentity(0.0) ? Frame::base : Frame::sensor;
+  data.poses = Tour(scenario).measure(robot);
+  return data;
 }
 
 }  // namespace demecal

@@ -3,7 +3,7 @@
 
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
-#include "simulation/situation.hpp"
+#include "simulation/truth.hpp"
 
 namespace demecal {
 
@@ -42,8 +42,8 @@ class SimulatedRobot {
 
  private:
   Situation situation(const Visit& visit) const;
-  JointVector joints_in(const Situation& at) const;
-  std::vector<Eigen::Vector3d> axis_tilts(const Situation& at) const;
+  JointVector joints_in(const Situation& circumstances) const;
+  std::vector<Eigen::Vector3d> axis_tilts(const Situation& circumstances) const;
 
   Scenario scenario_;
   Chain true_chain_;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "fitting/levenberg_marquardt.hpp"
 
 #include "kinematics/units.hpp"
 
@@ -112,28 +115,42 @@ Eigen::VectorXd damped_step(const Rows& rows, double damping) {
   return tall.householderQr().solve(right);
 }
 
-/// One step that lowers the cost; false where none was found.
-bool take_step(const StructureProblem& problem, StructureFit& fit) {
-  const Eigen::VectorXd prior = prior_weights(problem, fit);
-  const double before = fit.cost + prior_cost(fit.arm, prior);
-  Rows rows = rows_at(problem, fit.arm, fit.numbers, prior);
-  const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
-  const auto qr = decomposed(rows.jacobian);
-  fit.rank = static_cast<int>(qr.rank());
-  for (double damping = fit.rank < fit.numbers ? kFirstDamping : 0.0; damping <= kMostDamping;
-       damping = std::max(kFirstDamping, 100.0 * damping)) {
-    const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows, damping) : qr.solve(rows.residual).eval();
-    StructuredArm next = changed(fit.arm, problem.freedom, step.cwiseQuotient(lengths));
-    const double cost = cost_of(problem, next, problem.fitted);
-    const double after = cost + prior_cost(next, prior);
-    if (!(after < before)) continue;
-    const bool goes_on = before - after > kSettled * before;
-    fit.arm = std::move(next);
-    fit.cost = cost;
-    return goes_on;
+/// The numbers of an arm of given structure; genes have priors that go by the scatter of the rows.
+class StructureSteps {
+ public:
+  StructureSteps(const StructureProblem& problem, StructureFit& fit) : problem_(problem), fit_(fit) {}
+
+  std::optional<double> linearize(double& damping) {
+    prior_ = prior_weights(problem_, fit_);
+    rows_ = rows_at(problem_, fit_.arm, fit_.numbers, prior_);
+    lengths_ = scale_columns(rows_.jacobian);
+    qr_ = decomposed(rows_.jacobian);
+    fit_.rank = static_cast<int>(qr_.rank());
+    damping = fit_.rank < fit_.numbers ? kFirstDamping : 0.0;
+    return fit_.cost + prior_cost(fit_.arm, prior_);
   }
-  return false;
-}
+
+  std::optional<double> try_step(double damping) {
+    const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows_, damping) : qr_.solve(rows_.residual).eval();
+    tried_ = changed(fit_.arm, problem_.freedom, step.cwiseQuotient(lengths_));
+    tried_cost_ = cost_of(problem_, tried_, problem_.fitted);
+    return tried_cost_ + prior_cost(tried_, prior_);
+  }
+
+  void accept() {
+    fit_.arm = std::move(tried_);
+    fit_.cost = tried_cost_;
+  }
+
+ private:
+  const StructureProblem& problem_;
+  StructureFit& fit_;
+  Eigen::VectorXd prior_, lengths_;
+  Rows rows_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  StructuredArm tried_;
+  double tried_cost_ = 0.0;
+};
 
 constexpr const char kAxes[] = {'x', 'y', 'z'};
 
@@ -179,8 +196,13 @@ StructureFit fit_structure(const StructureProblem& problem, const Genome& genome
   fit.selection_cost = std::numeric_limits<double>::infinity();
   fit.cost = cost_of(problem, fit.arm, problem.fitted);
   if (fit.numbers >= rows_in_use(problem, problem.fitted)) return fit;
-  for (int step = 0; step < kMostSteps && fit.numbers > 0; ++step) {
-    if (!take_step(problem, fit)) break;
+  if (fit.numbers > 0) {
+    StructureSteps steps(problem, fit);
+    levenberg_marquardt(steps, {.max_successful_steps = kMostSteps,
+                                .increase_factor = 100.0,
+                                .min_increased_damping = kFirstDamping,
+                                .max_damping = kMostDamping,
+                                .function_tolerance = kSettled});
   }
   const double selection_cost = cost_of(problem, fit.arm, problem.selection_poses);
   fit.solved = std::isfinite(selection_cost) && std::isfinite(fit.cost);

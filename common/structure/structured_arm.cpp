@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/elementary.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
-#include "kinematics/walk.hpp"
 
 namespace demecal {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
+#include "effects/catalogue.hpp"
 #include "report/figures.hpp"
 #include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
@@ -10,10 +10,6 @@
 namespace demecal {
 namespace {
 
-/// What an engineer asks for first.
-constexpr std::array<const char*, 10> kAskedFirst{"backlash",       "compliance",    "eccentricity", "hysteresis",
-                                                  "coupling",       "gear_harmonic", "axis_wobble",  "link_bending",
-                                                  "thermal_offset", "drift"};
 constexpr std::size_t kMostKinds = 5;
 
 /// Places searched for one kind of effect in one unit.
@@ -22,8 +18,8 @@ struct Searched {
   std::vector<const NotFoundEntry*> places;
 };
 
-std::size_t rank(const Searched& searched) {
-  return static_cast<std::size_t>(std::ranges::find(kAskedFirst, searched.kind) - kAskedFirst.begin());
+int rank(const Searched& searched) {
+  return place_among_limits(searched.kind);
 }
 
 std::vector<Searched> by_kind(const std::vector<NotFoundEntry>& not_found) {

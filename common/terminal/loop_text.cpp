@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "effects/catalogue.hpp"
 #include "report/figures.hpp"
 #include "terminal/text.hpp"
 
@@ -27,8 +28,8 @@ Rounds added_rounds(const Report& report) {
   return rounds;
 }
 
-bool is_harmonic(const RoundEntry* round) {
-  return round->effect.kind == "gear_harmonic";
+bool adds_harmonic(const RoundEntry* round) {
+  return is_harmonic(round->effect.kind);
 }
 
 std::string mm(std::optional<double> value) {
@@ -130,9 +131,9 @@ std::string harmonics_lines(const Rounds& rounds) {
 std::string added_lines(Rounds rounds) {
   if (rounds.empty()) return "  the closed loop added no effect\n";
   Rounds harmonics;
-  if (static_cast<std::size_t>(std::ranges::count_if(rounds, is_harmonic)) > kMostHarmonics) {
-    std::ranges::copy_if(rounds, std::back_inserter(harmonics), is_harmonic);
-    std::erase_if(rounds, is_harmonic);
+  if (static_cast<std::size_t>(std::ranges::count_if(rounds, adds_harmonic)) > kMostHarmonics) {
+    std::ranges::copy_if(rounds, std::back_inserter(harmonics), adds_harmonic);
+    std::erase_if(rounds, adds_harmonic);
   }
   std::string text = heading();
   for (const RoundEntry* const round : rounds) text += effect_lines(*round, rounds.size() <= kMostDiagnoses);

@@ -108,9 +108,9 @@ class Exchange {
   }
 
   /// Announces what a member does not publish itself.
-  void announce(const InMemoryMember& of, Topic topic, const Message& message) {
+  void announce(const InMemoryMember& source, Topic topic, const Message& message) {
     for (InMemoryMember* member : members_)
-      if (reads(member->role, topic)) member->mailbox.put(of.id, message);
+      if (reads(member->role, topic)) member->mailbox.put(source.id, message);
   }
 
   /// Those whose news it has published.

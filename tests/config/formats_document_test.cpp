@@ -236,7 +236,7 @@ TEST(FormatsDocument, HasEveryLawOfTheCatalogue) {
     ASSERT_NE(law, nullptr);
     std::set<std::string> settings;
     for (const std::string& name : law->settings()) settings.insert(std::regex_replace(name, link, "keep_L_"));
-    EXPECT_EQ(row.cells.at(1), law->of_joint() ? "yes" : "no");
+    EXPECT_EQ(row.cells.at(1), law->subject() == Subject::joint ? "yes" : "no");
     EXPECT_THAT(code_spans(row.cells.at(2)), ContainerEq(law->forms()));
     EXPECT_THAT(set_of(code_spans(row.cells.at(3))), ContainerEq(settings));
     EXPECT_THAT(set_of(code_spans(row.cells.at(4))), ContainerEq(coefficients.at(kind)));

@@ -38,7 +38,7 @@ TEST(Preparation, ThatIsShippedGivesADataSetThatLoads) {
     }
   }
   EXPECT_LT(prepared.programmed_from_joints_m, 1e-4);
-  const Statistic statistic = error_statistic(raw, prepared);
+  const ErrorStatistic statistic = error_statistic(raw, prepared);
   ASSERT_EQ(statistic.sets.size(), 2u);
   EXPECT_EQ(statistic.sets[0].readings, 72u);
   EXPECT_GT(statistic.sets[0].best_fit->error.rms_mm, 0.3);

@@ -17,9 +17,9 @@ Eigen::VectorXd random_vector(RandomStream& random, Eigen::Index size) {
 }
 
 /// Of four joints, all of which are corrected.
-std::vector<LinearisedPose> random_poses(RandomStream& random) {
-  std::vector<LinearisedPose> poses(40);
-  for (LinearisedPose& pose : poses) {
+std::vector<LinearizedPose> random_poses(RandomStream& random) {
+  std::vector<LinearizedPose> poses(40);
+  for (LinearizedPose& pose : poses) {
     pose = {random_vector(random, 4), random_vector(random, kRows), Eigen::MatrixXd(kRows, 4)};
     for (Eigen::Index joint = 0; joint < 4; ++joint) pose.jacobian_mm.col(joint) = random_vector(random, kRows);
   }
@@ -39,7 +39,7 @@ std::vector<CorrectionShape> random_shapes(RandomStream& random) {
 }
 
 /// With chosen shapes times factors instead of the corrections of kJoints.
-double index_by_hand(const std::vector<LinearisedPose>& poses, const std::vector<CorrectionShape>& shapes,
+double index_by_hand(const std::vector<LinearizedPose>& poses, const std::vector<CorrectionShape>& shapes,
                      const std::vector<std::size_t>& chosen, const std::vector<double>& factors) {
   double sum = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(AmplitudeFit, LetsNoneOfTwoJointsGrowThatAreNotToBeToldApart) {
   RandomStream random{44};
   auto poses = random_poses(random);
   auto shapes = random_shapes(random);
-  for (LinearisedPose& pose : poses) pose.jacobian_mm.col(1) = pose.jacobian_mm.col(0);
+  for (LinearizedPose& pose : poses) pose.jacobian_mm.col(1) = pose.jacobian_mm.col(0);
   shapes[2].value_rad = shapes[0].value_rad;
   const std::vector<std::size_t> both{0, 2};
   const ChosenShapes fitted = AmplitudeFit(poses, kJoints, shapes).fitted(both);

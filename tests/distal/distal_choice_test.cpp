@@ -16,7 +16,7 @@ class DistalChoice : public testing::TestWithParam<Measured> {
   CorrectedRobot declared() const { return without_corrections(preparation.declared.robot); }
   /// What every joint learns from where nothing is corrected yet.
   std::vector<JointTraining> trainings() const {
-    const std::vector<LinearisedPose> poses = index.linearised(declared());
+    const std::vector<LinearizedPose> poses = index.linearized(declared());
     std::vector<JointTraining> trainings;
     for (const JointTraining& like : preparation.training) trainings.push_back(distal_training(like, poses));
     return trainings;
@@ -45,10 +45,10 @@ TEST_P(DistalChoice, TakesTogetherWhatIsRightButForItsSize) {
     const auto candidates = true_but_for_size(random);
     DistalOutcome fitted = outcome_of(declared()), as_evolved = fitted;
     const double before = fitted.index_mm2;
-    ASSERT_TRUE(take_candidates(index, candidates, Amplitudes::fitted, 7, fitted));
+    ASSERT_TRUE(accept_candidates(index, candidates, Amplitudes::fitted, 7, fitted));
     EXPECT_LT(fitted.index_mm2, 0.02 * before);
     EXPECT_EQ(fitted.index_mm2, index(fitted.robot));
-    take_candidates(index, candidates, Amplitudes::as_evolved, 7, as_evolved);
+    accept_candidates(index, candidates, Amplitudes::as_evolved, 7, as_evolved);
     EXPECT_GT(as_evolved.index_mm2, fitted.index_mm2);
     for (const DistalStep& step : fitted.steps) {
       EXPECT_EQ(step.generation, 7U);
@@ -69,9 +69,9 @@ TEST_P(DistalChoice, FitsWhatTheModelHasWhereNothingIsOffered) {
   std::vector<JointCandidates> none;
   for (const JointTraining& training : trainings()) none.push_back({training, {}});
   DistalOutcome outcome = outcome_of(robot), same = outcome;
-  EXPECT_FALSE(take_candidates(index, none, Amplitudes::as_evolved, 3, same));
+  EXPECT_FALSE(accept_candidates(index, none, Amplitudes::as_evolved, 3, same));
   EXPECT_TRUE(same.steps.empty());
-  ASSERT_TRUE(take_candidates(index, none, Amplitudes::fitted, 3, outcome));
+  ASSERT_TRUE(accept_candidates(index, none, Amplitudes::fitted, 3, outcome));
   EXPECT_LT(outcome.index_mm2, 0.02 * index(declared()));
   for (std::size_t joint = 0; joint < 6; ++joint) {
     const JointCorrection &before = robot.corrections[joint], &after = outcome.robot.corrections[joint];
@@ -97,7 +97,7 @@ TEST_P(DistalChoice, LeavesTheModelAloneWhereTheIndexWouldNotFall) {
     wrong.push_back({training, {{parse("-3 * COS(theta + 1)"), 1.0}, {parse("1 % SIN(theta - theta)"), 1.0}}});
   DistalOutcome outcome = outcome_of(truth);
   const double before = outcome.index_mm2;
-  EXPECT_FALSE(take_candidates(index, wrong, Amplitudes::as_evolved, 3, outcome));
+  EXPECT_FALSE(accept_candidates(index, wrong, Amplitudes::as_evolved, 3, outcome));
   EXPECT_EQ(outcome.index_mm2, before);
   EXPECT_TRUE(outcome.steps.empty());
 }
@@ -118,7 +118,7 @@ TEST_P(DistalChoice, TakesNothingThatIsNotBounded) {
   }
   for (const Amplitudes amplitudes : {Amplitudes::as_evolved, Amplitudes::fitted}) {
     DistalOutcome outcome = outcome_of(declared());
-    take_candidates(index, candidates, amplitudes, 1, outcome);
+    accept_candidates(index, candidates, amplitudes, 1, outcome);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const JointCorrection& taken = outcome.robot.corrections[all[i].joint];
       EXPECT_TRUE(taken.is_neutral() || is_bounded(taken, all[i]));
@@ -129,7 +129,7 @@ TEST_P(DistalChoice, TakesNothingThatIsNotBounded) {
 TEST_P(DistalChoice, ShowsThreeDigitsOfAnAmplitude) {
   RandomStream random{53};
   DistalOutcome outcome = outcome_of(declared());
-  ASSERT_TRUE(take_candidates(index, true_but_for_size(random), Amplitudes::fitted, 1, outcome));
+  ASSERT_TRUE(accept_candidates(index, true_but_for_size(random), Amplitudes::fitted, 1, outcome));
   for (const DistalStep& step : outcome.steps) {
     const double scale_rad = evolved_scale_rad(step.correction);
     std::array<char, 32> text{};
@@ -141,10 +141,10 @@ TEST_P(DistalChoice, ShowsThreeDigitsOfAnAmplitude) {
 TEST_P(DistalChoice, TrainingsFollowTheAmplitudes) {
   RandomStream random{54};
   DistalOutcome outcome = outcome_of(declared());
-  ASSERT_TRUE(take_candidates(index, true_but_for_size(random), Amplitudes::fitted, 1, outcome));
+  ASSERT_TRUE(accept_candidates(index, true_but_for_size(random), Amplitudes::fitted, 1, outcome));
   std::vector<JointTraining> followed = trainings();
   const std::vector<JointTraining> before = followed;
-  follow_amplitudes(outcome.robot, followed);
+  rescale_trainings(outcome.robot, followed);
   for (std::size_t i = 0; i < followed.size(); ++i) {
     const JointCorrection& correction = outcome.robot.corrections[followed[i].joint];
     const double expected_rad = correction.is_neutral() ? before[i].scale_rad : evolved_scale_rad(correction);

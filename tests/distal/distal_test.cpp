@@ -33,7 +33,7 @@ TEST_P(DistalLearning, LinearisesTheIndexForSmallCorrections) {
   RandomStream random{31};
   for (int trial = 0; trial < 20; ++trial) {
     CorrectedRobot robot = corrected_puma(2e-3, random);
-    const std::vector<LinearisedPose> poses = index.linearised(robot);
+    const std::vector<LinearizedPose> poses = index.linearized(robot);
     const CorrectedRobot other = corrected_puma(2e-5, random);
     double expected = 0.0, before = 0.0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -55,15 +55,15 @@ TEST_P(DistalLearning, LinearisesTheIndexForSmallCorrections) {
 TEST_P(DistalLearning, TableOfAJointIsItsPartOfTheLinearisedIndex) {
   RandomStream random{32};
   const CorrectedRobot robot = corrected_puma(1e-3, random), other = corrected_puma(2e-3, random);
-  const std::vector<LinearisedPose> poses = index.linearised(robot);
+  const std::vector<LinearizedPose> poses = index.linearized(robot);
   for (const JointTraining& like : preparation.training) {
     const JointTraining training = distal_training(like, poses);
     Fitness fitness(training.table);
     const auto joint = static_cast<Eigen::Index>(like.joint);
     double most = 0.0;
-    for (const LinearisedPose& pose : poses) most = std::max(most, pose.jacobian_mm.col(joint).squaredNorm());
+    for (const LinearizedPose& pose : poses) most = std::max(most, pose.jacobian_mm.col(joint).squaredNorm());
     if (most == 0.0) continue;
-    const auto linearised = [&](const Tree& tree) {
+    const auto linearized = [&](const Tree& tree) {
       double sum = 0.0;
       for (std::size_t i = 0; i < poses.size(); ++i) {
         const double theta = like.table.variables[0][i];
@@ -74,8 +74,8 @@ TEST_P(DistalLearning, TableOfAJointIsItsPartOfTheLinearisedIndex) {
     };
     const Tree one = neutral_tree(), two = apply(Primitive::cosine, variable_tree(0));
     const double factor = most * training.scale_rad * training.scale_rad;
-    const double fall = linearised(one) - linearised(two);
-    EXPECT_NEAR(factor * (fitness(one) - fitness(two)), fall, 1e-6 * (linearised(one) + linearised(two)));
+    const double fall = linearized(one) - linearized(two);
+    EXPECT_NEAR(factor * (fitness(one) - fitness(two)), fall, 1e-6 * (linearized(one) + linearized(two)));
   }
 }
 
@@ -140,7 +140,7 @@ TEST_P(DistalLearning, InSequenceMayFitAmplitudesToo) {
 
 /// What the thesis's algorithm does at its first step.
 TEST_P(DistalLearning, InSequenceBeginsWithTheJointOfGreatestPotential) {
-  const Eigen::VectorXd potentials = compensation_potentials(index.linearised(preparation.declared.robot));
+  const Eigen::VectorXd potentials = compensation_potentials(index.linearized(preparation.declared.robot));
   Eigen::Index greatest = 0;
   potentials.maxCoeff(&greatest);
   const SequenceOutcome outcome = learn_in_sequence(index, preparation, job, [] { return true; });
@@ -207,7 +207,7 @@ TEST(CompensationPotential, OfAPlanarArmIsAsByHand) {
   fit.robot = robot;
   fit.sigma_position_m = 1e-3;
   const DistalIndex index(data, poses_of(data, PoseSet::calibration), fit);
-  const Eigen::VectorXd potentials = compensation_potentials(index.linearised(robot));
+  const Eigen::VectorXd potentials = compensation_potentials(index.linearized(robot));
   ASSERT_EQ(potentials.size(), 2);
   EXPECT_NEAR(potentials[0], expected_first, 1e-9 * expected_first);
   EXPECT_NEAR(potentials[1], expected_second, 1e-9 * expected_second);
@@ -221,11 +221,11 @@ TEST(DistalStep, IsNotTakenWhereTheExactIndexWouldRise) {
   const double before = outcome.index_mm2;
   const JointTraining& training = preparation.training.front();
   const JointCorrection wrong(parse("-0.002 * SIN(theta)"), training.branch, training.range_rad);
-  EXPECT_FALSE(take_correction(index, training, wrong, 1, outcome));
+  EXPECT_FALSE(accept_correction(index, training, wrong, 1, outcome));
   EXPECT_TRUE(outcome.robot.corrections[0].is_neutral());
   EXPECT_EQ(outcome.index_mm2, before);
   const JointCorrection right(parse(kDistalErrors[0]), training.branch, training.range_rad);
-  EXPECT_TRUE(take_correction(index, training, right, 2, outcome));
+  EXPECT_TRUE(accept_correction(index, training, right, 2, outcome));
   EXPECT_LT(outcome.index_mm2, before);
   ASSERT_EQ(outcome.steps.size(), 1U);
   EXPECT_EQ(outcome.steps.front().joint, 0);

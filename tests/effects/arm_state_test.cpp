@@ -45,7 +45,7 @@ TEST(ArmState, HasEachJointsAxisAlongZOfItsPlace) {
     const ArmState state = arm_state(robot, stop);
     const Jacobian jacobian = joint_jacobian(robot.chain, stop.joints, robot.chain.tool_m);
     for (int joint = 0; joint < 6; ++joint) {
-      const bool revolute = robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+      const bool revolute = is_revolute(robot.chain, joint);
       const PoseError twist =
           twist_of({0, joint, revolute ? 5 : 2, 1.0}, state, Eigen::Isometry3d::Identity(), state.payload_point_m);
       EXPECT_LT((twist - jacobian.col(joint)).norm(), 1e-12) << "joint " << joint + 1;

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "effects/effect.hpp"
+#include "effects/catalogue.hpp"
 #include "laden_arm.hpp"
 
 namespace demecal {
@@ -139,7 +139,7 @@ TEST(Catalogue, SettingsAndFormsAreThoseOfTheirLaw) {
     if (!effect.form.empty()) {
       EXPECT_THAT(law.forms(), Contains(effect.form));
     }
-    EXPECT_EQ(law.of_joint(), effect.joint >= 0);
+    EXPECT_EQ(law.subject() == Subject::joint, effect.joint >= 0);
     EXPECT_LT(effect.joint, robot.chain.size());
     for (const int joint : law.ranged_joints(effect, robot)) {
       EXPECT_GE(joint, 0);
@@ -213,7 +213,7 @@ TEST(Catalogue, FormulasNameTheJointAndEveryValue) {
       effect.values.push_back((i % 2 == 0 ? 2e-4 : -2e-4) * static_cast<double>(i + 1));
     }
     const std::string formula = law.formula(effect, robot);
-    if (law.of_joint()) {
+    if (law.subject() == Subject::joint) {
       EXPECT_THAT(formula, HasSubstr(std::to_string(effect.joint + 1) + " ="));
     }
     EXPECT_THAT(formula, HasSubstr(" = "));
@@ -235,7 +235,7 @@ TEST(Catalogue, DiagnosesAreSentencesWithNumbersAndUnits) {
     EXPECT_THAT(diagnosis, EndsWith("."));
     EXPECT_THAT(diagnosis,
                 AnyOf(HasSubstr("mm"), HasSubstr("mrad"), HasSubstr("ppm"), HasSubstr("rad/m"), HasSubstr("m/rad")));
-    if (law.of_joint()) {
+    if (law.subject() == Subject::joint) {
       EXPECT_THAT(diagnosis, AnyOf(HasSubstr("oint " + std::to_string(effect.joint + 1)),
                                    HasSubstr("Link " + std::to_string(effect.joint + 1))));
     }
@@ -252,6 +252,25 @@ TEST(Catalogue, SpeaksOfBacklashAsEngineersDo) {
   EXPECT_EQ(law_of(effect).formula(effect, robot), "dq2 = -0.0005 rad s2");
   EXPECT_EQ(law_of(effect).diagnosis(effect, robot),
             "Joint 2 stops 0.5 mrad (103 arcsec) short on either side of where it is sent: lost motion in its gear.");
+}
+
+TEST(LikelyCauses, AreTheKindsOfTheCatalogueAndNoOthers) {
+  for (const EffectLaw* const law : catalogue()) EXPECT_LT(rarity(law->kind()), causes().size()) << law->kind();
+  EXPECT_EQ(causes().size(), catalogue().size());
+  for (const Cause& cause : causes()) {
+    EXPECT_NE(find_law(cause.kind), nullptr) << cause.kind;
+    EXPECT_EQ(&cause_of(cause.kind), &cause) << cause.kind;
+    EXPECT_FALSE(cause.words.empty()) << cause.kind;
+    EXPECT_GT(cause.largest_turn_rad, 0.0) << cause.kind;
+    EXPECT_GT(cause.largest_shift_m, 0.0) << cause.kind;
+  }
+}
+
+TEST(LikelyCauses, BeginWithTheLinksAndEndWithTheInstrument) {
+  EXPECT_EQ(rarity("geometry"), 0u);
+  EXPECT_EQ(rarity("sensor_scale") + 1, causes().size());
+  EXPECT_LT(rarity("backlash"), rarity("hysteresis"));
+  EXPECT_EQ(rarity("no such kind"), causes().size());
 }
 
 }  // namespace

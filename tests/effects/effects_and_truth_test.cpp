@@ -34,7 +34,7 @@ std::vector<Twin> gear_twins(int i, int other) {
   return {
       {valued("joint_offset", i, {}, {2e-4}),
        [=](Scenario& s) {
-         const bool revolute = s.robot.chain.joints[static_cast<std::size_t>(i)].type == JointType::revolute;
+         const bool revolute = is_revolute(s.robot.chain, i);
          s.geometry = {{i, revolute ? LinkParameter::theta : LinkParameter::d, 2e-4}};
        }},
       {valued("gain", i, {}, {1e-4}),

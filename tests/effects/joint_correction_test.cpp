@@ -1,5 +1,5 @@
 // A joint's correction: neutral by default, held beyond its range, one-valued across the branch, with its slope.
-#include "effects/joint_correction.hpp"
+#include "effects/corrected_robot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/displacement.hpp"
+#include "effects/corrected_robot.hpp"
 #include "effects/random_robot.hpp"
 #include "expression/text.hpp"
 

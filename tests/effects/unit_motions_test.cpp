@@ -2,9 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "effects/sampled_states.hpp"
 #include "effects/weight_parts.hpp"
-#include "kinematics/elementary.hpp"
+#include "kinematics/chain.hpp"
 #include "laden_arm.hpp"
 
 namespace demecal {
@@ -39,8 +38,7 @@ Eigen::Isometry3d walk_moved(const Effect& effect, const Robot& robot, const Arm
     for (const Elementary& transform : elementary_transforms(robot.chain.convention)) {
       if (transform.parameter == LinkParameter::theta) move(joint, frame);
       const Joint& link = robot.chain.joints[static_cast<std::size_t>(joint)];
-      const bool moves =
-          transform.parameter == (link.type == JointType::revolute ? LinkParameter::theta : LinkParameter::d);
+      const bool moves = transform.parameter == moving_parameter(link);
       advance(frame, transform, link.parameter(transform.parameter) + (moves ? state.joints()[joint] : 0.0));
     }
   }

@@ -1,5 +1,5 @@
 // Guesses of the base: no orientation is far from all of them.
-#include "fitting/base_candidates.hpp"
+#include "fitting/base_search.hpp"
 
 #include <gtest/gtest.h>
 

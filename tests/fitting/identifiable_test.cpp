@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fitting/known_arm.hpp"
-#include "fitting/triangular_factor.hpp"
+#include "fitting/row_sums.hpp"
 
 namespace demecal {
 namespace {
@@ -51,7 +51,7 @@ TEST(Identifiable, SplitsARandomJacobianByItsRank) {
   for (int rank = 1; rank <= 6; ++rank) {
     const Eigen::MatrixXd jacobian = random_matrix(stream, 6, rank) * random_matrix(stream, rank, 6);
     const auto ids = some_links(6);
-    const Identifiable seen = identifiable_subspace(Effects(jacobian), ids, 1e-9);
+    const IdentifiableSubspace seen = identifiable_subspace(ScaledJacobian(jacobian), ids, 1e-9);
     ASSERT_EQ(seen.basis.cols(), rank);
     EXPECT_EQ(seen.held.size(), static_cast<std::size_t>(6 - rank));
     const Eigen::MatrixXd image = jacobian * seen.basis;
@@ -63,7 +63,7 @@ TEST(Identifiable, HoldsAParameterWithoutEffectThoughRoundingGivesItSome) {
   RandomStream stream{63};
   Eigen::MatrixXd jacobian = random_matrix(stream, 10, 3);
   jacobian.col(1) *= 1e-17;
-  const Identifiable seen = identifiable_subspace(Effects(jacobian), some_links(3), 1e-9);
+  const IdentifiableSubspace seen = identifiable_subspace(ScaledJacobian(jacobian), some_links(3), 1e-9);
   ASSERT_EQ(seen.held.size(), 1u);
   EXPECT_EQ(seen.held[0].sentence(), "joint 2 theta_deg does not show in these poses");
 }

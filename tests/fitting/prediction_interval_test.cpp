@@ -1,5 +1,5 @@
 // Quantiles of scores: what split conformal prediction promises, for every distribution and with repeats.
-#include "fitting/prediction_interval.hpp"
+#include "fitting/posterior.hpp"
 
 #include <gtest/gtest.h>
 

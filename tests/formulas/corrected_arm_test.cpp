@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/random_effects.hpp"
-#include "formulas/symbolic_laws.hpp"
+#include "effects/symbolic_state.hpp"
 #include "symbolic/values.hpp"
 
 namespace demecal {

@@ -1,5 +1,5 @@
 // Damped least squares: a minimum of what it says, position first, and small motions at singularities.
-#include "kinematics/damped_least_squares.hpp"
+#include "kinematics/inverse.hpp"
 
 #include <gtest/gtest.h>
 

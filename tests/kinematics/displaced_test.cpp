@@ -1,5 +1,5 @@
 // Arms whose places have moved: against products of matrices, and every unit's twist against differences.
-#include "kinematics/displaced.hpp"
+#include "kinematics/forward.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(Displaced, ArmsThatDoNotMoveStandAsEverToTheBit) {
   const PlaceMotions none = PlaceMotions::Zero(6, 8);
   EXPECT_EQ(forward(chain, q, none).matrix(), forward(chain, q).matrix());
   const Eigen::Vector3d point_m{0.1, 0.2, 0.3};
-  EXPECT_EQ(differential_kinematics(chain, q, point_m, none).at.links,
+  EXPECT_EQ(differential_kinematics(chain, q, point_m, none).kinematics.links,
             differential_kinematics(chain, q, point_m).links);
 }
 
@@ -80,7 +80,7 @@ TEST(Displaced, ArmsHaveTheJacobiansThatDifferencesShow) {
     for (int joint = 0; joint < 6; ++joint) {
       const JointVector step = kStep * JointVector::Unit(6, joint);
       const PoseError slope = pose_error(pose(q - step, motions), pose(q + step, motions)) / (2 * kStep);
-      EXPECT_LT((arm.at.joints.col(joint) - slope).norm(), 1e-8);
+      EXPECT_LT((arm.kinematics.joints.col(joint) - slope).norm(), 1e-8);
     }
     for (int place = 0; place <= 6; ++place) {
       for (int axis = 0; axis < 6; ++axis) {

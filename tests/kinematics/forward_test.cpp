@@ -52,9 +52,9 @@ Eigen::Affine3d product_of_exponentials(const Chain& chain, const JointVector& q
     const Sides link = sides(joint, chain.convention);
     zero_pose = zero_pose * link.before;
     const Eigen::Vector3d axis = zero_pose.linear().col(2), point = zero_pose.translation();
-    motion = motion * (joint.type == JointType::prismatic ? translation(q[i], axis)
-                                                          : Eigen::Affine3d(Eigen::Translation3d(point)) *
-                                                                rotation(q[i], axis) * Eigen::Translation3d(-point));
+    motion = motion * (!is_revolute(joint) ? translation(q[i], axis)
+                                           : Eigen::Affine3d(Eigen::Translation3d(point)) * rotation(q[i], axis) *
+                                                 Eigen::Translation3d(-point));
     zero_pose = zero_pose * link.after;
   }
   return motion * zero_pose;
@@ -95,7 +95,7 @@ TEST(Forward, IsTheProductOfTheThesisMatrices) {
     Eigen::Matrix4d product = Eigen::Matrix4d::Identity();
     for (int i = 0; i < joints; ++i) {
       const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
-      const bool revolute = joint.type == JointType::revolute;
+      const bool revolute = is_revolute(joint);
       product = product * thesis_matrix(joint.theta_rad + (revolute ? q[i] : 0), joint.d_m + (revolute ? 0 : q[i]),
                                         joint.a_m, joint.alpha_rad);
     }

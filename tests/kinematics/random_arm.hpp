@@ -35,7 +35,7 @@ inline Chain random_arm(RandomStream& stream, int joints, Convention convention,
     joint.a_m = stream.real(0.1, 0.5);
     joint.alpha_rad = stream.real(-kPi, kPi);
     joint.beta_rad = stream.real(-0.5, 0.5);
-    joint.upper = joint.type == JointType::revolute ? kPi : 0.5;
+    joint.upper = is_revolute(joint) ? kPi : 0.5;
     joint.lower = -joint.upper;
     chain.joints.push_back(joint);
   }

@@ -10,6 +10,7 @@ namespace {
 std::string library_of(const std::string& header) {
   static const std::map<std::string, std::string> libraries = {{"Eigen/", "Eigen3::Eigen"},
                                                                {"unsupported/Eigen/", "Eigen3::Eigen"},
+                                                               {"boost/", "Boost::headers"},
                                                                {"fmt/", "fmt::fmt"},
                                                                {"nlohmann/", "nlohmann_json::nlohmann_json"},
                                                                {"yaml-cpp/", "yaml-cpp"},

@@ -38,7 +38,7 @@ TEST(Prepared, GivesBackWhatTheArmDidInAllThreeFrames) {
 TEST(Prepared, FindsNoErrorWhereThereIsNone) {
   RandomStream stream{64, 2};
   const RawMeasurements raw = raw_of(measured_arm(stream, 10, 0.0));
-  const Statistic statistic = error_statistic(raw, prepare_measurements(raw));
+  const ErrorStatistic statistic = error_statistic(raw, prepare_measurements(raw));
   EXPECT_LT(statistic.sets.at(0).three_points->error.max_mm, 1e-6);
   EXPECT_LT(statistic.sets.at(0).best_fit->error.max_mm, 1e-6);
   EXPECT_LT(statistic.apart->max_mm, 1e-6);
@@ -48,7 +48,7 @@ TEST(Prepared, ShowsThatTheThreePointFrameCarriesTheErrorOfItsPoints) {
   RandomStream stream{64, 3};
   RawMeasurements raw = raw_of(measured_arm(stream, 40, 1e-3));
   raw.local_frame->in_instrument_m[2] += Eigen::Vector3d(0, 0, 4e-3);
-  const Statistic statistic = error_statistic(raw, prepare_measurements(raw));
+  const ErrorStatistic statistic = error_statistic(raw, prepare_measurements(raw));
   const SetStatistic& set = statistic.sets.at(0);
   EXPECT_GT(set.three_points->error.rms_mm, set.best_fit->error.rms_mm + 0.3);
   EXPECT_GT(statistic.apart->max_mm, 1.0);

@@ -51,7 +51,7 @@ TEST(EffectEntry, ComesBackFromJsonTheSameForEveryKindOfTheCatalogue) {
   RandomStream random{833};
   const Robot robot = made_up_arm();
   for (const EffectLaw* const law : catalogue()) {
-    Effect effect{.kind = std::string(law->kind()), .joint = law->of_joint() ? 2 : -1, .settings = {}};
+    Effect effect{.kind = std::string(law->kind()), .joint = law->subject() == Subject::joint ? 2 : -1, .settings = {}};
     for (const std::string& setting : law->settings()) effect.settings[setting] = 1.0;
     for (std::size_t i = law->coefficients(effect, robot).size(); i > 0; --i) {
       effect.values.push_back(random.real(-1e-3, 1e-3));

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "effects/displacement.hpp"
+#include "effects/corrected_robot.hpp"
 #include "fitting/least_squares.hpp"
 #include "measured_arm.hpp"
 

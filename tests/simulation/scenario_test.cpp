@@ -24,7 +24,7 @@ TEST(Scenario, RefusesWhatContradictsItselfAndNamesTheKey) {
        [](Scenario& s) {
          s.geometry = {{-1, LinkParameter::a, 0.1}};
        }},
-      {"couplings",
+      {"coupling",
        [](Scenario& s) {
          s.couplings = {{0, 5, 0.1}};
        }},

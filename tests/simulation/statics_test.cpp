@@ -1,12 +1,11 @@
 // Gravity on the joints: by hand for a planar arm, and as the fall of potential energy for random arms.
-#include "simulation/statics.hpp"
+#include "simulation/stance.hpp"
 
 #include <gtest/gtest.h>
 
 #include "kinematics/forward.hpp"
 #include "planar_arm.hpp"
 #include "random/random_stream.hpp"
-#include "simulation/stance.hpp"
 
 namespace demecal {
 namespace {
@@ -99,7 +98,7 @@ TEST(Stance, WithoutTiltsEndsWhereForwardKinematicsDoes) {
     for (int joint = 0; joint < 6; ++joint) {
       const auto i = static_cast<std::size_t>(joint);
       const Eigen::Vector3d axis = stance.axes[i].linear().col(2);
-      const bool revolute = robot.chain.joints[i].type == JointType::revolute;
+      const bool revolute = is_revolute(robot.chain.joints[i]);
       const Eigen::Vector3d lever = tool_position(robot.chain, q) - stance.axes[i].translation();
       const Eigen::Vector3d moves = revolute ? axis.cross(lever) : axis;
       ASSERT_TRUE(jacobian.col(joint).head<3>().isApprox(moves, 1e-10)) << "trial " << trial;

@@ -1,0 +1,165 @@
+// Links that are not as drawn, and that bend under weight.
+#include <algorithm>
+#include <cmath>
+
+#include "effects/effect.hpp"
+#include "effects/law_terms.hpp"
+#include "effects/symbolic_state.hpp"
+#include "effects/weight_parts.hpp"
+
+namespace demecal {
+namespace {
+
+/// The frame in which the link's transform `parameter` acts, from where the link begins.
+SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter parameter) {
+  const Chain& chain = writer.robot().chain;
+  const Joint& link = chain.joints[static_cast<std::size_t>(writer.effect.joint)];
+  SymbolicFrame frame(writer.state.algebra());
+  for (const Elementary& transform : elementary_transforms(chain.convention)) {
+    if (transform.parameter == parameter) break;
+    advance(frame, transform, elementary_value(link, transform.parameter, writer.own_joint()));
+  }
+  return frame;
+}
+
+/// A change of a link parameter: its transform's screw, seen from the joint's place.
+void append_symbolic_link_motion(SymbolicWriter& writer, int coefficient, LinkParameter parameter) {
+  const auto& transforms = elementary_transforms(writer.robot().chain.convention);
+  const Elementary transform = *std::ranges::find(transforms, parameter, &Elementary::parameter);
+  const SymbolicFrame seen =
+      seen_from(symbolic_frame_before(writer, LinkParameter::theta), symbolic_frame_before(writer, parameter));
+  const SymbolicVector& direction = seen.axes[static_cast<std::size_t>(transform.axis)];
+  const SymbolicVector shift = transform.rotates ? cross(seen.origin, direction) : direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    writer.append(coefficient, writer.effect.joint, axis, shift[i]);
+    if (transform.rotates) writer.append(coefficient, writer.effect.joint, 3 + axis, direction[i]);
+  }
+}
+
+constexpr double kParallel_rad = 0.02;
+
+struct FreeParameter {
+  LinkParameter parameter;
+  std::string symbol;
+  std::string unit;
+};
+
+/// What of a link is free beside its joint's offset: d, a and alpha, beta in place of d between near-parallel axes; of
+/// a prismatic joint, which has a direction but no place, two angles.
+std::vector<FreeParameter> free_parameters_of(const Robot& robot, int joint) {
+  const bool parallel = leads_between_parallels(robot.chain, joint, kParallel_rad);
+  const FreeParameter beta{LinkParameter::beta, "beta", "rad"}, alpha{LinkParameter::alpha, "alpha", "rad"};
+  if (!is_revolute(robot.chain, joint))
+    return {parallel ? beta : FreeParameter{LinkParameter::theta, "theta", "rad"}, alpha};
+  return {parallel ? beta : FreeParameter{LinkParameter::d, "d", "m"}, {LinkParameter::a, "a", "m"}, alpha};
+}
+
+/// A link that is not as drawn.
+class GeometryLaw final : public EffectLaw {
+ public:
+  std::string_view kind() const override { return "geometry"; }
+  std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override {
+    std::vector<CoefficientLabel> labels;
+    for (const FreeParameter& free : free_parameters_of(robot, effect.joint))
+      labels.push_back({free.symbol + '_' + free.unit, free.unit});
+    return labels;
+  }
+  void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                    std::vector<UnitMotion>& motions) const override {
+    int coefficient = 0;
+    for (const FreeParameter& free : free_parameters_of(robot, effect.joint)) {
+      append_link_motion(robot.chain, effect.joint, state.joints()[effect.joint], free.parameter, coefficient++, 1.0,
+                         motions);
+    }
+  }
+  std::vector<Effect> proposals(const Robot& robot, const Evidence& /*evidence*/) const override {
+    std::vector<Effect> effects;
+    for (int joint = 0; joint < robot.chain.size(); ++joint) effects.push_back({.kind = "geometry", .joint = joint});
+    return effects;
+  }
+  Needs needs(const Effect& /*effect*/, const Robot& /*robot*/) const override { return {}; }
+  std::string formula(const Effect& effect, const Robot& robot) const override {
+    std::vector<Equation> equations;
+    for (const FreeParameter& free : free_parameters_of(robot, effect.joint)) {
+      equations.push_back({'d' + free.symbol + std::to_string(effect.joint + 1), {{equations.size(), ""}}});
+    }
+    return write_equations(effect, robot, equations);
+  }
+  std::string diagnosis(const Effect& effect, const Robot& robot) const override {
+    std::string amounts;
+    std::size_t coefficient = 0;
+    for (const FreeParameter& free : free_parameters_of(robot, effect.joint)) {
+      const double value = effect.value(coefficient++);
+      amounts += (amounts.empty() ? "" : ", ") + free.symbol + " by " +
+                 (free.unit == "m" ? length_text(value) : angle_text(value));
+    }
+    return "Link " + std::to_string(effect.joint + 1) + " is not as drawn: " + amounts + '.';
+  }
+  void append_symbolic_motions(SymbolicWriter& writer) const override {
+    int coefficient = 0;
+    for (const FreeParameter& free : free_parameters_of(writer.robot(), writer.effect.joint)) {
+      append_symbolic_link_motion(writer, coefficient++, free.parameter);
+    }
+  }
+};
+
+const Eigen::Vector3d& moment_nm(const ArmState& state, int joint) {
+  return state.loads[static_cast<std::size_t>(joint)].moment_nm;
+}
+
+/// A bearing, and the link before it, that give way across the axis under the moment of gravity there.
+class LinkBendingLaw final : public EffectLaw {
+ public:
+  std::string_view kind() const override { return "link_bending"; }
+  std::vector<CoefficientLabel> coefficients(const Effect& /*effect*/, const Robot& /*robot*/) const override {
+    return {{"x_rad_per_nm", "rad/Nm"}, {"y_rad_per_nm", "rad/Nm"}};
+  }
+  void unit_motions(const Effect& effect, const Robot& /*robot*/, const ArmState& state,
+                    std::vector<UnitMotion>& motions) const override {
+    for (int axis = 0; axis < 2; ++axis) {
+      motions.push_back({axis, effect.joint, 3 + axis, moment_nm(state, effect.joint)[axis]});
+    }
+  }
+  std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override {
+    std::vector<Effect> effects;
+    if (!evidence.masses) return effects;
+    const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
+    for (int joint = 0; joint < robot.chain.size(); ++joint) {
+      const auto bends = [&](const ArmState& state) { return moment_nm(state, joint).head<2>().norm() > kNoLoad; };
+      if (std::ranges::any_of(states, bends)) effects.push_back({.kind = "link_bending", .joint = joint});
+    }
+    return effects;
+  }
+  Needs needs(const Effect& /*effect*/, const Robot& /*robot*/) const override { return {.masses = true}; }
+  std::string formula(const Effect& effect, const Robot& robot) const override {
+    const std::string joint = std::to_string(effect.joint + 1);
+    return write_equations(effect, robot,
+                           {{"tilt_x" + joint, {{0, "M_x" + joint}}}, {"tilt_y" + joint, {{1, "M_y" + joint}}}});
+  }
+  std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
+    return "The axis of joint " + std::to_string(effect.joint + 1) + " tilts by " + angle_text(effect.value(0)) +
+           " about its x and " + angle_text(effect.value(1)) +
+           " about its y per Nm of gravity's moment there: its bearing or the link before it bends.";
+  }
+  Circumstance prerequisite() const override { return Circumstance::masses; }
+  void append_symbolic_motions(SymbolicWriter& writer) const override {
+    const int joint = writer.effect.joint;
+    const SymbolicVector moment = gravity_moment(writer.state, joint);
+    for (int axis = 0; axis < 2; ++axis) writer.append(axis, joint, 3 + axis, moment[static_cast<std::size_t>(axis)]);
+  }
+};
+
+}  // namespace
+
+const EffectLaw& geometry_law() {
+  static const GeometryLaw law;
+  return law;
+}
+
+const EffectLaw& link_bending_law() {
+  static const LinkBendingLaw law;
+  return law;
+}
+
+}  // namespace demecal

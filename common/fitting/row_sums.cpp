@@ -1,0 +1,76 @@
+#include "fitting/row_sums.hpp"
+
+#include <Eigen/QR>
+
+namespace demecal {
+namespace {
+
+constexpr Eigen::Index kProductRows = 256, kFactorRows = 512;  // collected before they are reduced
+
+}  // namespace
+
+Information::Information(const Eigen::MatrixXd& basis)
+    : basis_(basis),
+      rows_(kProductRows, basis.rows()),
+      residuals_(kProductRows),
+      squares_(Eigen::MatrixXd::Zero(basis.cols(), basis.cols())),
+      gradient_(Eigen::VectorXd::Zero(basis.cols())) {}
+
+void Information::make_room(Eigen::Index rows) {
+  reduce();
+  if (rows <= rows_.rows()) return;
+  rows_.resize(rows, basis_.rows());
+  residuals_.resize(rows);
+}
+
+void Information::reduce() {
+  if (filled_ == 0) return;
+  if (basis_.cols() == 0) {  // products without numbers have no place in memory
+    filled_ = 0;
+    return;
+  }
+  seen_.noalias() = rows_.topRows(filled_) * basis_;
+  squares_.selfadjointView<Eigen::Lower>().rankUpdate(seen_.transpose());
+  gradient_.noalias() += seen_.transpose() * residuals_.head(filled_);
+  filled_ = 0;
+}
+
+Eigen::MatrixXd Information::squares() {
+  reduce();
+  return squares_.selfadjointView<Eigen::Lower>();
+}
+
+Eigen::VectorXd Information::gradient() {
+  reduce();
+  return gradient_;
+}
+
+TriangularFactor::TriangularFactor(int columns)
+    : stack_(Eigen::MatrixXd::Zero(columns + kFactorRows, columns)), filled_(columns) {}
+
+void TriangularFactor::add(
+    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& rows) {
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    if (filled_ == stack_.rows()) reduce();
+    stack_.row(filled_++) = rows.row(i);
+  }
+}
+
+void TriangularFactor::reduce() {
+  const Eigen::Index n = stack_.cols();
+  if (n == 0) {
+    filled_ = 0;
+    return;
+  }
+  stack_.bottomRows(stack_.rows() - filled_).setZero();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_);
+  stack_.topRows(n) = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  filled_ = n;
+}
+
+Eigen::MatrixXd TriangularFactor::factor() {
+  reduce();
+  return stack_.topRows(stack_.cols());
+}
+
+}  // namespace demecal
