@@ -14,7 +14,7 @@
 #include "errors/input_error.hpp"
 #include "hosting/worker.hpp"
 #include "manual/manual.hpp"
-#include "protocol/printable.hpp"
+#include "protocol/message_bytes.hpp"
 
 namespace {
 

@@ -14,8 +14,6 @@ constexpr int kMostSteps = 6;
 constexpr double kSmallStep = 1e-9;            // of the rows' norm: nothing is left to gain
 constexpr double kMountedOtherwise_rad = 0.1;  // orientations this far off are not of the tool that is modelled
 
-using Kind = ParameterId::Kind;
-
 /// The model: every parameter of base and tool is a coefficient of its own, every function's coefficient adds to a link
 /// parameter as the joints have it.
 class VaryingModel {
@@ -57,7 +55,7 @@ class VaryingModel {
     std::vector<ParameterId> ids = free_parameters(arm.data, arm.base_and_tool, {});
     fixed = static_cast<Eigen::Index>(ids.size());
     for (const LinkFunction& function : functions) {
-      const ParameterId id{Kind::link, function.joint, function.parameter, {}};
+      const ParameterId id{ParameterId::Kind::link, function.joint, function.parameter, {}};
       const auto known = std::ranges::find(ids, id);
       columns.push_back(known - ids.begin());
       if (known == ids.end()) ids.push_back(id);

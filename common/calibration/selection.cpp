@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "calibration/training.hpp"
-#include "evolution/brief_forms.hpp"
-#include "expression/limit.hpp"
+#include "evolution/model_archive.hpp"
+#include "expression/bound.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal {
@@ -58,7 +58,7 @@ std::vector<CorrectionTrial> evaluate_all(const PoseEvaluator& selecting, const 
 /// The trial of the briefest description; of equals the first. Null where there is none.
 const CorrectionTrial* shortest_description(const std::vector<CorrectionTrial>& trials, double rows) {
   const auto nats = [rows](const CorrectionTrial& trial) {
-    return message_nats(trial.correction.formula(), std::max(trial.sum, 1e-300), rows);
+    return description_length_nats(trial.correction.formula(), std::max(trial.sum, 1e-300), rows);
   };
   const auto best = std::ranges::min_element(trials, {}, nats);
   return best == trials.end() ? nullptr : &*best;
@@ -225,7 +225,7 @@ SquaredErrors PoseEvaluator::squared_errors(const CorrectedRobot& robot,
 }
 
 void add_short_forms(JointCandidates& candidates, const GpParameters& parameters) {
-  BriefForms forms(candidates.training.table, parameters);
+  FormulaRefiner forms(candidates.training.table, parameters);
   candidates.short_forms.clear();
   for (const Individual& individual : candidates.front) {
     candidates.short_forms.push_back(forms.simplified(individual.tree));

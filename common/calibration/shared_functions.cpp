@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "evolution/brief_forms.hpp"
-#include "evolution/function_search.hpp"
+#include "evolution/building_blocks.hpp"
+#include "evolution/model_archive.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {
@@ -15,11 +15,11 @@ constexpr std::size_t kGoodFormulas = 8;
 constexpr std::size_t kStageSeedShare = 4;  // one in so many individuals may come from the stage before
 constexpr double kLeastFitness = 1e-300;
 
-/// See message_nats(): for absolute errors the mean takes the place of the root of the mean square.
+/// See description_length_nats(): for absolute errors the mean takes the place of the root of the mean square.
 double description_nats_of_fit(const Tree& tree, double fitness, const TrainingTable& table) {
   const double weights = std::accumulate(table.weight.begin(), table.weight.end(), 0.0);
   const double mean = std::max(fitness, kLeastFitness) / weights;
-  return message_nats(tree, table.loss == Loss::squared ? mean : mean * mean, weights);
+  return description_length_nats(tree, table.loss == Loss::squared ? mean : mean * mean, weights);
 }
 
 /// The front's fittest, as many as may be.

@@ -9,7 +9,7 @@
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "effects/corrected_robot.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
 
 namespace demecal {
 

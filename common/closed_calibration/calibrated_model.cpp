@@ -17,14 +17,12 @@
 namespace demecal {
 namespace {
 
-using Kind = ParameterId::Kind;
-
 bool is_of_base(const ParameterId& id) {
-  return id.kind == Kind::base_translation || id.kind == Kind::base_rotation;
+  return id.kind == ParameterId::Kind::base_translation || id.kind == ParameterId::Kind::base_rotation;
 }
 
 bool is_of_tool(const ParameterId& id) {
-  return id.kind == Kind::tool_translation || id.kind == Kind::tool_rotation;
+  return id.kind == ParameterId::Kind::tool_translation || id.kind == ParameterId::Kind::tool_rotation;
 }
 
 /// The poses that the model's numbers come from.

@@ -40,7 +40,7 @@ std::size_t read_joint(const YamlNode& node, const Chain& chain) {
 
 std::string term_text(const CorrectionTerm& term, const Chain& chain) {
   std::string text = "{joint: " + std::to_string(term.joint + 1) +
-                     ", expression: " + yaml_text(to_text(term.shape.formula())) + ", " +
+                     ", expression: " + yaml_text(to_string(term.shape.formula())) + ", " +
                      range_text(chain.joints[static_cast<std::size_t>(term.joint)], term.shape.range_rad());
   if (term.shape.branch().wraps) text += ", branch_centre_rad: " + number_text(term.shape.branch().centre_rad);
   return text + "}";

@@ -37,7 +37,7 @@ std::string effect_text(const Effect& effect, const Robot& robot) {
   if (effect.joint >= 0) text << "    joint: " << effect.joint + 1 << '\n';
   if (!effect.form.empty()) text << "    form: " << effect.form << '\n';
   if (!effect.formula.empty()) {
-    text << "    formula: " << yaml_text(to_text(effect.formula, symbolic_variables(robot.chain))) << '\n';
+    text << "    formula: " << yaml_text(to_string(effect.formula, symbolic_variables(robot.chain))) << '\n';
   }
   for (const auto& [name, value] : effect.settings) text << "    " << name << ": " << number_text(value) << '\n';
   for (std::size_t i = 0; i < labels.size(); ++i) {

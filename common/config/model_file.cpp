@@ -7,9 +7,9 @@
 #include "config/job_file.hpp"
 #include "config/robot_file.hpp"
 #include "errors/input_error.hpp"
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "expression/tree.hpp"
 #include "kinematics/units.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
@@ -60,9 +60,9 @@ std::string correction_text(const JointSummary& summary, const JointCorrection& 
     return text.str();
   }
   const double range[] = {correction.range_rad().lower, correction.range_rad().upper};
-  text << "    expression: " << yaml_text(to_text(correction.formula())) << '\n';
+  text << "    expression: " << yaml_text(to_string(correction.formula())) << '\n';
   if (const FoldedFormula calling = folded_correction(correction, functions); !calling.calls.empty())
-    text << "    with_functions: " << yaml_text(to_text(calling)) << '\n';
+    text << "    with_functions: " << yaml_text(to_string(calling)) << '\n';
   text << "    range_rad: " << yaml_numbers(range) << '\n';
   if (correction.branch().wraps)
     text << "    branch_centre_rad: " << number_text(correction.branch().centre_rad) << '\n';

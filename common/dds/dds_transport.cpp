@@ -6,11 +6,10 @@
 #include <mutex>
 #include <utility>
 
-#include "dds/endpoints.hpp"
 #include "dds/participant.hpp"
 #include "dds/receiver.hpp"
 #include "dds/writers.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 namespace {

@@ -1,4 +1,4 @@
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 
 #include <fastrtps/utils/md5.h>
 #include <algorithm>
@@ -41,7 +41,7 @@ class MessageType final : public dds::TopicDataType {
     return true;
   }
   bool deserialize(SerializedPayload_t* payload, void* data) override {
-    of(data) = sample_of<Plain>({reinterpret_cast<const char*>(payload->data), payload->length});
+    of(data) = from_sample<Plain>({reinterpret_cast<const char*>(payload->data), payload->length});
     return true;
   }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {

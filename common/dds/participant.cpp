@@ -12,10 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dds/endpoints.hpp"
-#include "dds/participant_qos.hpp"
 #include "errors/input_error.hpp"
-#include "protocol/printable.hpp"
+#include "protocol/message_bytes.hpp"
 
 namespace demecal {
 namespace {

@@ -1,26 +1,58 @@
-// One participant in a DDS domain, and the writers and readers made from it; each is deleted by its owner's end.
+// One participant in a DDS domain, and the writers and readers made from it: how it reaches the others, and the name,
+// type and quality of service of each topic, as idl/calibration.idl states them.
 #pragma once
 
 #include <chrono>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "dds/dds_transport.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/participants.hpp"
 
 namespace demecal {
+
+/// What writers take and readers give: nothing where bytes came that are no such message, so that the reader learns who
+/// sent them. `Plain` is what travels on the topic.
+template <class Plain>
+using Sample = std::optional<Plain>;
+
+/// What is large travels in MessageParts, Progress with its place, all else as it is.
+eprosima::fastdds::dds::TypeSupport topic_type(Topic topic);
+
+/// The name on the wire; `joint` (from 0) matters for migrants alone.
+std::string topic_name(Topic topic, std::uint32_t joint = 0);
+
+eprosima::fastdds::dds::DataWriterQos writer_qos(Topic topic);
+/// As the topic's writers offer it where `reliably`, else BEST_EFFORT: what passes while one looks.
+eprosima::fastdds::dds::DataReaderQos reader_qos(Topic topic, bool reliably = true);
+
+/// A length of time as Fast DDS takes it.
+eprosima::fastrtps::Duration_t dds_duration(std::chrono::milliseconds time);
+
+/// The name of the certificate by which a role takes part: a herald publishes for its coordinator.
+std::string certificate_name(Role role);
+
+/// A worker's participant is the one that its name stands for (participant_of). Throws InputError where a peer or the
+/// discovery server is no address, or a file of the security folder is missing.
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role,
+                                                             const std::string& name);
 
 /// A participant's listener, called on Fast DDS's threads. A sentence goes to standard error for each participant with
 /// which this one does not talk because of certificates; from a herald none, since its coordinator logs the same.

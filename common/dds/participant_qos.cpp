@@ -1,4 +1,4 @@
-#include "dds/participant_qos.hpp"
+#include "dds/participant.hpp"
 
 #include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dds/endpoints.hpp"
 #include "errors/input_error.hpp"
 #include "transport/participants.hpp"
 

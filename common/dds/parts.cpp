@@ -15,7 +15,7 @@ std::string_view bytes_of(const MessagePart& part) {
   return {reinterpret_cast<const char*>(part.bytes.data()), part.bytes.size()};
 }
 
-/// Whether it can be a part of a message as parts_of() makes them.
+/// Whether it can be a part of a message as split_into_parts() makes them.
 bool is_sound(const MessagePart& part) {
   if (part.count > kMostParts || part.index >= part.count) return false;
   const bool is_last = part.index + 1 == part.count;
@@ -30,7 +30,7 @@ std::uint32_t turn_of(const Message& message) {
 
 }  // namespace
 
-std::vector<MessagePart> parts_of(std::string_view bytes, std::uint32_t place, std::uint64_t number) {
+std::vector<MessagePart> split_into_parts(std::string_view bytes, std::uint32_t place, std::uint64_t number) {
   const auto count =
       static_cast<std::uint32_t>(std::max<std::size_t>(1, (bytes.size() + kPart_bytes - 1) / kPart_bytes));
   std::vector<MessagePart> parts(count);
@@ -54,7 +54,7 @@ MessagePart vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t 
   return part;
 }
 
-Assembly::Result Assembly::take(const WriterId& writer, MessagePart part) {
+MessageAssembler::Result MessageAssembler::take(const WriterId& writer, MessagePart part) {
   gone_.erase(writer);
   const Place place{writer, part.place};
   const auto known = unfinished_.find(place);
@@ -65,7 +65,7 @@ Assembly::Result Assembly::take(const WriterId& writer, MessagePart part) {
   return add(place, std::move(part));
 }
 
-Assembly::Result Assembly::add(const Place& place, MessagePart part) {
+MessageAssembler::Result MessageAssembler::add(const Place& place, MessagePart part) {
   const auto [known, is_new] = unfinished_.try_emplace(place);
   Unfinished& message = known->second;
   std::size_t& kept = bytes_[participant_of(place.first)];
@@ -92,14 +92,14 @@ Assembly::Result Assembly::add(const Place& place, MessagePart part) {
   return whole;
 }
 
-void Assembly::forget(Places::iterator unfinished) {
+void MessageAssembler::forget(UnfinishedMessages::iterator unfinished) {
   const auto kept = bytes_.find(participant_of(unfinished->first.first));
   kept->second -= unfinished->second.bytes;
   if (kept->second == 0) bytes_.erase(kept);
   unfinished_.erase(unfinished);
 }
 
-void Assembly::departed(const WriterId& writer, Time now) {
+void MessageAssembler::departed(const WriterId& writer, Time now) {
   gone_[writer] = now;
   std::erase_if(gone_, [&](const auto& gone) {
     if (now - gone.second < kLongestAbsence) return false;
@@ -108,7 +108,7 @@ void Assembly::departed(const WriterId& writer, Time now) {
   });
 }
 
-void Assembly::forget_all_of(const WriterId& writer) {
+void MessageAssembler::forget_all_of(const WriterId& writer) {
   while (true) {
     const auto first = unfinished_.lower_bound({writer, 0});
     if (first == unfinished_.end() || first->first.first != writer) return;
@@ -116,7 +116,7 @@ void Assembly::forget_all_of(const WriterId& writer) {
   }
 }
 
-std::uint32_t Places::place_of(const Message& message) {
+std::uint32_t PlaceAllocator::place_of(const Message& message) {
   const TopicKey key = key_of(message);
   auto& of_run = taken_[key.run];
   const auto [known, is_new] = of_run.try_emplace({key, turn_of(message)}, count_);
@@ -127,7 +127,7 @@ std::uint32_t Places::place_of(const Message& message) {
   return known->second;
 }
 
-std::vector<std::uint32_t> Places::vacate(RunId run) {
+std::vector<std::uint32_t> PlaceAllocator::vacate(RunId run) {
   std::vector<std::uint32_t> places;
   const auto of_run = taken_.find(run);
   if (of_run == taken_.end()) return places;

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/participants.hpp"
 
 namespace demecal {
@@ -20,18 +20,18 @@ namespace demecal {
 inline constexpr std::size_t kPart_bytes = 60'000;
 
 /// At least one part; `number` is the message's, above those of all before it.
-std::vector<MessagePart> parts_of(std::string_view bytes, std::uint32_t place, std::uint64_t number);
+std::vector<MessagePart> split_into_parts(std::string_view bytes, std::uint32_t place, std::uint64_t number);
 /// What takes the place of a part when its message is withdrawn.
 MessagePart vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t number);
 
 /// Messages of which parts have come, of any number of writers. A writer's parts are to be handed over in the order in
 /// which it wrote them.
-class Assembly {
+class MessageAssembler {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   /// What is kept of one participant's unfinished messages stays below about so many bytes.
-  explicit Assembly(std::size_t most_bytes = 128 << 20) : most_bytes_(most_bytes) {}
+  explicit MessageAssembler(std::size_t most_bytes = 128 << 20) : most_bytes_(most_bytes) {}
 
   enum class Verdict { waits, whole, malformed, too_much };
   struct Result {
@@ -52,20 +52,20 @@ class Assembly {
     std::size_t missing = 0;
     std::size_t bytes = 0;
   };
-  using Places = std::map<Place, Unfinished>;
+  using UnfinishedMessages = std::map<Place, Unfinished>;
 
   Result add(const Place& place, MessagePart part);
-  void forget(Places::iterator unfinished);
+  void forget(UnfinishedMessages::iterator unfinished);
   void forget_all_of(const WriterId& writer);
 
   std::size_t most_bytes_;
-  Places unfinished_;
+  UnfinishedMessages unfinished_;
   std::map<ParticipantId, std::size_t> bytes_;  ///< kept of each participant's
   std::map<WriterId, Time> gone_;               ///< since when
 };
 
 /// The places of one writer (idl/calibration.idl).
-class Places {
+class PlaceAllocator {
  public:
   /// Where a message is published: the place of what it replaces, or the least that is free.
   std::uint32_t place_of(const Message& message);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "protocol/message_bytes.hpp"
 
@@ -130,19 +130,19 @@ class PartsReceiver : public Delivery {
  private:
   void take(Sample<MessagePart> part, const WriterId& writer) {
     if (!part) return reject(writer, "it cannot be read");
-    Assembly::Result result;
+    MessageAssembler::Result result;
     {
       const std::lock_guard lock(mutex_);
       result = assembly_.take(writer, std::move(*part));
     }
-    using enum Assembly::Verdict;
-    if (result.verdict == whole) return deliver(message_of<Plain>(result.bytes), writer);
+    using enum MessageAssembler::Verdict;
+    if (result.verdict == whole) return deliver(from_bytes<Plain>(result.bytes), writer);
     if (result.verdict == malformed) return reject(writer, "it cannot be read");
     if (result.verdict == too_much) reject(writer, "more than can be kept");
   }
 
   std::mutex mutex_;
-  Assembly assembly_;
+  MessageAssembler assembly_;
 };
 
 class ProgressReceiver : public Delivery {

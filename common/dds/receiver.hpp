@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/mailbox.hpp"
 #include "transport/participants.hpp"
 #include "transport/run_owners.hpp"

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "errors/check.hpp"
 #include "protocol/message_bytes.hpp"
@@ -77,7 +77,7 @@ void DdsWriters::send(const Message& message) {
 }
 
 void DdsWriters::write_parts(Writer& own, std::uint32_t place, std::string_view bytes) {
-  std::vector<MessagePart> parts = parts_of(bytes, place, ++number_);
+  std::vector<MessagePart> parts = split_into_parts(bytes, place, ++number_);
   std::uint32_t& used = own.parts[place];
   used = std::max(used, static_cast<std::uint32_t>(parts.size()));
   for (MessagePart& part : parts) publish(*own.dds, std::move(part));

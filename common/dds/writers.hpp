@@ -13,7 +13,7 @@
 
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 
@@ -44,7 +44,7 @@ class DdsWriters {
   using Time = std::chrono::steady_clock::time_point;
   struct Writer {
     Owned<eprosima::fastdds::dds::DataWriter> dds;
-    Places places;
+    PlaceAllocator places;
     std::map<std::uint32_t, std::uint32_t> parts;  ///< of each place, those that were ever used
   };
 

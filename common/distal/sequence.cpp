@@ -4,7 +4,7 @@
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/selection.hpp"
+#include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
 #include "random/random_purpose.hpp"
 

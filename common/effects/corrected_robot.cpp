@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/differentiate.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/simplify.hpp"
 #include "kinematics/inverse.hpp"
 
 namespace demecal {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "effects/arm_state.hpp"
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
 

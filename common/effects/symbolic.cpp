@@ -112,7 +112,7 @@ class SymbolicLaw final : public EffectLaw {
 
  private:
   static std::string formula_text(const Effect& effect, const Robot& robot) {
-    return to_text(effect.formula, symbolic_variables(robot.chain));
+    return to_string(effect.formula, symbolic_variables(robot.chain));
   }
 };
 

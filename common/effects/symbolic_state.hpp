@@ -7,7 +7,7 @@
 
 #include "effects/weight_parts.hpp"
 #include "kinematics/chain.hpp"
-#include "symbolic/matrix.hpp"
+#include "symbolic/parse_expression.hpp"
 
 namespace demecal {
 

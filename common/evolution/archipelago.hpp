@@ -1,9 +1,11 @@
-// The islands of a job and the ways elites travel between them.
+// The islands of a job, the ways elites travel between them, and what sets the islands of a joint apart.
 #pragma once
 
 #include <compare>
 #include <cstdint>
 #include <vector>
+
+#include "evolution/parameters.hpp"
 
 namespace demecal {
 
@@ -28,7 +30,7 @@ struct Archipelago {
   bool between_joints = false;            ///< whether deme d of one joint also feeds deme d of the next joint
   bool asynchronous = false;              ///< whether islands take what migrants are there and wait for none
   Replacement replacement = Replacement::worst;
-  double spread = 0.0;  ///< how far the parameters of a joint's islands lie apart, 0 to 1: see parameters_of()
+  double spread = 0.0;  ///< how far the parameters of a joint's islands lie apart, 0 to 1: see island_parameters()
 
   bool operator==(const Archipelago&) const = default;
 };
@@ -43,5 +45,10 @@ std::vector<IslandKey> sources(const Archipelago& archipelago, IslandKey island)
 
 /// The islands that take in what `island` sends, by joint, then deme.
 std::vector<IslandKey> consumers(const Archipelago& archipelago, IslandKey island);
+
+/// Without a spread the parameters as they are. With one, the first island of a joint explores and the last one
+/// exploits: from 1 + spread times to 1 - spread times the mutation rate, and the other way round the tournament size
+/// and the shrink mutation rate, in equal steps between; each as far as its rules allow. An island alone has the mean.
+GpParameters island_parameters(const GpParameters& parameters, const Archipelago& archipelago, std::uint32_t deme);
 
 }  // namespace demecal

@@ -1,18 +1,63 @@
-// One generation from the one before: elitism, selection, variation and evaluation (thesis 3.2.2 to 3.3.4).
+// One generation from the one before: elitism, selection, variation, evaluation and learning (thesis 3.2.2 to 3.3.4).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "evolution/constant_learning.hpp"
+#include "evolution/constant_fit.hpp"
+#include "evolution/fitness.hpp"
 #include "evolution/parameters.hpp"
-#include "evolution/safe_formulas.hpp"
-#include "evolution/shared_fitness.hpp"
-#include "evolution/shared_population.hpp"
 #include "evolution/variation.hpp"
+#include "expression/node_store.hpp"
+#include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
+
+/// fitness[i] is that of models[i]: of roots[i] itself or, where fitted constants are not inherited, of what roots[i]
+/// was fitted to; models[i] is 0 where that is no longer known.
+struct SharedPopulation {
+  std::vector<NodeId> roots;
+  std::vector<double> fitness;
+  std::vector<NodeId> models;
+};
+
+/// Fits the individuals of one store's generations. Which are fitted, and what comes out, is a function of table,
+/// parameters and the generation at hand, not of what was fitted before.
+class ConstantLearning {
+ public:
+  ConstantLearning(const TrainingTable& table, const GpParameters& parameters);
+
+  bool is_on() const { return is_on_; }
+  /// Individual i of the population fitted, whatever the share.
+  void learn(NodeStore& store, SharedPopulation& population, std::size_t i);
+  /// Offspring that equal a parent take over what it knew. Of the others, the fittest constant_share of a population
+  /// are fitted; of equally fit ones those that come first.
+  void learn(NodeStore& store, const SharedPopulation& parents, SharedPopulation& offspring);
+
+  /// Forgets all fits: numbers of the store have new meanings.
+  void forget();
+  std::uint64_t fits() const { return fits_; }  ///< made so far, those remembered not counted
+
+ private:
+  struct Known {
+    FittedFormula fitted;
+    std::uint64_t parent_of = 0;  ///< the last generation in which this was a parent, and which one
+    std::uint32_t parent = 0;
+    bool is_fitted = false;
+  };
+  void choose(const SharedPopulation& offspring);
+
+  ConstantFit fit_;
+  bool is_on_, is_inherited_;
+  double share_;
+  std::vector<Known> known_;  ///< by node
+  std::vector<std::size_t> chosen_;
+  std::uint64_t generation_ = 0;
+  std::uint64_t fits_ = 0;
+};
 
 /// Breeds generations, keeping the formulas, what is known of them and its memory. Elitism 1: the fittest parent comes
 /// first, unchanged. All others are made in pairs by parents from two tournaments. CROSSOVER_RATE and MUTATION_RATE are
@@ -31,7 +76,7 @@ class Breeder {
   NodeId enter(const Tree& tree) { return store_.enter(tree); }
   double fitness(NodeId root);
   /// Has a formula of the store take place i, and learn what constants it is fitted with, whatever the share.
-  void settle(NodeId root, SharedPopulation& population, std::size_t i);
+  void replace(NodeId root, SharedPopulation& population, std::size_t i);
   /// Whether a formula of the store surely keeps to the table's limit.
   bool limits() const { return is_safe_.is_on(); }  ///< whether there is one
   bool is_safe(NodeId root) { return is_safe_(store_, root); }

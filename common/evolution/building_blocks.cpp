@@ -7,15 +7,16 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/argument_order.hpp"
+#include "expression/primitive.hpp"
 #include "expression/simplify.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {
 
 const Node kConstant{Primitive::variable, 0, 0.0};
 
-bool is_constant(const Tree& form) {
+bool is_unknown_constant(const Tree& form) {
   return form == Tree{kConstant};
 }
 
@@ -27,26 +28,26 @@ bool holds_constant(const Tree& form, Primitive function) {
 
 /// Of two arguments in canonical form.
 Tree joined(Primitive function, Tree a, Tree b) {
-  if (is_constant(a) && is_constant(b)) return a;
-  if (is_constant(b) && function == Primitive::subtract) function = Primitive::add;
-  if (is_constant(b) && function == Primitive::divide) function = Primitive::multiply;
+  if (is_unknown_constant(a) && is_unknown_constant(b)) return a;
+  if (is_unknown_constant(b) && function == Primitive::subtract) function = Primitive::add;
+  if (is_unknown_constant(b) && function == Primitive::divide) function = Primitive::multiply;
   if (!is_commutative(function)) return apply(function, a, b);
-  if (is_constant(a) && holds_constant(b, function)) return b;
-  if (is_constant(b) && holds_constant(a, function)) return a;
+  if (is_unknown_constant(a) && holds_constant(b, function)) return b;
+  if (is_unknown_constant(b) && holds_constant(a, function)) return a;
   return apply_in_order(function, a, b);
 }
 
-/// Of the subtree that begins at `at`, which is moved behind it.
-Tree form_from(const Tree& formula, std::size_t& at) {
-  const Node& node = formula[at++];
+/// Of the subtree that begins at `position`, which is moved behind it.
+Tree form_from(const Tree& formula, std::size_t& position) {
+  const Node& node = formula[position++];
   if (node.primitive == Primitive::constant) return {kConstant};
   if (node.primitive == Primitive::variable) {
     DEMECAL_CHECK(node.variable < 255, "a formula of more than 254 variables");
     return variable_tree(static_cast<std::uint8_t>(node.variable + 1));
   }
-  Tree first = form_from(formula, at);
-  if (arity(node.primitive) == 1) return is_constant(first) ? first : apply(node.primitive, std::move(first));
-  Tree second = form_from(formula, at);
+  Tree first = form_from(formula, position);
+  if (arity(node.primitive) == 1) return is_unknown_constant(first) ? first : apply(node.primitive, std::move(first));
+  Tree second = form_from(formula, position);
   return joined(node.primitive, std::move(first), std::move(second));
 }
 
@@ -55,7 +56,7 @@ bool is_block(std::span<const Node> form) {
 }
 
 /// What is known of a form.
-struct Holders {
+struct FormOccurrences {
   std::set<std::uint32_t> joints;
   std::size_t islands = 0, individuals = 0;
   double rank_shares = 0.0;
@@ -63,7 +64,7 @@ struct Holders {
   std::map<Tree, std::size_t, Precedes>
       individuals_within;  ///< next larger forms, and how many individuals have it there
 };
-using Forms = std::map<Tree, Holders, Precedes>;
+using Forms = std::map<Tree, FormOccurrences, Precedes>;
 
 /// Every block of a canonical form, and the forms it stands in directly.
 std::map<Tree, std::set<Tree, Precedes>, Precedes> blocks_of(const Tree& form) {
@@ -92,20 +93,20 @@ void count(const IslandFront& front, std::size_t island, Forms& forms) {
     const auto beaten = static_cast<double>(std::count_if(front.members.begin(), front.members.end(), worse));
     const double others = std::max(1.0, static_cast<double>(front.members.size()) - 1.0);
     for (const auto& [block, within] : blocks_of(block_form(member.tree))) {
-      Holders& holders = forms[block];
-      holders.joints.insert(front.joint);
-      if (std::exchange(holders.last_island, island) != island) ++holders.islands;
-      ++holders.individuals;
-      holders.rank_shares += beaten / others;
-      for (const Tree& larger : within) ++holders.individuals_within[larger];
+      FormOccurrences& occurrences = forms[block];
+      occurrences.joints.insert(front.joint);
+      if (std::exchange(occurrences.last_island, island) != island) ++occurrences.islands;
+      ++occurrences.individuals;
+      occurrences.rank_shares += beaten / others;
+      for (const Tree& larger : within) ++occurrences.individuals_within[larger];
     }
   }
 }
 
 /// Whether all individuals with the form have it within one and the same larger form.
-bool stands_alone(const Holders& holders) {
-  return std::none_of(holders.individuals_within.begin(), holders.individuals_within.end(),
-                      [&](const auto& within) { return within.second == holders.individuals; });
+bool stands_alone(const FormOccurrences& occurrences) {
+  return std::none_of(occurrences.individuals_within.begin(), occurrences.individuals_within.end(),
+                      [&](const auto& within) { return within.second == occurrences.individuals; });
 }
 
 std::size_t functions_in(const Tree& form) {
@@ -117,25 +118,25 @@ std::size_t functions_in(const Tree& form) {
 
 Tree block_form(const Tree& formula) {
   const Tree simple = simplified(formula);
-  std::size_t at = 0;
-  return form_from(simple, at);
+  std::size_t position = 0;
+  return form_from(simple, position);
 }
 
 std::string block_text(const Tree& form, const VariableNames& names) {
   VariableNames with_constant{"c"};
   with_constant.insert(with_constant.end(), names.begin(), names.end());
-  return to_text(form, with_constant);
+  return to_string(form, with_constant);
 }
 
 std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, const BlockLimits& limits) {
   Forms forms;
   for (std::size_t i = 0; i < fronts.size(); ++i) count(fronts[i], i + 1, forms);
   std::vector<BuildingBlock> blocks;
-  for (const auto& [form, holders] : forms) {
-    if (holders.joints.size() < limits.least_joints || functions_in(form) < limits.least_functions) continue;
-    if (!stands_alone(holders)) continue;
-    const double share = holders.rank_shares / static_cast<double>(holders.individuals);
-    blocks.push_back({form, holders.joints.size(), holders.islands, holders.individuals, share});
+  for (const auto& [form, occurrences] : forms) {
+    if (occurrences.joints.size() < limits.least_joints || functions_in(form) < limits.least_functions) continue;
+    if (!stands_alone(occurrences)) continue;
+    const double share = occurrences.rank_shares / static_cast<double>(occurrences.individuals);
+    blocks.push_back({form, occurrences.joints.size(), occurrences.islands, occurrences.individuals, share});
   }
   const auto more = [](const BuildingBlock& a, const BuildingBlock& b) {
     const auto size = [](const BuildingBlock& block) {

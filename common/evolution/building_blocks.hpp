@@ -1,4 +1,4 @@
-// Which expressions good individuals share across joints (thesis 7.1 iii).
+// What good formulas of several joints share: expressions (thesis 7.1 iii), and functions worth sharing (7.1 ii).
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "evolution/individual.hpp"
+#include "evolution/population.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 
@@ -45,5 +47,16 @@ struct BlockLimits {
 /// The forms that stand, as a whole or within another, in members of the fronts: by joints, islands, individuals and
 /// nodes, more first. Left out is a form that every individual which has it has within one and the same larger form.
 std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, const BlockLimits& limits = {});
+
+/// At most `most` functions that shorten good formulas, given by joint: one after the other that which, with those
+/// before it, leaves the fewest nodes and calls of all formulas and definitions together, as long as each lowers that
+/// number and formulas of two joints or more call it. What counts of a formula is its form (see block_form()): every
+/// expression of constants is a number, and where a number stands in the structure is a coefficient, of which there is
+/// one at least. What else differs is an argument, of which there are two at most; places that take the same
+/// argument may be one. Structures have from three to kLargestStructure functions. A function of the formulas and their
+/// order.
+std::vector<SharedFunction> find_shared_functions(std::span<const std::vector<Tree>> formulas, std::size_t most);
+
+inline constexpr std::size_t kLargestStructure = 5;
 
 }  // namespace demecal

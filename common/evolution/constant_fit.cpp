@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kLeastGain = 1e-5;   // of the loss, by a step that is worth an
 constexpr double kSmallError = 0.02;  // of the mean: smaller ones count as this large in their weights
 constexpr int kSearchCalls = 4;       // of the simplex, for each step
 
-using Strip = std::array<double, NormalEquations::kMostRowsAtOnce>;
+using Strip = std::array<double, DampedNormalEquations::kMostRowsAtOnce>;
 
 // Errors and the weights of their squares. A least size above 0 makes the sum of squares that of absolute errors.
 DEMECAL_FOR_EACH_VECTOR_UNIT

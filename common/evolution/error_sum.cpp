@@ -1,10 +1,13 @@
-#include "evolution/error_sum.hpp"
+#include "evolution/fitness.hpp"
+#include "expression/columns.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "errors/check.hpp"
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {

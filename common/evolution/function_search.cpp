@@ -1,15 +1,20 @@
-#include "evolution/function_search.hpp"
+#include "evolution/building_blocks.hpp"
+#include "expression/primitive.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
+#include <vector>
 
-#include "evolution/building_blocks.hpp"
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {
@@ -43,15 +48,15 @@ std::size_t functions_of(const Tree& structure) {
 /// By how many functions they have.
 using Structures = std::array<std::vector<Tree>, kLargestStructure + 1>;
 
-/// All structures that stand at the root of the subtree that begins at `at`, which is moved behind it; `each` is told
-/// of these and of those of every subtree below.
-Structures structures_at(const Tree& form, std::size_t& at, const std::function<void(const Structures&)>& each) {
-  const Node& node = form[at++];
+/// All structures that stand at the root of the subtree that begins at `position`, which is moved behind it; `each` is
+/// told of these and of those of every subtree below.
+Structures structures_at(const Tree& form, std::size_t& position, const std::function<void(const Structures&)>& each) {
+  const Node& node = form[position++];
   Structures all;
   all[0] = {node.primitive == Primitive::constant ? Tree{kCoefficient} : Tree{kArgument}};
   if (arity(node.primitive) == 0) return all;
-  const Structures lefts = structures_at(form, at, each);
-  const Structures rights = arity(node.primitive) == 2 ? structures_at(form, at, each) : Structures{};
+  const Structures lefts = structures_at(form, position, each);
+  const Structures rights = arity(node.primitive) == 2 ? structures_at(form, position, each) : Structures{};
   for (std::size_t i = 0; i < kLargestStructure; ++i) {
     for (const Tree& left : lefts[i]) {
       if (arity(node.primitive) == 1) all[i + 1].push_back(apply(node.primitive, left));
@@ -64,24 +69,24 @@ Structures structures_at(const Tree& form, std::size_t& at, const std::function<
 }
 
 /// Which joints hold a structure, and how often it stands in their forms.
-struct StructureHolders {
+struct StructureOccurrences {
   std::size_t last_joint = 0, joints = 0, times = 0;
 };
-using HeldStructures = std::map<Tree, StructureHolders, Precedes>;
+using HeldStructures = std::map<Tree, StructureOccurrences, Precedes>;
 
 /// Counts those that are large enough in a form of the joint; joints count from 1.
 void count_structures(const Tree& form, std::size_t joint, HeldStructures& held) {
   const auto count = [&](const Structures& here) {
     for (std::size_t i = kLeastFunctions; i < here.size(); ++i) {
       for (const Tree& structure : here[i]) {
-        StructureHolders& holders = held[structure];
-        if (std::exchange(holders.last_joint, joint) != joint) ++holders.joints;
-        ++holders.times;
+        StructureOccurrences& occurrences = held[structure];
+        if (std::exchange(occurrences.last_joint, joint) != joint) ++occurrences.joints;
+        ++occurrences.times;
       }
     }
   };
-  std::size_t at = 0;
-  structures_at(form, at, count);
+  std::size_t position = 0;
+  structures_at(form, position, count);
 }
 
 /// Structures that two joints hold, those first that might save most.
@@ -90,8 +95,8 @@ std::vector<Tree> promising(std::span<const std::vector<Tree>> forms) {
   for (std::size_t joint = 0; joint < forms.size(); ++joint)
     for (const Tree& form : forms[joint]) count_structures(form, joint + 1, structures);
   std::vector<std::pair<std::size_t, Tree>> by_savings;
-  for (const auto& [structure, holders] : structures)
-    if (holders.joints >= 2) by_savings.emplace_back(holders.times * (functions_of(structure) - 1), structure);
+  for (const auto& [structure, occurrences] : structures)
+    if (occurrences.joints >= 2) by_savings.emplace_back(occurrences.times * (functions_of(structure) - 1), structure);
   std::ranges::stable_sort(by_savings, std::ranges::greater{}, [](const auto& entry) { return entry.first; });
   std::vector<Tree> best;
   for (auto& [savings, structure] : by_savings)

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "errors/check.hpp"
-#include "evolution/island_parameters.hpp"
-#include "evolution/selection.hpp"
+#include "evolution/archipelago.hpp"
+#include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
-#include "evolution/tree_index.hpp"
+#include "expression/node_store.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
 namespace {
 
-constexpr double kRefused = std::numeric_limits<double>::infinity();
+constexpr double kRejected = std::numeric_limits<double>::infinity();
 
 bool stands_in(const Population& population, const Tree& tree) {
   return std::any_of(population.begin(), population.end(), [&](const Individual& one) { return one.tree == tree; });
@@ -39,7 +40,7 @@ double share_of_different(const Population& population) {
 
 Island::Island(const GpParameters& parameters, const Archipelago& archipelago, const TrainingTable& table,
                IslandKey key, std::uint64_t seed)
-    : parameters_(parameters_of(parameters, archipelago, key.deme)),
+    : parameters_(island_parameters(parameters, archipelago, key.deme)),
       archipelago_(archipelago),
       variables_(static_cast<int>(table.variables.size())),
       seeds_(table.seeds),
@@ -71,7 +72,7 @@ void Island::run_epoch(const Population& immigrants, const std::function<void()>
   RandomStream random{seed_, key_.joint, key_.deme, state_.epoch};
   enter_population(random);
   const double best_before = residents_.fitness[fittest(residents_.fitness)];
-  take_in(immigrants, random);
+  accept_immigrants(immigrants, random);
   ParetoFront front(std::move(state_.front));
   offer_all(front);
   const std::uint32_t generations = generations_of_epoch();
@@ -80,7 +81,7 @@ void Island::run_epoch(const Population& immigrants, const std::function<void()>
     offer_all(front);
     if (after_generation) after_generation();
   }
-  refuse_unsafe(archipelago_.migrants);
+  reject_unsafe(archipelago_.migrants);
   const bool has_gained = state_.epoch == 0 || residents_.fitness[fittest(residents_.fitness)] < best_before;
   state_.without_gain = has_gained ? 0 : state_.without_gain + 1;
   write_population();
@@ -128,17 +129,17 @@ void Island::offer_all(ParetoFront& front) {
   for (std::size_t i = 0; i < residents_.roots.size(); ++i) {
     const NodeId model = residents_.models[i];
     double& fitness = residents_.fitness[i];
-    if (model == 0 || !front.wants(breeder_.store()[model].whole.nodes, fitness)) continue;
+    if (model == 0 || !front.would_enter(breeder_.store()[model].whole.nodes, fitness)) continue;
     if (breeder_.is_safe(model))
       front.offer({breeder_.store().tree(model), fitness});
     else
-      fitness = kRefused;
+      fitness = kRejected;
   }
-  refuse_unsafe(1);
+  reject_unsafe(1);
 }
 
 // Until so many different ones of the fittest are safe.
-void Island::refuse_unsafe(std::size_t most) {
+void Island::reject_unsafe(std::size_t most) {
   if (!breeder_.limits()) return;
   std::vector<NodeId> safe;
   std::vector<double>& fitness = residents_.fitness;
@@ -153,7 +154,7 @@ void Island::refuse_unsafe(std::size_t most) {
     if (breeder_.is_safe(model))
       safe.push_back(residents_.roots[best]);
     else
-      fitness[best] = kRefused;
+      fitness[best] = kRejected;
   }
 }
 
@@ -172,7 +173,7 @@ bool Island::fits(const Tree& tree) const {
          (parameters_.max_tree_nodes == 0 || tree.size() <= static_cast<std::size_t>(parameters_.max_tree_nodes));
 }
 
-void Island::take_in(const Population& immigrants, RandomStream& random) {
+void Island::accept_immigrants(const Population& immigrants, RandomStream& random) {
   std::vector<NodeId>& roots = residents_.roots;
   std::vector<std::size_t> places = ranking(residents_.fitness);
   places.erase(places.begin());
@@ -185,7 +186,7 @@ void Island::take_in(const Population& immigrants, RandomStream& random) {
     if (std::find(roots.begin(), roots.end(), root) != roots.end()) continue;
     if (archipelago_.replacement == Replacement::random)
       std::swap(places[taken], places[taken + random.index(places.size() - taken)]);
-    breeder_.settle(root, residents_, places[taken++]);
+    breeder_.replace(root, residents_, places[taken++]);
   }
   state_.evaluations += taken;
   state_.migrants_taken += taken;

@@ -1,14 +1,18 @@
 // One island: a population of correction models that breeds epoch by epoch and exchanges elites with its neighbours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "evolution/archipelago.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/individual.hpp"
+#include "evolution/fitness.hpp"
 #include "evolution/parameters.hpp"
+#include "evolution/population.hpp"
+#include "expression/tree.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal {
 
@@ -69,10 +73,10 @@ class Island {
  private:
   std::vector<Tree> first_trees(RandomStream& random) const;
   void enter_population(RandomStream& random);
-  void take_in(const Population& immigrants, RandomStream& random);
+  void accept_immigrants(const Population& immigrants, RandomStream& random);
   bool is_stagnant() const;
   void offer_all(ParetoFront& front);
-  void refuse_unsafe(std::size_t most);
+  void reject_unsafe(std::size_t most);
   void write_population();
   void forget_models();
   bool fits(const Tree& tree) const;

@@ -3,9 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "errors/check.hpp"
+#include "expression/columns.hpp"
+#include "expression/node_store.hpp"
+#include "expression/primitive.hpp"
+
 namespace demecal {
+
+double description_length_nats(const Tree& tree, double square, double rows) {
+  double nats = 0.5 * rows * std::log(square);
+  for (const Node& node : tree) nats += node.primitive == Primitive::constant ? 1.0 + 0.5 * std::log(rows) : 1.0;
+  return nats;
+}
+
+Tree FormulaRefiner::fitted(const Tree& simple) {
+  NodeStore store;
+  return demecal::simplified(store.tree(fit_.by_squares(store, store.enter(simple)).root));
+}
+
 namespace {
 
 constexpr double kNear = 4.0;  // times the least mean square
@@ -62,7 +79,7 @@ void ModelArchive::offer(const Population& front) {
 
 const Individual* ModelArchive::chosen() const {
   const Population& members = front_.members();
-  const auto nats = [this](const Individual& one) { return message_nats(one.tree, one.fitness, weights_); };
+  const auto nats = [this](const Individual& one) { return description_length_nats(one.tree, one.fitness, weights_); };
   const auto briefest = std::min_element(members.begin(), members.end(),
                                          [&](const Individual& a, const Individual& b) { return nats(a) < nats(b); });
   return briefest == members.end() ? nullptr : &*briefest;

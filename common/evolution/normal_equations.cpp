@@ -1,15 +1,20 @@
-#include "evolution/normal_equations.hpp"
+#include "evolution/constant_fit.hpp"
+#include "expression/columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
 
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {
 
 using Lanes = std::array<double, kLanes>;
-using Strip = std::array<double, NormalEquations::kMostRowsAtOnce>;
+using Strip = std::array<double, DampedNormalEquations::kMostRowsAtOnce>;
 
 DEMECAL_FOR_EACH_VECTOR_UNIT
 void weigh(const double* column, const double* weight, double* out, std::size_t rows) {
@@ -68,7 +73,7 @@ bool solve_in_place(double* matrix, double* inverse_diagonal, double* step, std:
 
 }  // namespace
 
-void NormalEquations::clear(std::size_t unknowns) {
+void DampedNormalEquations::clear(std::size_t unknowns) {
   unknowns_ = unknowns;
   const std::size_t count = triangle(unknowns) + unknowns;
   if (sums_.size() < count) {
@@ -80,8 +85,8 @@ void NormalEquations::clear(std::size_t unknowns) {
   std::fill_n(sums_.begin(), count, Lanes{});
 }
 
-void NormalEquations::add(std::span<const double* const> slopes, const double* error, const double* weight,
-                          std::size_t rows) {
+void DampedNormalEquations::add(std::span<const double* const> slopes, const double* error, const double* weight,
+                                std::size_t rows) {
   alignas(64) Strip weighted;
   for (std::size_t i = 0; i < unknowns_; ++i) {
     weigh(slopes[i], weight, weighted.data(), rows);
@@ -91,14 +96,14 @@ void NormalEquations::add(std::span<const double* const> slopes, const double* e
   add_products(weighted.data(), slopes.data(), unknowns_, sums_.data() + triangle(unknowns_), rows);
 }
 
-bool NormalEquations::finish() {
+bool DampedNormalEquations::finish() {
   const std::size_t count = triangle(unknowns_) + unknowns_;
   end_sums(sums_.data(), products_.data(), count);
   return std::all_of(products_.begin(), products_.begin() + static_cast<std::ptrdiff_t>(count),
                      [](double sum) { return std::isfinite(sum); });
 }
 
-bool NormalEquations::solve(double damping, std::span<double> step) {
+bool DampedNormalEquations::solve(double damping, std::span<double> step) {
   const std::size_t n = unknowns_;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j <= i; ++j) factor_[j * n + i] = products_[triangle(i) + j];

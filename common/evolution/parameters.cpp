@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 
 namespace demecal {
 namespace {
 
 template <class Number>
-std::string text_of(Number number) {
+std::string format_number(Number number) {
   char buffer[32];
   const auto result = std::to_chars(std::begin(buffer), std::end(buffer), number);
   return std::string(buffer, result.ptr);
@@ -35,7 +36,7 @@ std::optional<ParameterFault> count_fault(const GpParameters& p) {
                        {"invalid_attempts", p.invalid_attempts},
                        {"constant_steps", p.constant_steps}};
   for (const auto& [key, value] : counts)
-    if (value < 1) return ParameterFault{key, text_of(value), "must be at least 1"};
+    if (value < 1) return ParameterFault{key, format_number(value), "must be at least 1"};
   return std::nullopt;
 }
 
@@ -47,29 +48,30 @@ std::optional<ParameterFault> rate_fault(const GpParameters& p) {
                      {"shrink_mutation_rate", p.shrink_mutation_rate},
                      {"constant_share", p.constant_share}};
   for (const auto& [key, value] : rates)
-    if (!(value >= 0.0 && value <= 1.0)) return ParameterFault{key, text_of(value), "must lie within 0 to 1"};
+    if (!(value >= 0.0 && value <= 1.0)) return ParameterFault{key, format_number(value), "must lie within 0 to 1"};
   return std::nullopt;
 }
 
 std::optional<ParameterFault> depth_fault(const GpParameters& p) {
   if (p.min_tree_depth > p.initial_max_tree_depth1)
-    return ParameterFault{"min_tree_depth", text_of(p.min_tree_depth), "must not exceed initial_max_tree_depth1"};
+    return ParameterFault{"min_tree_depth", format_number(p.min_tree_depth), "must not exceed initial_max_tree_depth1"};
   if (p.initial_max_tree_depth1 > p.initial_max_tree_depth2)
-    return ParameterFault{"initial_max_tree_depth1", text_of(p.initial_max_tree_depth1),
+    return ParameterFault{"initial_max_tree_depth1", format_number(p.initial_max_tree_depth1),
                           "must not exceed initial_max_tree_depth2"};
   if (p.initial_max_tree_depth2 > p.max_tree_depth)
-    return ParameterFault{"initial_max_tree_depth2", text_of(p.initial_max_tree_depth2),
+    return ParameterFault{"initial_max_tree_depth2", format_number(p.initial_max_tree_depth2),
                           "must not exceed max_tree_depth"};
   if (p.max_tree_depth > kDeepestTree)
-    return ParameterFault{"max_tree_depth", text_of(p.max_tree_depth), "must be at most " + text_of(kDeepestTree)};
+    return ParameterFault{"max_tree_depth", format_number(p.max_tree_depth),
+                          "must be at most " + format_number(kDeepestTree)};
   return std::nullopt;
 }
 
 std::optional<ParameterFault> nodes_fault(const GpParameters& p) {
   const int largest_first = (2 << p.initial_max_tree_depth2) - 1;
   if (p.max_tree_nodes != 0 && p.max_tree_nodes < largest_first)
-    return ParameterFault{"max_tree_nodes", text_of(p.max_tree_nodes),
-                          "must be 0 (no limit) or at least " + text_of(largest_first) +
+    return ParameterFault{"max_tree_nodes", format_number(p.max_tree_nodes),
+                          "must be 0 (no limit) or at least " + format_number(largest_first) +
                               ", the nodes of a full tree of initial_max_tree_depth2"};
   return std::nullopt;
 }
@@ -87,36 +89,40 @@ std::optional<ParameterFault> function_fault(const std::vector<Primitive>& funct
 std::optional<ParameterFault> weights_fault(const GpParameters& p) {
   const auto is_weight = [](double weight) { return weight > 0.0 && std::isfinite(weight); };
   for (const double weight : p.function_weights)
-    if (!is_weight(weight)) return ParameterFault{"function_weights", text_of(weight), "must be finite and above 0"};
+    if (!is_weight(weight))
+      return ParameterFault{"function_weights", format_number(weight), "must be finite and above 0"};
   if (!p.function_weights.empty() && p.function_weights.size() != p.functions.size())
-    return ParameterFault{"function_weights", text_of(p.function_weights.size()),
-                          "must be as many as the functions: " + text_of(p.functions.size())};
+    return ParameterFault{"function_weights", format_number(p.function_weights.size()),
+                          "must be as many as the functions: " + format_number(p.functions.size())};
   return std::nullopt;
 }
 
 std::optional<ParameterFault> shared_fault(const GpParameters& p) {
   const std::size_t count = p.shared_functions.size();
   if (count > kMostSharedFunctions)
-    return ParameterFault{"shared_functions", text_of(count), "must be at most " + text_of(kMostSharedFunctions)};
+    return ParameterFault{"shared_functions", format_number(count),
+                          "must be at most " + format_number(kMostSharedFunctions)};
   for (std::size_t i = 0; i < count; ++i)
     if (const auto fault = find_fault(p.shared_functions[i]))
       return ParameterFault{"shared_functions", name_of_function(i), *fault};
   if (!(p.shared_function_weight > 0.0 && std::isfinite(p.shared_function_weight)))
-    return ParameterFault{"shared_function_weight", text_of(p.shared_function_weight), "must be finite and above 0"};
+    return ParameterFault{"shared_function_weight", format_number(p.shared_function_weight),
+                          "must be finite and above 0"};
   return std::nullopt;
 }
 
 std::optional<ParameterFault> constants_fault(const GpParameters& p) {
   if (p.constants > ConstantPolicy::baldwin)
-    return ParameterFault{"constants", text_of(static_cast<int>(p.constants)), "must be a known policy"};
+    return ParameterFault{"constants", format_number(static_cast<int>(p.constants)), "must be a known policy"};
   if (!std::isfinite(p.constants_lower))
-    return ParameterFault{"constants_lower", text_of(p.constants_lower), "must be finite"};
+    return ParameterFault{"constants_lower", format_number(p.constants_lower), "must be finite"};
   if (!std::isfinite(p.constants_upper))
-    return ParameterFault{"constants_upper", text_of(p.constants_upper), "must be finite"};
+    return ParameterFault{"constants_upper", format_number(p.constants_upper), "must be finite"};
   if (!(p.constants_lower < p.constants_upper))
-    return ParameterFault{"constants_lower", text_of(p.constants_lower), "must be below constants_upper"};
+    return ParameterFault{"constants_lower", format_number(p.constants_lower), "must be below constants_upper"};
   if (!std::isfinite(p.constants_upper - p.constants_lower))
-    return ParameterFault{"constants_upper", text_of(p.constants_upper), "must be a finite way above constants_lower"};
+    return ParameterFault{"constants_upper", format_number(p.constants_upper),
+                          "must be a finite way above constants_lower"};
   return std::nullopt;
 }
 
@@ -128,11 +134,12 @@ std::optional<ParameterFault> find_fault(const GpParameters& p) {
   if (auto fault = depth_fault(p)) return fault;
   if (auto fault = nodes_fault(p)) return fault;
   if (p.tournament_size > p.population_size)
-    return ParameterFault{"tournament_size", text_of(p.tournament_size), "must not exceed population_size"};
+    return ParameterFault{"tournament_size", format_number(p.tournament_size), "must not exceed population_size"};
   if (auto fault = function_fault(p.functions)) return fault;
   if (auto fault = weights_fault(p)) return fault;
   if (auto fault = shared_fault(p)) return fault;
-  if (p.restart_after < 0) return ParameterFault{"restart_after", text_of(p.restart_after), "must not be negative"};
+  if (p.restart_after < 0)
+    return ParameterFault{"restart_after", format_number(p.restart_after), "must not be negative"};
   return constants_fault(p);
 }
 

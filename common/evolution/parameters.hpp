@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "expression/primitive.hpp"
 #include "expression/shared_function.hpp"
 
 namespace demecal {

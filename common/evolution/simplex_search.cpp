@@ -1,8 +1,11 @@
-#include "evolution/simplex_search.hpp"
+#include "evolution/constant_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace demecal {
 namespace {

@@ -1,12 +1,39 @@
 #include "evolution/tree_generation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <span>
 
-#include "evolution/tree_index.hpp"
-
 namespace demecal {
+namespace {
+
+std::uint64_t hash_of(const Tree& tree) {
+  std::uint64_t hash = tree.size();
+  for (const Node& node : tree) {
+    const auto label = static_cast<std::uint64_t>(node.primitive) << 8 | node.variable;
+    hash = (hash ^ std::bit_cast<std::uint64_t>(node.value) ^ label << 40) * 0x9E3779B97F4A7C15ULL;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+}  // namespace
+
+void TreeIndex::clear(std::size_t most) {
+  slots_.assign(std::bit_ceil(2 * most + 2), Slot{});
+}
+
+std::size_t TreeIndex::enter(const Tree& tree, std::size_t number) {
+  const std::uint64_t hash = hash_of(tree);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t place = hash & mask;
+  for (; slots_[place].tree != nullptr; place = (place + 1) & mask)
+    if (slots_[place].hash == hash && *slots_[place].tree == tree) return slots_[place].number;
+  slots_[place] = {hash, &tree, number};
+  return number;
+}
+
 namespace {
 
 // With deep minima and few functions GROW hardly ever reaches the minimum; FULL then does.
@@ -16,14 +43,14 @@ void append_function(Primitive function, Tree& tree) {
   tree.push_back({function, 0, 0.0});
 }
 
-std::size_t weighed(RandomStream& random, std::span<const double> weights) {
+std::size_t draw_weighted(RandomStream& random, std::span<const double> weights) {
   double left = random.real(0.0, std::accumulate(weights.begin(), weights.end(), 0.0));
   std::size_t i = 0;
   while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
   return i;
 }
 
-CallableFunction callable(const SharedFunction& function) {
+CallableFunction make_callable(const SharedFunction& function) {
   CallableFunction made{function, 0, std::vector<int>(static_cast<std::size_t>(arity(function)), 0)};
   std::vector<int> levels{0};
   for (const Node& node : function.body) {
@@ -37,7 +64,7 @@ CallableFunction callable(const SharedFunction& function) {
   return made;
 }
 
-std::vector<double> weights_of(const GpParameters& parameters) {
+std::vector<double> draw_weights(const GpParameters& parameters) {
   std::vector<double> weights = parameters.function_weights;
   if (parameters.shared_functions.empty()) return weights;
   if (weights.empty() && parameters.shared_function_weight == 1.0) return weights;
@@ -48,11 +75,12 @@ std::vector<double> weights_of(const GpParameters& parameters) {
 
 /// A function's place among functions and calls; `drawn` is that where all are alike. One that is too deep for what is
 /// left gives way to a function.
-std::size_t choice(RandomStream& random, const NodeSet& nodes, std::size_t drawn, int depth) {
+std::size_t draw_function(RandomStream& random, const NodeSet& nodes, std::size_t drawn, int depth) {
   const std::size_t functions = nodes.functions.size();
-  const std::size_t chosen = nodes.weights.empty() ? drawn : weighed(random, nodes.weights);
+  const std::size_t chosen = nodes.weights.empty() ? drawn : draw_weighted(random, nodes.weights);
   if (chosen < functions || nodes.calls[chosen - functions].depth <= depth) return chosen;
-  return nodes.weights.empty() ? random.index(functions) : weighed(random, std::span(nodes.weights).first(functions));
+  return nodes.weights.empty() ? random.index(functions)
+                               : draw_weighted(random, std::span(nodes.weights).first(functions));
 }
 
 /// Appends what a call comes to, its arguments made by `append_argument(depth, tree)`. Returns its depth.
@@ -90,9 +118,9 @@ struct Ramp {
 }  // namespace
 
 NodeSet node_set(const GpParameters& parameters, int variables) {
-  NodeSet nodes{parameters.functions,   variables, parameters.constants_lower, parameters.constants_upper,
-                weights_of(parameters), {}};
-  for (const SharedFunction& function : parameters.shared_functions) nodes.calls.push_back(callable(function));
+  NodeSet nodes{parameters.functions,     variables, parameters.constants_lower, parameters.constants_upper,
+                draw_weights(parameters), {}};
+  for (const SharedFunction& function : parameters.shared_functions) nodes.calls.push_back(make_callable(function));
   return nodes;
 }
 
@@ -112,7 +140,7 @@ int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tr
     append_terminal(random, nodes, tree);
     return 0;
   }
-  const std::size_t chosen = choice(random, nodes, drawn - terminals, depth);
+  const std::size_t chosen = draw_function(random, nodes, drawn - terminals, depth);
   if (chosen >= nodes.functions.size()) {
     const auto grow = [&](int left, Tree& argument) { append_grown(random, nodes, left, argument); };
     return append_call(random, nodes, nodes.calls[chosen - nodes.functions.size()], depth, grow, tree);
@@ -128,7 +156,7 @@ int append_grown(RandomStream& random, const NodeSet& nodes, int depth, Tree& tr
 void append_full(RandomStream& random, const NodeSet& nodes, int depth, Tree& tree) {
   if (depth == 0) return append_terminal(random, nodes, tree);
   const std::size_t drawn = nodes.weights.empty() ? random.index(nodes.functions.size() + nodes.calls.size()) : 0;
-  const std::size_t chosen = choice(random, nodes, drawn, depth);
+  const std::size_t chosen = draw_function(random, nodes, drawn, depth);
   if (chosen >= nodes.functions.size()) {
     const auto fill = [&](int left, Tree& argument) { append_full(random, nodes, left, argument); };
     append_call(random, nodes, nodes.calls[chosen - nodes.functions.size()], depth, fill, tree);

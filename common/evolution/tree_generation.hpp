@@ -1,13 +1,38 @@
 // Random trees: GROW, FULL, and the first population by RAMPED HALF & HALF (thesis 3.3.2, 3.3.3; Koza 1992).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "evolution/parameters.hpp"
+#include "expression/primitive.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
+
+/// A hash table of trees that stay where they are, compared to the bit: whether two trees are found equal never depends
+/// on their hashes.
+class TreeIndex {
+ public:
+  /// `most`: how many trees may be entered.
+  explicit TreeIndex(std::size_t most) { clear(most); }
+
+  void clear(std::size_t most);
+  /// The number of an equal tree entered before; otherwise enters `tree` under `number` and returns that. An entered
+  /// tree must neither move nor change until the next clear().
+  std::size_t enter(const Tree& tree, std::size_t number);
+
+ private:
+  struct Slot {
+    std::uint64_t hash = 0;
+    const Tree* tree = nullptr;
+    std::size_t number = 0;
+  };
+  std::vector<Slot> slots_;
+};
 
 /// A shared function with what drawing its calls takes.
 struct CallableFunction {

@@ -1,7 +1,14 @@
-#include "expression/column_steps.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "expression/columns.hpp"
+#include "expression/primitive.hpp"
 
 #include "errors/check.hpp"
-#include "expression/vector_units.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 namespace {
@@ -56,12 +63,12 @@ constexpr auto absolute = [](double x) { return std::abs(x); };
 
 }  // namespace
 
-Step step_of(Primitive function, const Operand& argument, double* out, bool out_whole) {
+ColumnStep make_step(Primitive function, const Operand& argument, double* out, bool out_whole) {
   DEMECAL_CHECK(arity(function) == 1 && argument.column != nullptr, "function=" << traits(function).symbol);
   return {argument.column, nullptr, out, 0.0, code_of(function, Form::column), argument.whole, false, out_whole};
 }
 
-Step step_of(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole) {
+ColumnStep make_step(Primitive function, const Operand& left, const Operand& right, double* out, bool out_whole) {
   DEMECAL_CHECK(arity(function) == 2 && (left.column != nullptr || right.column != nullptr),
                 "function=" << traits(function).symbol);
   if (right.column == nullptr)
@@ -74,8 +81,8 @@ Step step_of(Primitive function, const Operand& left, const Operand& right, doub
 }
 
 DEMECAL_FOR_EACH_VECTOR_UNIT
-void run(std::span<const Step> steps, std::size_t begin, std::size_t rows) {
-  for (const Step& step : steps) {
+void run(std::span<const ColumnStep> steps, std::size_t begin, std::size_t rows) {
+  for (const ColumnStep& step : steps) {
     const double* const left = step.left + (step.left_whole ? begin : 0);
     const double* const right = step.right + (step.right_whole ? begin : 0);
     double* const out = step.out + (step.out_whole ? begin : 0);

@@ -1,7 +1,6 @@
 #include "expression/constant_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,7 +10,6 @@ namespace demecal {
 namespace {
 
 constexpr std::size_t kRowsOfModel = 128;  // the columns of a formula's parts and their slopes stay in the near caches
-constexpr NodeId kExpanded = NodeId{1} << 31;
 
 bool is_number(const SharedNode& node) {
   return node.is_constant && std::isfinite(node.value);
@@ -34,8 +32,8 @@ NodeId core_of(const NodeStore& store, NodeId root) {
   }
 }
 
-Step step_for(Primitive primitive, const Operand& left, const Operand& right, double* out) {
-  return arity(primitive) == 1 ? step_of(primitive, left, out, false) : step_of(primitive, left, right, out, false);
+ColumnStep step_for(Primitive primitive, const Operand& left, const Operand& right, double* out) {
+  return arity(primitive) == 1 ? make_step(primitive, left, out, false) : make_step(primitive, left, right, out, false);
 }
 
 }  // namespace
@@ -60,21 +58,21 @@ TreeExtent ConstantModel::extent(const NodeStore& store, NodeId root, Scaling sc
   return extent;
 }
 
-double* ConstantModel::lend() {
+double* ConstantModel::take_column() {
   double* const column = pool_.take();
-  lent_.push_back(column);
+  taken_.push_back(column);
   return column;
 }
 
-double* ConstantModel::lend(double fill) {
-  double* const column = lend();
+double* ConstantModel::take_column(double fill) {
+  double* const column = take_column();
   std::fill_n(column, strip_rows_, fill);
   return column;
 }
 
 void ConstantModel::bind(const NodeStore& store, NodeId root, Scaling scaling) {
-  for (std::size_t i = lent_.size(); i-- > 0;) pool_.give_back(lent_[i]);
-  lent_.clear();
+  for (std::size_t i = taken_.size(); i-- > 0;) pool_.release(taken_[i]);
+  taken_.clear();
   parts_.clear();
   constants_.clear();
   constant_columns_.clear();
@@ -82,22 +80,22 @@ void ConstantModel::bind(const NodeStore& store, NodeId root, Scaling scaling) {
   varying_steps_.clear();
   jumps_ = fixed_known_ = varying_known_ = false;
   if (scaling == Scaling::none) {
-    take_apart(store, root);
+    decompose(store, root);
   } else {
     const std::uint32_t offset = add_constant(0, 0.0), factor = add_constant(0, 1.0);
-    take_apart(store, core_of(store, root));
+    decompose(store, core_of(store, root));
     const auto core = static_cast<std::uint32_t>(parts_.size() - 1);
     add_function(Primitive::add, offset, add_function(Primitive::multiply, factor, core, 0), 0);
   }
-  sweep_back();
+  backpropagate();
 }
 
-void ConstantModel::take_apart(const NodeStore& store, NodeId root) {
+void ConstantModel::decompose(const NodeStore& store, NodeId root) {
   if (known_.size() < store.end()) known_.resize(store.end());
   ++formula_;
   stack_.assign(1, root);
   while (!stack_.empty()) {
-    const NodeId id = stack_.back() & ~kExpanded;
+    const NodeId id = stack_.back() & ~kArgumentsPushed;
     const bool expanded = stack_.back() != id;
     stack_.pop_back();
     const SharedNode& node = store[id];
@@ -110,7 +108,7 @@ void ConstantModel::take_apart(const NodeStore& store, NodeId root) {
       known_[id] = {formula_, static_cast<std::uint32_t>(parts_.size())};
       add_leaf(node, id);
     } else {
-      stack_.push_back(id | kExpanded);
+      stack_.push_back(id | kArgumentsPushed);
       if (node.right != 0) stack_.push_back(node.right);
       stack_.push_back(node.left);
     }
@@ -125,8 +123,8 @@ void ConstantModel::add_leaf(const SharedNode& node, NodeId id) {
   Part part;
   part.id = id;
   part.primitive = node.primitive;
-  part.value =
-      node.is_constant ? Operand{lend(node.value), 0.0, false} : Operand{columns_.column(node.variable), 0.0, true};
+  part.value = node.is_constant ? Operand{take_column(node.value), 0.0, false}
+                                : Operand{columns_.column(node.variable), 0.0, true};
   parts_.push_back(part);
 }
 
@@ -135,7 +133,7 @@ std::uint32_t ConstantModel::add_constant(NodeId id, double value) {
   part.id = id;
   part.varies = true;
   part.constant = static_cast<std::uint32_t>(constants_.size());
-  double* const column = lend(value);
+  double* const column = take_column(value);
   part.value = {column, 0.0, false};
   constants_.push_back(value);
   constant_columns_.push_back(column);
@@ -150,7 +148,7 @@ std::uint32_t ConstantModel::add_function(Primitive primitive, std::uint32_t lef
   part.left = left;
   part.right = right;
   part.varies = parts_[left].varies || (arity(primitive) == 2 && parts_[right].varies);
-  double* const out = lend();
+  double* const out = take_column();
   part.value = {out, 0.0, false};
   (part.varies ? varying_steps_ : fixed_steps_)
       .push_back(step_for(primitive, parts_[left].value, parts_[right].value, out));

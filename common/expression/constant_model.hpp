@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "expression/column_pool.hpp"
+#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/node_store.hpp"
+#include "expression/primitive.hpp"
 
 namespace demecal {
 
@@ -67,24 +68,24 @@ class ConstantModel {
     std::uint32_t part = 0;
   };
 
-  void take_apart(const NodeStore& store, NodeId root);
+  void decompose(const NodeStore& store, NodeId root);
   void add_leaf(const SharedNode& node, NodeId id);
   std::uint32_t add_constant(NodeId id, double value);
   std::uint32_t add_function(Primitive primitive, std::uint32_t left, std::uint32_t right, NodeId id);
-  double* lend(double fill);
-  double* lend();
-  void sweep_back();
-  void sweep_back(const Part& part);
-  void send(std::uint32_t part, const double* slope);
+  double* take_column(double fill);
+  double* take_column();
+  void backpropagate();
+  void backpropagate(const Part& part);
+  void add_slope(std::uint32_t part, const double* slope);
   const double* emit(Primitive primitive, const Operand& argument);
   const double* emit(Primitive primitive, const Operand& left, const Operand& right);
   const double* negated(const double* column);
-  const double* share_of(const double* column);
+  const double* step_at(const double* column);
 
   PaddedColumns columns_;
   std::size_t strip_rows_;
   ColumnPool pool_;
-  std::vector<double*> lent_;
+  std::vector<double*> taken_;
   AlignedColumn ones_, zeros_;
   std::uint32_t formula_ = 0;
   std::vector<Known> known_;  ///< by node
@@ -94,7 +95,7 @@ class ConstantModel {
   std::vector<double*> constant_columns_;
   std::vector<const double*> slopes_;
   std::vector<NodeId> rebuilt_;
-  std::vector<Step> fixed_steps_, varying_steps_, slope_steps_;
+  std::vector<ColumnStep> fixed_steps_, varying_steps_, slope_steps_;
   std::size_t begin_ = 0;
   bool fixed_known_ = false;    ///< whether what varies with no constant is computed for these rows
   bool varying_known_ = false;  ///< the same of the rest, at the present constants

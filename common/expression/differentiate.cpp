@@ -1,137 +1,119 @@
-#include "expression/differentiate.hpp"
 
-#include <cmath>
+#include <cstdint>
+#include <vector>
 
-#include "expression/fold.hpp"
+#include "expression/elementary.hpp"
+#include "expression/primitive.hpp"
+#include "expression/simplify.hpp"
+
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {
 
-bool is_constant(const Tree& tree) {
-  return tree.front().primitive == Primitive::constant;
-}
-bool is(const Tree& tree, double constant) {
-  return is_constant(tree) && tree.front().value == constant;
-}
-
 // Formulas without terms and factors that change no finite value. A function of constants is one constant, unless it
 // overflows.
 
-Tree folded(Primitive function, const Tree& a, const Tree& b) {
-  if (is_constant(a) && is_constant(b)) {
-    const double value = value_of(function, a.front().value, b.front().value);
-    if (std::isfinite(value)) return constant_tree(value);
-  }
-  return apply(function, a, b);
+Tree sum_of(const Tree& a, const Tree& b) {
+  if (is_constant(a, 0.0)) return b;
+  if (is_constant(b, 0.0)) return a;
+  return apply_folded(Primitive::add, a, b);
 }
 
-Tree sum(const Tree& a, const Tree& b) {
-  if (is(a, 0.0)) return b;
-  if (is(b, 0.0)) return a;
-  return folded(Primitive::add, a, b);
-}
-
-Tree difference(const Tree& a, const Tree& b) {
+Tree difference_of(const Tree& a, const Tree& b) {
   if (a == b) return constant_tree(0.0);
-  if (is(b, 0.0)) return a;
-  return folded(Primitive::subtract, a, b);
+  if (is_constant(b, 0.0)) return a;
+  return apply_folded(Primitive::subtract, a, b);
 }
 
-Tree product(const Tree& a, const Tree& b) {
-  if (is(a, 0.0) || is(b, 0.0)) return constant_tree(0.0);
-  if (is(a, 1.0)) return b;
-  if (is(b, 1.0)) return a;
-  return folded(Primitive::multiply, a, b);
+Tree product_of(const Tree& a, const Tree& b) {
+  if (is_constant(a, 0.0) || is_constant(b, 0.0)) return constant_tree(0.0);
+  if (is_constant(a, 1.0)) return b;
+  if (is_constant(b, 1.0)) return a;
+  return apply_folded(Primitive::multiply, a, b);
 }
 
-Tree quotient(const Tree& a, const Tree& b) {
-  if (a == b || is(b, 0.0)) return constant_tree(1.0);
-  if (is(b, 1.0)) return a;
-  return folded(Primitive::divide, a, b);
+Tree quotient_of(const Tree& a, const Tree& b) {
+  if (a == b || is_constant(b, 0.0)) return constant_tree(1.0);
+  if (is_constant(b, 1.0)) return a;
+  return apply_folded(Primitive::divide, a, b);
 }
 
-Tree call(Primitive function, const Tree& argument) {
-  if (is_constant(argument)) {
-    const double value = value_of(function, argument.front().value);
-    if (std::isfinite(value)) return constant_tree(value);
-  }
-  return apply(function, argument);
-}
-
-struct Piece {
+// A formula and its derivative.
+struct DualTree {
   Tree value;
   Tree slope;
 };
 
-Tree slope_of_quotient(const Piece& f, const Piece& g, const Tree& value) {
-  const Tree rise = difference(f.slope, product(value, g.slope));
-  if (is(rise, 0.0)) return rise;
-  if (is_constant(g.value)) return quotient(rise, g.value);
-  const Tree sign = call(Primitive::sign, g.value);
-  return product(sign, quotient(rise, product(sign, g.value)));
+Tree slope_of_quotient(const DualTree& f, const DualTree& g, const Tree& value) {
+  const Tree rise = difference_of(f.slope, product_of(value, g.slope));
+  if (is_constant(rise, 0.0)) return rise;
+  if (is_constant(g.value)) return quotient_of(rise, g.value);
+  const Tree sign = apply_folded(Primitive::sign, g.value);
+  return product_of(sign, quotient_of(rise, product_of(sign, g.value)));
 }
 
-Tree slope_of_root(const Piece& x, const Tree& value) {
-  return product(call(Primitive::sign, x.value), quotient(x.slope, sum(value, value)));
+Tree slope_of_root(const DualTree& x, const Tree& value) {
+  return product_of(apply_folded(Primitive::sign, x.value), quotient_of(x.slope, sum_of(value, value)));
 }
 
-// 1 where a tree is above 0, 0 where it is below.
-Tree share_of(const Tree& tree) {
-  return product(constant_tree(0.5), sum(constant_tree(1.0), call(Primitive::sign, tree)));
+// The Heaviside step: 1 where a tree is above 0, 0 where it is below.
+Tree step_at(const Tree& tree) {
+  return product_of(constant_tree(0.5), sum_of(constant_tree(1.0), apply_folded(Primitive::sign, tree)));
 }
 
-Piece lesser(Primitive function, const Piece& f, const Piece& g) {
+DualTree dual_extreme(Primitive function, const DualTree& f, const DualTree& g) {
   if (f.value == g.value) return f;
-  const Tree ahead = function == Primitive::minimum ? difference(g.value, f.value) : difference(f.value, g.value);
-  const Tree share = share_of(ahead);
-  return {folded(function, f.value, g.value),
-          sum(product(share, f.slope), product(difference(constant_tree(1.0), share), g.slope))};
+  const Tree ahead = function == Primitive::minimum ? difference_of(g.value, f.value) : difference_of(f.value, g.value);
+  const Tree share = step_at(ahead);
+  return {apply_folded(function, f.value, g.value),
+          sum_of(product_of(share, f.slope), product_of(difference_of(constant_tree(1.0), share), g.slope))};
 }
 
-Piece called(Primitive function, const Piece& x) {
-  const Tree value = call(function, x.value);
-  if (is_constant(value) || is(x.slope, 0.0)) return {value, constant_tree(0.0)};
+DualTree dual_unary(Primitive function, const DualTree& x) {
+  const Tree value = apply_folded(function, x.value);
+  if (is_constant(value) || is_constant(x.slope, 0.0)) return {value, constant_tree(0.0)};
   switch (function) {
     case Primitive::sine:
-      return {value, product(call(Primitive::cosine, x.value), x.slope)};
+      return {value, product_of(apply_folded(Primitive::cosine, x.value), x.slope)};
     case Primitive::cosine:
-      return {value, product(product(constant_tree(-1.0), call(Primitive::sine, x.value)), x.slope)};
+      return {value, product_of(product_of(constant_tree(-1.0), apply_folded(Primitive::sine, x.value)), x.slope)};
     case Primitive::square_root:
       return {value, slope_of_root(x, value)};
     case Primitive::absolute:
-      return {value, product(call(Primitive::sign, x.value), x.slope)};
+      return {value, product_of(apply_folded(Primitive::sign, x.value), x.slope)};
     case Primitive::logarithm: {
-      const Tree sign = call(Primitive::sign, x.value);
-      return {value, product(sign, quotient(x.slope, product(sign, x.value)))};
+      const Tree sign = apply_folded(Primitive::sign, x.value);
+      return {value, product_of(sign, quotient_of(x.slope, product_of(sign, x.value)))};
     }
     case Primitive::exponential: {
-      const Tree room = difference(constant_tree(kLargestExponent), call(Primitive::absolute, x.value));
-      return {value, product(product(share_of(room), value), x.slope)};
+      const Tree room = difference_of(constant_tree(kLargestExponent), apply_folded(Primitive::absolute, x.value));
+      return {value, product_of(product_of(step_at(room), value), x.slope)};
     }
     case Primitive::hyperbolic_tangent:
-      return {value, product(difference(constant_tree(1.0), call(Primitive::square, value)), x.slope)};
+      return {value, product_of(difference_of(constant_tree(1.0), apply_folded(Primitive::square, value)), x.slope)};
     case Primitive::arc_tangent:
-      return {value, quotient(x.slope, sum(constant_tree(1.0), call(Primitive::square, x.value)))};
+      return {value, quotient_of(x.slope, sum_of(constant_tree(1.0), apply_folded(Primitive::square, x.value)))};
     case Primitive::square:
-      return {value, product(product(constant_tree(2.0), x.value), x.slope)};
+      return {value, product_of(product_of(constant_tree(2.0), x.value), x.slope)};
     default:
       return {value, constant_tree(0.0)};
   }
 }
 
-Piece joined_pieces(Primitive function, const Piece& f, const Piece& g) {
+DualTree dual_binary(Primitive function, const DualTree& f, const DualTree& g) {
   switch (function) {
     case Primitive::add:
-      return {sum(f.value, g.value), sum(f.slope, g.slope)};
+      return {sum_of(f.value, g.value), sum_of(f.slope, g.slope)};
     case Primitive::subtract:
-      return {difference(f.value, g.value), difference(f.slope, g.slope)};
+      return {difference_of(f.value, g.value), difference_of(f.slope, g.slope)};
     case Primitive::multiply:
-      return {product(f.value, g.value), sum(product(f.slope, g.value), product(f.value, g.slope))};
+      return {product_of(f.value, g.value), sum_of(product_of(f.slope, g.value), product_of(f.value, g.slope))};
     case Primitive::minimum:
     case Primitive::maximum:
-      return lesser(function, f, g);
+      return dual_extreme(function, f, g);
     default: {
-      const Tree value = quotient(f.value, g.value);
+      const Tree value = quotient_of(f.value, g.value);
       if (is_constant(value)) return {value, constant_tree(0.0)};
       return {value, slope_of_quotient(f, g, value)};
     }
@@ -141,13 +123,13 @@ Piece joined_pieces(Primitive function, const Piece& f, const Piece& g) {
 }  // namespace
 
 Tree derivative(const Tree& tree, std::uint8_t variable) {
-  return fold<Piece>(
+  return fold<DualTree>(
              tree,
              [variable](const Node& node) {
                const bool varies = node.primitive == Primitive::variable && node.variable == variable;
-               return Piece{{node}, constant_tree(varies ? 1.0 : 0.0)};
+               return DualTree{{node}, constant_tree(varies ? 1.0 : 0.0)};
              },
-             called, joined_pieces)
+             dual_unary, dual_binary)
       .slope;
 }
 

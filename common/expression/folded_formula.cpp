@@ -1,11 +1,18 @@
-#include "expression/folded_formula.hpp"
+#include "expression/primitive.hpp"
+#include "expression/shared_function.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "expression/argument_order.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {
@@ -31,10 +38,10 @@ class Folding {
 
   std::size_t size() const { return best_.front().size; }
 
-  FoldedFormula written(std::size_t at, int variables) const {
+  FoldedFormula written(std::size_t begin, int variables) const {
     FoldedFormula formula;
     formula.variables = variables;
-    write(at, formula);
+    write(begin, formula);
     return formula;
   }
 
@@ -45,15 +52,16 @@ class Folding {
     std::vector<std::size_t> places;  ///< where they begin
   };
 
-  Way shortest(std::size_t at) const {
+  Way shortest(std::size_t begin) const {
     Way way{1, 0, {}};
-    std::size_t argument = at + 1;
-    for (int k = 0; k < arity(tree_[at].primitive); ++k, argument = ends_[argument]) way.size += best_[argument].size;
+    std::size_t argument = begin + 1;
+    for (int k = 0; k < arity(tree_[begin].primitive); ++k, argument = ends_[argument])
+      way.size += best_[argument].size;
     for (std::size_t i = 0; i < functions_.size(); ++i) {
-      if (functions_[i].body.front().primitive != tree_[at].primitive) continue;
+      if (functions_[i].body.front().primitive != tree_[begin].primitive) continue;
       Bindings bindings(static_cast<std::size_t>(arity(functions_[i])));
       int steps = kMostSteps;
-      if (!matches(functions_[i], {{0, at}}, bindings, steps)) continue;
+      if (!matches(functions_[i], {{0, begin}}, bindings, steps)) continue;
       Way call{1, i + 1, {}};
       for (const auto& place : bindings) {
         call.places.push_back(*place);
@@ -64,13 +72,15 @@ class Folding {
     return way;
   }
 
-  std::span<const Node> subtree(std::size_t at) const { return std::span(tree_).subspan(at, ends_[at] - at); }
+  std::span<const Node> subtree(std::size_t begin) const {
+    return std::span(tree_).subspan(begin, ends_[begin] - begin);
+  }
 
-  bool binds(const SharedFunction& function, std::size_t place, std::size_t at, Bindings& bindings) const {
+  bool binds(const SharedFunction& function, std::size_t place, std::size_t begin, Bindings& bindings) const {
     const bool is_coefficient = place < static_cast<std::size_t>(function.coefficients);
-    if (is_coefficient && tree_[at].primitive != Primitive::constant) return false;
-    if (bindings[place]) return in_order(subtree(*bindings[place])) == in_order(subtree(at));
-    bindings[place] = at;
+    if (is_coefficient && tree_[begin].primitive != Primitive::constant) return false;
+    if (bindings[place]) return in_order(subtree(*bindings[place])) == in_order(subtree(begin));
+    bindings[place] = begin;
     return true;
   }
 
@@ -80,20 +90,20 @@ class Folding {
   bool matches(const SharedFunction& function, Pending pending, Bindings& bindings, int& steps) const {
     while (!pending.empty()) {
       if (--steps < 0) return false;
-      const auto [body, at] = pending.back();
+      const auto [body, begin] = pending.back();
       pending.pop_back();
       const Node& node = function.body[body];
       if (node.primitive == Primitive::variable) {
-        if (!binds(function, node.variable, at, bindings)) return false;
+        if (!binds(function, node.variable, begin, bindings)) return false;
         continue;
       }
-      if (node.primitive != tree_[at].primitive) return false;
+      if (node.primitive != tree_[begin].primitive) return false;
       if (arity(node.primitive) == 1) {
-        pending.emplace_back(body + 1, at + 1);
+        pending.emplace_back(body + 1, begin + 1);
         continue;
       }
       const std::size_t first = body + 1, second = subtree_end(function.body, first);
-      const std::size_t left = at + 1, right = ends_[left];
+      const std::size_t left = begin + 1, right = ends_[left];
       if (is_commutative(node.primitive)) {
         Pending as_they_stand = pending;
         as_they_stand.insert(as_they_stand.end(), {{second, right}, {first, left}});
@@ -110,8 +120,8 @@ class Folding {
     return true;
   }
 
-  void write(std::size_t at, FoldedFormula& formula) const {
-    const Way& way = best_[at];
+  void write(std::size_t begin, FoldedFormula& formula) const {
+    const Way& way = best_[begin];
     const std::size_t name = static_cast<std::size_t>(formula.variables) + formula.calls.size();
     if (way.function != 0 && name < kMostNames) {
       FoldedCall call{way.function - 1, {}};
@@ -120,9 +130,9 @@ class Folding {
       formula.calls.push_back(std::move(call));
       return;
     }
-    formula.outline.push_back(tree_[at]);
-    std::size_t argument = at + 1;
-    for (int k = 0; k < arity(tree_[at].primitive); ++k, argument = ends_[argument]) write(argument, formula);
+    formula.outline.push_back(tree_[begin]);
+    std::size_t argument = begin + 1;
+    for (int k = 0; k < arity(tree_[begin].primitive); ++k, argument = ends_[argument]) write(argument, formula);
   }
 
   Tree tree_;
@@ -159,7 +169,7 @@ void gather_called(const FoldedFormula& formula, std::set<std::size_t>& called) 
 
 std::string call_text(const FoldedCall& call, const VariableNames& names) {
   std::string text = name_of_function(call.function) + "(";
-  for (std::size_t i = 0; i < call.places.size(); ++i) text += (i == 0 ? "" : ", ") + to_text(call.places[i], names);
+  for (std::size_t i = 0; i < call.places.size(); ++i) text += (i == 0 ? "" : ", ") + to_string(call.places[i], names);
   return text + ")";
 }
 
@@ -204,10 +214,10 @@ Tree expanded(const FoldedFormula& formula, std::span<const SharedFunction> func
   return tree;
 }
 
-std::string to_text(const FoldedFormula& formula, const VariableNames& names) {
+std::string to_string(const FoldedFormula& formula, const VariableNames& names) {
   VariableNames with_calls(names.begin(), names.begin() + formula.variables);
   for (const FoldedCall& call : formula.calls) with_calls.push_back(call_text(call, names));
-  return to_text(formula.outline, with_calls);
+  return to_string(formula.outline, with_calls);
 }
 
 }  // namespace demecal

@@ -13,7 +13,7 @@ std::uint64_t mixed(std::uint64_t bits) {
   return bits ^ bits >> 32;
 }
 
-// What tells a node from others: primitive and variable, and arguments or the constant's bits.
+// What distinguishes a node from others: primitive and variable, and arguments or the constant's bits.
 std::uint64_t content_of(const SharedNode& node) {
   if (node.primitive == Primitive::constant) return std::bit_cast<std::uint64_t>(node.value);
   return static_cast<std::uint64_t>(node.left) << 32 | node.right;

@@ -6,13 +6,16 @@
 #include <span>
 #include <vector>
 
-#include "expression/aligned_column.hpp"
+#include "expression/columns.hpp"
+#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
 namespace demecal {
 
 /// The number of a node in its store, from 1: the formula whose root it is.
 using NodeId = std::uint32_t;
+/// Set on the stack of a walk beside the number of a node whose arguments have been pushed.
+inline constexpr NodeId kArgumentsPushed = NodeId{1} << 31;
 
 /// How large a formula is as a tree.
 struct TreeExtent {

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "expression/exponential.hpp"
-#include "expression/sine.hpp"
+#include "expression/elementary.hpp"
 
 namespace demecal {
 

@@ -4,6 +4,7 @@
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
+#include "expression/primitive.hpp"
 #include "expression/text.hpp"
 
 namespace demecal {
@@ -99,7 +100,7 @@ std::string name_of_function(std::size_t place) {
 
 std::string definition_text(const SharedFunction& function, std::size_t place) {
   const VariableNames names = place_names(static_cast<std::size_t>(function.coefficients), places_in(function.body));
-  return head_text(names, place) + " = " + to_text(function.body, names);
+  return head_text(names, place) + " = " + to_string(function.body, names);
 }
 
 SharedFunction parse_definition(std::string_view text, std::size_t place) {

@@ -4,27 +4,22 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/fold.hpp"
-#include "expression/syntax_error.hpp"
+#include "errors/input_error.hpp"
+#include "expression/primitive.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {
 
-enum class Precedence { sum, product, whole };  // whole: a terminal, a call, or anything in parentheses
-
 Precedence precedence_of(Primitive function) {
   return function == Primitive::add || function == Primitive::subtract ? Precedence::sum : Precedence::product;
 }
-
-struct Written {
-  std::string text;
-  Precedence precedence = Precedence::whole;
-};
 
 std::string written(double constant) {
   std::array<char, 32> digits;
@@ -36,7 +31,7 @@ bool is_operator(const PrimitiveTraits& function) {
   return function.arity == 2 && std::isalpha(static_cast<unsigned char>(function.symbol.front())) == 0;
 }
 
-Written joined_texts(Primitive function, Written left, Written right) {
+InfixText joined_texts(Primitive function, InfixText left, InfixText right) {
   if (!is_operator(traits(function)))
     return {std::string(traits(function).symbol) + "(" + left.text + ", " + right.text + ")"};
   const Precedence own = precedence_of(function);
@@ -50,9 +45,9 @@ Written joined_texts(Primitive function, Written left, Written right) {
 
 constexpr int kDeepestNesting = 256;  // parse() calls itself at every parenthesis, and text comes from strangers
 
-class Parser {
+class FormulaParser {
  public:
-  Parser(std::string_view text, const VariableNames& names, std::span<const SharedFunction> functions)
+  FormulaParser(std::string_view text, const VariableNames& names, std::span<const SharedFunction> functions)
       : text_(text), names_(names), functions_(functions) {}
 
   Tree whole() {
@@ -62,7 +57,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& expected) const { refuse_at(text_, at_, expected); }
+  [[noreturn]] void fail(const std::string& expected) const { throw_syntax_error(text_, at_, expected); }
 
   void skip_spaces() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
@@ -209,23 +204,30 @@ VariableNames theta_only() {
   return {"theta"};
 }
 
-std::string to_text(std::span<const Node> tree, const VariableNames& names) {
-  return fold<Written>(
+std::string to_string(std::span<const Node> tree, const VariableNames& names) {
+  return fold<InfixText>(
              tree,
              [&](const Node& node) {
-               if (node.primitive == Primitive::constant) return Written{written(node.value)};
+               if (node.primitive == Primitive::constant) return InfixText{written(node.value)};
                DEMECAL_CHECK(node.variable < names.size(), "variable=" << int{node.variable});
-               return Written{names[node.variable]};
+               return InfixText{names[node.variable]};
              },
-             [](Primitive function, const Written& argument) {
-               return Written{std::string(traits(function).symbol) + "(" + argument.text + ")"};
+             [](Primitive function, const InfixText& argument) {
+               return InfixText{std::string(traits(function).symbol) + "(" + argument.text + ")"};
              },
              joined_texts)
       .text;
 }
 
 Tree parse(std::string_view text, const VariableNames& names, std::span<const SharedFunction> functions) {
-  return Parser(text, names, functions).whole();
+  return FormulaParser(text, names, functions).whole();
+}
+
+void throw_syntax_error(std::string_view text, std::size_t position, const std::string& expected) {
+  constexpr std::size_t kShown = 80;
+  std::string shown(text.substr(0, kShown));
+  if (text.size() > kShown) shown += "...";
+  throw InputError({}, shown, "column " + std::to_string(position + 1) + ": expected " + expected);
 }
 
 }  // namespace demecal

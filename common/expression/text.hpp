@@ -2,6 +2,7 @@
 // to the bit.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,13 +13,23 @@
 
 namespace demecal {
 
+/// How tightly infix text binds; whole: a terminal, a call, or anything in parentheses.
+enum class Precedence { sum, product, whole };
+struct InfixText {
+  std::string text;
+  Precedence precedence = Precedence::whole;
+};
+
 /// Names of the variables by index; a joint's own correction knows one, "theta".
 using VariableNames = std::vector<std::string>;
 VariableNames theta_only();
 
 /// Infix text whose parse gives the same tree back, to the bit: constants print with as many digits as they need, and
 /// parentheses stand wherever precedence or order of evaluation would otherwise change (thesis note 24).
-std::string to_text(std::span<const Node> tree, const VariableNames& names = theta_only());
+std::string to_string(std::span<const Node> tree, const VariableNames& names = theta_only());
+
+/// As to_string(), with calls such as F1(0.3, theta); parse() with the same functions gives what expanded() gives.
+std::string to_string(const FoldedFormula& formula, const VariableNames& names = theta_only());
 
 /// The tree that `text` writes. `%` and `*` bind alike, from the left; unary minus stands only before a number.
 /// Case counts; spaces do not. Calls of `functions`, F1 the first, become what they stand for. Throws InputError naming
@@ -26,5 +37,9 @@ std::string to_text(std::span<const Node> tree, const VariableNames& names = the
 /// than kLongestExpansion nodes.
 Tree parse(std::string_view text, const VariableNames& names = theta_only(),
            std::span<const SharedFunction> functions = {});
+
+/// Throws the InputError that shows the beginning of `text`, names the column of its character `position` (from 0;
+/// shown from 1), and says what was expected there.
+[[noreturn]] void throw_syntax_error(std::string_view text, std::size_t position, const std::string& expected);
 
 }  // namespace demecal

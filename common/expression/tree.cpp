@@ -1,10 +1,11 @@
 #include "expression/tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <tuple>
 
 #include "errors/check.hpp"
-#include "expression/fold.hpp"
 
 namespace demecal {
 
@@ -36,6 +37,22 @@ Tree apply(Primitive function, const Tree& left, const Tree& right) {
   return tree;
 }
 
+Tree apply_folded(Primitive function, Tree argument) {
+  if (is_constant(argument)) {
+    const double value = value_of(function, argument.front().value);
+    if (std::isfinite(value)) return constant_tree(value);
+  }
+  return apply(function, std::move(argument));
+}
+
+Tree apply_folded(Primitive function, const Tree& left, const Tree& right) {
+  if (is_constant(left) && is_constant(right)) {
+    const double value = value_of(function, left.front().value, right.front().value);
+    if (std::isfinite(value)) return constant_tree(value);
+  }
+  return apply(function, left, right);
+}
+
 std::size_t subtree_end(std::span<const Node> tree, std::size_t begin) {
   std::size_t end = begin;
   for (int missing = 1; missing > 0; ++end) missing += arity(tree[end].primitive) - 1;
@@ -62,6 +79,52 @@ bool is_valid(std::span<const Node> tree, int variables) {
 
 bool contains(std::span<const Node> tree, Primitive primitive) {
   return std::any_of(tree.begin(), tree.end(), [primitive](const Node& node) { return node.primitive == primitive; });
+}
+
+namespace {
+
+bool node_precedes(const Node& a, const Node& b) {
+  const auto rank = [](const Node& node) {
+    return std::tuple(node.primitive, node.variable, std::bit_cast<std::uint64_t>(node.value));
+  };
+  return rank(a) < rank(b);
+}
+
+}  // namespace
+
+bool is_commutative(Primitive function) {
+  return function == Primitive::add || function == Primitive::multiply || function == Primitive::minimum ||
+         function == Primitive::maximum;
+}
+
+bool precedes(std::span<const Node> a, std::span<const Node> b) {
+  if (a.size() != b.size()) return a.size() < b.size();
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), node_precedes);
+}
+
+Tree apply_in_order(Primitive function, const Tree& a, const Tree& b) {
+  if (!is_commutative(function)) return apply(function, a, b);
+  const bool larger_first = function == Primitive::add;
+  const bool swaps = larger_first ? precedes(a, b) : precedes(b, a);
+  return swaps ? apply(function, b, a) : apply(function, a, b);
+}
+
+Tree with_negatives_added(std::span<const Node> tree) {
+  Tree sums(tree.begin(), tree.end());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].primitive != Primitive::subtract) continue;
+    Node& subtracted = sums[subtree_end(sums, i + 1)];
+    if (subtracted.primitive != Primitive::constant) continue;
+    sums[i].primitive = Primitive::add;
+    subtracted.value = -subtracted.value;
+  }
+  return sums;
+}
+
+Tree in_order(std::span<const Node> tree) {
+  return fold<Tree>(
+      with_negatives_added(tree), [](const Node& node) { return Tree{node}; },
+      [](Primitive function, Tree argument) { return apply(function, std::move(argument)); }, apply_in_order);
 }
 
 }  // namespace demecal

@@ -9,7 +9,7 @@
 #include "calibration/evolver.hpp"
 #include "diagnosis/candidates.hpp"
 #include "evolution/fitness.hpp"
-#include "evolution/individual.hpp"
+#include "evolution/population.hpp"
 #include "formula_search/misfit.hpp"
 #include "residuals/diagnosed_model.hpp"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "effects/symbolic_state.hpp"
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 
 namespace demecal {
 

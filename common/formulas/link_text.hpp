@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kinematics/chain.hpp"
-#include "symbolic/matrix.hpp"
+#include "symbolic/parse_expression.hpp"
 
 namespace demecal {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 #include "expression/tree.hpp"
 #include "report/history.hpp"
 

@@ -1,17 +1,16 @@
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
 
-#include "calibration/shared_functions.hpp"
-#include "closed_calibration/calibrated_model.hpp"
-#include "closed_calibration/closed_calibration.hpp"
 #include "config/job_file.hpp"
 #include "data/text.hpp"
-#include "distal/learning.hpp"
 #include "errors/input_error.hpp"
 #include "library/conversion.hpp"
-#include "library/local_evolver.hpp"
+#include "scheduling/fleet.hpp"
+#include "workflows/calibrate.hpp"
 
 namespace demecal {
 namespace {
@@ -32,10 +31,6 @@ Job to_job(const CalibrationSettings& settings) {
   if (!settings.declared.empty()) job.declared = declared_model(settings.declared);
   if (settings.seed) job.seed = *settings.seed;
   if (settings.max_effects) job.closed_loop.max_effects = *settings.max_effects;
-  if (job.method == Method::structural) {
-    throw InputError({settings.job_file.string(), 0}, "structural",
-                     "is a method that the program alone has: `demecal calibrate`");
-  }
   return job;
 }
 
@@ -47,61 +42,38 @@ void require_plausible(const Measurements& measured, const CalibrationSettings& 
                    "the measurements and the arm contradict each other:" + sentences);
 }
 
-struct Learnt {
-  std::vector<JointCandidates> candidates;
-  KnownFunctions functions;  ///< that joints share; nothing where the job does not ask for any
+/// Passes on in sentences what happens, and asks for an end where that is the answer.
+class ProgressTeller final : public CalibrationObserver {
+ public:
+  explicit ProgressTeller(const std::function<bool(const std::string&)>& progress) : progress_(progress) {}
+
+  void on_round(const Round& round, const Robot&) override {
+    if (round.verdict == Verdict::added) on_message(round.diagnosis);
+  }
+  void on_message(const std::string& text) override {
+    if (progress_ && !progress_(text)) interrupt_ = true;
+  }
+  const std::atomic<bool>& interrupt() const { return interrupt_; }
+
+ private:
+  const std::function<bool(const std::string&)>& progress_;
+  std::atomic<bool> interrupt_{false};
 };
-
-Learnt learn(const DataSet& data, const Job& job, const Preparation& preparation, LocalEvolver& evolver) {
-  const bool shares = job.corrections.sharing.functions > 0;
-  if (job.method == Method::distal) {
-    DistalOutcome outcome = learn_distally(data, job, preparation, evolver);
-    return {std::move(outcome.candidates), shares ? std::move(outcome.functions) : KnownFunctions{}};
-  }
-  if (!shares) return {evolver.evolve(preparation.training, {job.seed, job.gp.number_generations}).joints, {}};
-  StagedOutcome outcome = learn_in_stages(preparation.training, job, evolver);
-  return {std::move(outcome.candidates), std::move(outcome.functions)};
-}
-
-CalibratedModel calibrated_model(const DataSet& data, const Job& job, LocalEvolver& evolver) {
-  evolver.say("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
-  const Preparation preparation = prepare(data, job);
-  Learnt learnt = learn(data, job, preparation, evolver);
-  Calibration calibration = conclude(data, job, preparation, learnt.candidates);
-  if (!evolver.is_interrupted() && job.closed_loop.max_effects > 0) {
-    const RoundWatcher watch = [&evolver](const Round& round) {
-      if (round.verdict == Verdict::added) evolver.say(round.diagnosis);
-      return !evolver.is_interrupted();
-    };
-    calibration = close_calibration(data, job, preparation, calibration, evolver, watch, learnt.functions).calibration;
-  }
-  return {.job = job.name,
-          .nominal = data.robot,
-          .method = job.method,
-          .declared = job.declared,
-          .robot = calibration.robot,
-          .estimates = calibration.estimates,
-          .joints = calibration.joints,
-          .posterior = posterior_of(data, job.declared, calibration),
-          .interval = interval_of(data, job.declared, calibration),
-          .measured = measured_ranges(data, calibration),
-          .functions = std::move(learnt.functions),
-          .data_name = data.name,
-          .data_sha256 = data.sha256,
-          .seed = job.seed,
-          .version = DEMECAL_VERSION};
-}
 
 }  // namespace
 
 CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings& settings) {
   require_plausible(measured, settings);
   const DataSet& data = measured.implementation().data;
+  const unsigned threads = settings.threads > 0 ? settings.threads : std::max(std::thread::hardware_concurrency(), 1U);
+  ProgressTeller teller(settings.progress);
+  teller.on_message("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
+  CalibrateOptions options;
+  options.observer = &teller;
+  const MakeFleet make_fleet = [threads] { return std::make_unique<InProcessFleet>(threads); };
+  CalibrateResult result = calibrate(data, to_job(settings), make_fleet, teller.interrupt(), options);
   auto arm = std::make_shared<CalibratedArm::Implementation>();
-  const Job job = to_job(settings);
-  const unsigned threads = settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();
-  LocalEvolver evolver(job, threads, settings.progress);
-  arm->model = calibrated_model(data, job, evolver);
+  arm->model = std::move(result.model);
   return CalibratedArm(std::move(arm));
 }
 

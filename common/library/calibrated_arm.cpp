@@ -12,6 +12,7 @@
 #include "library/conversion.hpp"
 #include "programs/correct_program.hpp"
 #include "programs/summary.hpp"
+#include "workflows/diagnose.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {
@@ -92,12 +93,7 @@ std::string CalibratedArm::correct_program(const std::string& text, const std::s
 PositionErrors CalibratedArm::errors(const Measurements& measured, PoseUse use) const {
   const CalibratedModel& model = implementation_->model;
   const DataSet& data = measured.implementation().data;
-  if (data.robot.chain.size() != model.robot.chain.size())
-    throw InputError({data.file, 0}, data.robot.name, "has another number of joints than the model");
-  for (const MeasuredPose& pose : data.poses) {
-    if (!model.robot.tools.contains(pose.target))
-      throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
-  }
+  require_same_arm(model, data);
   const ErrorFigures figures = error_figures(model.robot, data, poses_of(data, to_pose_set(use)));
   return {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm};
 }
@@ -115,7 +111,7 @@ std::string CalibratedArm::correction(int joint) const {
   if (joint < 1 || joint > std::ssize(corrections))
     throw InputError({}, std::to_string(joint), "is no joint of this arm; joints count from 1");
   const JointCorrection& correction = corrections[static_cast<std::size_t>(joint) - 1];
-  return correction.is_neutral() ? "0" : to_text(correction.formula());
+  return correction.is_neutral() ? "0" : to_string(correction.formula());
 }
 
 }  // namespace demecal

@@ -13,9 +13,20 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+/// The first colon outside of brackets.
+std::size_t first_colon(const std::string& type) {
+  int depth = 0;
+  for (std::size_t i = 0; i < type.size(); ++i) {
+    if (type[i] == '[') ++depth;
+    if (type[i] == ']') --depth;
+    if (type[i] == ':' && depth == 0) return i;
+  }
+  return std::string::npos;
+}
+
 /// Validators describe themselves behind the type, as "TEXT:{a,b}", "INT:INT in [0 - 256]" or "FLOAT:POSITIVE".
 void describe_value(const std::string& type, DescribedOption& option) {
-  const std::size_t colon = type.find(':');
+  const std::size_t colon = first_colon(type);
   option.value = type.substr(0, colon);
   if (colon == std::string::npos) return;
   const std::string rule = type.substr(colon + 1);

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string>
 
-#include "protocol/printable.hpp"
+#include "protocol/message_bytes.hpp"
 #include "report/json.hpp"
 
 namespace demecal {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 

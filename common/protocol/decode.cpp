@@ -1,13 +1,21 @@
+#include "expression/primitive.hpp"
+#include "expression/tree.hpp"
+#include "protocol/field_kinds.hpp"
 #include "protocol/message_bytes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "protocol/fields.hpp"
-#include "protocol/printable.hpp"
 
 namespace demecal {
 namespace {
@@ -169,13 +177,13 @@ class Decoder {
 }  // namespace
 
 template <class Plain>
-std::optional<Plain> message_of(std::string_view bytes) {
+std::optional<Plain> from_bytes(std::string_view bytes) {
   if (bytes.size() > kMostSample_bytes) return std::nullopt;
   return Decoder(bytes, std::endian::little).read<Plain>(0);
 }
 
 template <class Plain>
-std::optional<Plain> sample_of(std::string_view bytes) {
+std::optional<Plain> from_sample(std::string_view bytes) {
   if (bytes.size() < kEncapsulation_bytes || bytes.size() > kMostSample_bytes) return std::nullopt;
   if (bytes[0] != 0 || (bytes[1] != 0 && bytes[1] != 1)) return std::nullopt;
   const std::endian order = bytes[1] == 1 ? std::endian::little : std::endian::big;
@@ -183,8 +191,8 @@ std::optional<Plain> sample_of(std::string_view bytes) {
 }
 
 #define DEMECAL_DECODE(Plain)                                 \
-  template std::optional<Plain> message_of(std::string_view); \
-  template std::optional<Plain> sample_of(std::string_view)
+  template std::optional<Plain> from_bytes(std::string_view); \
+  template std::optional<Plain> from_sample(std::string_view)
 DEMECAL_DECODE(CalibrationData);
 DEMECAL_DECODE(IslandTask);
 DEMECAL_DECODE(Migrants);
@@ -197,5 +205,68 @@ DEMECAL_DECODE(LoopNews);
 DEMECAL_DECODE(MessagePart);
 DEMECAL_DECODE(PlacedProgress);
 #undef DEMECAL_DECODE
+
+namespace {
+
+/// A character of UTF-8: how many bytes it takes, and its number; 0 bytes where there is none.
+struct Character {
+  std::size_t bytes = 0;
+  std::uint32_t number = 0;
+};
+
+std::uint32_t bits(char byte) {
+  return static_cast<std::uint8_t>(byte);
+}
+
+/// RFC 3629: no overlong forms, no surrogates, nothing above 10FFFF.
+Character first_character(std::string_view text) {
+  struct Form {
+    std::uint32_t mask, lead, smallest;
+  };
+  constexpr std::array<Form, 4> kForms{
+      {{0x80, 0x00, 0}, {0xE0, 0xC0, 0x80}, {0xF0, 0xE0, 0x800}, {0xF8, 0xF0, 0x10000}}};
+  for (std::size_t bytes = 1; bytes <= kForms.size() && bytes <= text.size(); ++bytes) {
+    const Form& form = kForms[bytes - 1];
+    if ((bits(text[0]) & form.mask) != form.lead) continue;
+    std::uint32_t number = bits(text[0]) & ~form.mask & 0xFF;
+    for (std::size_t i = 1; i < bytes; ++i) {
+      if ((bits(text[i]) & 0xC0) != 0x80) return {};
+      number = (number << 6) | (bits(text[i]) & 0x3F);
+    }
+    const bool is_surrogate = number >= 0xD800 && number <= 0xDFFF;
+    if (number < form.smallest || number > 0x10FFFF || is_surrogate) return {};
+    return {bytes, number};
+  }
+  return {};
+}
+
+bool is_shown(std::uint32_t number) {
+  const bool is_control = number < 0x20 || (number >= 0x7F && number < 0xA0);
+  const bool separates = number == 0x2028 || number == 0x2029;
+  const bool turns = number == 0x200E || number == 0x200F || (number >= 0x202A && number <= 0x202E) ||
+                     (number >= 0x2066 && number <= 0x2069);
+  return !is_control && !separates && !turns;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const std::size_t bytes = character.bytes == 0 ? 1 : character.bytes;
+    if (character.bytes != 0 && is_shown(character.number)) {
+      shown += text.substr(0, bytes);
+    } else {
+      shown += '?';
+    }
+    text.remove_prefix(bytes);
+  }
+  return shown;
+}
+
+bool is_printable(std::string_view text) {
+  return printable(text) == text;
+}
 
 }  // namespace demecal

@@ -1,8 +1,20 @@
+#include "expression/primitive.hpp"
+#include "expression/tree.hpp"
+#include "protocol/field_kinds.hpp"
 #include "protocol/message_bytes.hpp"
+#include "protocol/messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "protocol/fields.hpp"
 

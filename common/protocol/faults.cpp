@@ -1,8 +1,14 @@
 #include "protocol/faults.hpp"
 
+#include "evolution/archipelago.hpp"
+#include "evolution/fitness.hpp"
+#include "evolution/island.hpp"
+#include "expression/tree.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace demecal {
 namespace {
@@ -10,9 +16,12 @@ namespace {
 constexpr std::size_t kMostVariables = 255;
 
 Fault size_fault(const GpParameters& p) {
-  if (p.population_size > kMostIndividuals) return "more individuals than are believed";
-  if (p.number_generations > kMostGenerations) return "more generations than are believed";
-  if (p.invalid_attempts > kMostAttempts) return "more attempts at an offspring than are believed";
+  if (p.population_size > kMostIndividuals)
+    return "more individuals than the limit, " + std::to_string(kMostIndividuals);
+  if (p.number_generations > kMostGenerations)
+    return "more generations than the limit, " + std::to_string(kMostGenerations);
+  if (p.invalid_attempts > kMostAttempts)
+    return "more attempts at an offspring than the limit, " + std::to_string(kMostAttempts);
   return std::nullopt;
 }
 

@@ -1,10 +1,14 @@
 // Whether a received message may be acted on: what is wrong with it, or nothing. Whoever receives a message asks first,
-// so that no message from elsewhere can break a promise of the rooms below.
+// so that no message from elsewhere can break a precondition of the rooms below.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
+#include "evolution/parameters.hpp"
+#include "evolution/population.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal {
@@ -12,7 +16,7 @@ namespace demecal {
 /// Why a message is refused: a sentence for a log.
 using Fault = std::optional<std::string>;
 
-/// More than any job needs is not believed: memory is claimed by these numbers.
+/// More than any job needs is refused: memory is claimed by these numbers.
 inline constexpr std::size_t kMostJoints = 64;
 inline constexpr std::uint32_t kMostDemes = 1024;  ///< islands of one joint
 inline constexpr int kMostIndividuals = 100'000;   ///< of one island
@@ -39,7 +43,7 @@ Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data);
 /// The island is one of the run's, all generations are bred, the front valid, the worker named.
 Fault find_fault(const Outcome& outcome, const CalibrationData& data);
 
-/// The worker is named, has a believable number of slots, and waited for a share from 0 to 1.
+/// The worker is named, has from 1 to kMostSlots slots, and waited for a share from 0 to 1.
 Fault find_fault(const WorkerStatus& status);
 
 /// A population of a joint with `variables` variables: every tree valid, no deeper and no longer than allowed, every

@@ -6,7 +6,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "evolution/fitness.hpp"
+#include "evolution/island.hpp"
+#include "evolution/parameters.hpp"
+#include "evolution/population.hpp"
+#include "expression/shared_function.hpp"
 #include "protocol/field_kinds.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 

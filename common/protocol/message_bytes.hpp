@@ -1,6 +1,7 @@
 // Messages as bytes: as a file keeps them, and as a DDS sample holds them (idl/calibration.idl).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,14 +22,14 @@ std::string to_bytes(const Plain& message);
 /// none. No memory is claimed for what is not there. Whether the message makes sense in its run is not asked here, but
 /// by protocol/faults.hpp.
 template <class Plain>
-std::optional<Plain> message_of(std::string_view bytes);
+std::optional<Plain> from_bytes(std::string_view bytes);
 
 /// The message as a DDS sample: its bytes behind four that name their form.
 template <class Plain>
 std::string to_sample(const Plain& message);
 /// The message of a sample, little endian or big; up to three bytes that fill a word may follow.
 template <class Plain>
-std::optional<Plain> sample_of(std::string_view bytes);
+std::optional<Plain> from_sample(std::string_view bytes);
 
 /// More than any sample has that demecal sends; what is larger is none.
 inline constexpr std::size_t kMostSample_bytes = 64 << 20;
@@ -43,5 +44,10 @@ SampleKey key_bytes(const Plain& message);
 
 /// About how much memory a message takes.
 std::size_t weight_bytes(const Message& message);
+
+/// `text` with a question mark for every control character, every character that turns the direction of writing, and
+/// every byte that is not UTF-8.
+std::string printable(std::string_view text);
+bool is_printable(std::string_view text);
 
 }  // namespace demecal

@@ -60,7 +60,7 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
   const Interval range = correction.range_rad();
   JointEntry entry{.joint = static_cast<std::uint64_t>(summary.joint) + 1,
                    .kept = summary.kept,
-                   .expression = to_text(correction.formula()),
+                   .expression = to_string(correction.formula()),
                    .mean_abs_error_rad = {if_finite(summary.before_rad), if_finite(summary.after_rad)},
                    .range_rad = {},
                    .bound_rad = if_finite(summary.bound_rad),
@@ -69,7 +69,7 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
                    .note = summary.note};
   if (std::isfinite(range.lower) && std::isfinite(range.upper)) entry.range_rad = range;
   const FoldedFormula calling = folded_correction(correction, model.functions);
-  if (!calling.calls.empty()) entry.with_functions = to_text(calling);
+  if (!calling.calls.empty()) entry.with_functions = to_string(calling);
   return entry;
 }
 
@@ -102,8 +102,8 @@ std::vector<ParameterEntry> parameter_entries(const Conclusions& run) {
 std::vector<DistalEntry> distal_entries(const std::vector<DistalStep>& steps) {
   std::vector<DistalEntry> entries;
   for (const DistalStep& step : steps) {
-    entries.push_back({static_cast<std::uint64_t>(step.joint) + 1, step.generation, to_text(step.correction.formula()),
-                       if_finite(step.index_mm2)});
+    entries.push_back({static_cast<std::uint64_t>(step.joint) + 1, step.generation,
+                       to_string(step.correction.formula()), if_finite(step.index_mm2)});
   }
   return entries;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "expression/interval.hpp"
+#include "expression/bound.hpp"
 
 namespace demecal {
 

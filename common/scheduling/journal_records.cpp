@@ -64,7 +64,7 @@ class Reading {
 
  private:
   bool begin(std::uint32_t evolution, std::string_view content) {
-    const auto data = message_of<CalibrationData>(content);
+    const auto data = from_bytes<CalibrationData>(content);
     if (!data || find_fault(*data) || evolution > job_.evolutions.size()) return false;
     if (evolution == job_.evolutions.size()) job_.evolutions.emplace_back(*data);
     job_.evolutions[evolution].rename(data->run);
@@ -79,7 +79,7 @@ class Reading {
 
   template <class Plain>
   bool grow(RunState& state, std::string_view content) {
-    const auto message = message_of<Plain>(content);
+    const auto message = from_bytes<Plain>(content);
     if (!message || find_fault(*message, state.data())) return false;
     state.take(*message);
     return true;

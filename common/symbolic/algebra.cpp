@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <optional>
 
 #include "errors/check.hpp"
-#include "symbolic/fold_constants.hpp"
-#include "symbolic/trigonometry.hpp"
+#include "symbolic/rules.hpp"
 
 namespace demecal {
 namespace {
 
 /// Gathers what stands by equal expressions, in the order of their ids; what comes to nothing goes.
-class Gathered {
+class TermCollector {
  public:
   void add(Expression expression, double amount) {
     const auto [at, is_new] = amounts_.try_emplace(expression->id, expression, 0.0);
@@ -30,20 +31,20 @@ class Gathered {
 };
 
 bool is_scaled(const ExpressionNode& term) {
-  return term.kind == Kind::sum && term.value == 0.0 && term.parts.size() == 1;
+  return term.kind == ExpressionKind::sum && term.value == 0.0 && term.parts.size() == 1;
 }
 
-/// Adds coefficient * expression to a sum that is being gathered. Sums within are opened only where that multiplies
+/// Adds coefficient * expression to a sum that is being collector. Sums within are opened only where that multiplies
 /// nothing out.
-void gather(Gathered& gathered, double& constant, Expression expression, double coefficient) {
+void collect_term(TermCollector& collector, double& constant, Expression expression, double coefficient) {
   const ExpressionNode& term = *expression;
-  if (term.kind == Kind::constant) {
+  if (term.kind == ExpressionKind::constant) {
     constant += coefficient * term.value;
-  } else if (term.kind == Kind::sum && (std::abs(coefficient) == 1.0 || is_scaled(term))) {
+  } else if (term.kind == ExpressionKind::sum && (std::abs(coefficient) == 1.0 || is_scaled(term))) {
     constant += coefficient * term.value;
-    for (const auto& [part, inner] : term.parts) gather(gathered, constant, part, coefficient * inner);
+    for (const auto& [part, inner] : term.parts) collect_term(collector, constant, part, coefficient * inner);
   } else {
-    gathered.add(expression, coefficient);
+    collector.add(expression, coefficient);
   }
 }
 
@@ -69,7 +70,7 @@ bool join_two(std::vector<Part>& parts) {
 bool join_with_constant(std::vector<Part>& parts, double& constant) {
   for (Part& part : parts) {
     if (constant == 0.0 || std::abs(part.second) != std::abs(constant)) continue;
-    const auto one = joined_with_one(part.first, part.second * constant > 0.0 ? 1.0 : -1.0);
+    const auto one = combined_with_one(part.first, part.second * constant > 0.0 ? 1.0 : -1.0);
     if (!one) continue;
     part = {*one, constant};
     constant = 0.0;
@@ -78,25 +79,25 @@ bool join_with_constant(std::vector<Part>& parts, double& constant) {
   return false;
 }
 
-/// base ^ exponent into a product that is being gathered.
-void gather_factor(Gathered& gathered, double& coefficient, Expression base, double exponent) {
+/// base ^ exponent into a product that is being collector.
+void collect_factor(TermCollector& collector, double& coefficient, Expression base, double exponent) {
   const ExpressionNode& term = *base;
-  if (term.kind == Kind::constant) {
+  if (term.kind == ExpressionKind::constant) {
     coefficient *= std::pow(term.value, exponent);
   } else if (is_scaled(term)) {
     coefficient *= std::pow(term.parts[0].second, exponent);
-    gather_factor(gathered, coefficient, term.parts[0].first, exponent);
-  } else if (term.kind == Kind::product) {
-    for (const auto& [inner, power] : term.parts) gathered.add(inner, power * exponent);
+    collect_factor(collector, coefficient, term.parts[0].first, exponent);
+  } else if (term.kind == ExpressionKind::product) {
+    for (const auto& [inner, power] : term.parts) collector.add(inner, power * exponent);
   } else {
-    gathered.add(base, exponent);
+    collector.add(base, exponent);
   }
 }
 
 }  // namespace
 
 bool Expression::is_constant() const {
-  return term_->kind == Kind::constant;
+  return term_->kind == ExpressionKind::constant;
 }
 bool Expression::is(double constant) const {
   return is_constant() && term_->value == constant;
@@ -105,7 +106,7 @@ Algebra& Expression::algebra() const {
   return *term_->algebra;
 }
 
-Expression Algebra::interned(Kind kind, Function function, double value, const std::string& name,
+Expression Algebra::interned(ExpressionKind kind, Function function, double value, const std::string& name,
                              std::vector<Part> parts) {
   value += 0.0;  // no -0
   Key key{kind, function, std::bit_cast<std::uint64_t>(value), name, {}};
@@ -120,34 +121,35 @@ Expression Algebra::interned(Kind kind, Function function, double value, const s
 }
 
 Expression Algebra::constant(double value) {
-  return interned(Kind::constant, {}, value, "", {});
+  return interned(ExpressionKind::constant, {}, value, "", {});
 }
 
 Expression Algebra::symbol(const std::string& name) {
-  return interned(Kind::symbol, {}, 0.0, name, {});
+  return interned(ExpressionKind::symbol, {}, 0.0, name, {});
 }
 
 Expression Algebra::sum(std::vector<Part> parts, double constant) {
   while (true) {
-    Gathered gathered;
-    for (const auto& [part, coefficient] : parts) gather(gathered, constant, part, coefficient);
-    parts = gathered.parts();
+    TermCollector collector;
+    for (const auto& [part, coefficient] : parts) collect_term(collector, constant, part, coefficient);
+    parts = collector.parts();
     if (!join_two(parts) && !join_with_constant(parts, constant)) break;
   }
   if (parts.empty()) return this->constant(constant);
   if (parts.size() == 1 && constant == 0.0 && parts[0].second == 1.0) return parts[0].first;
-  return interned(Kind::sum, {}, constant, "", std::move(parts));
+  return interned(ExpressionKind::sum, {}, constant, "", std::move(parts));
 }
 
 Expression Algebra::product(const std::vector<Part>& parts) {
   double coefficient = 1.0;
-  Gathered gathered;
-  for (const auto& [base, exponent] : parts) gather_factor(gathered, coefficient, base, exponent);
+  TermCollector collector;
+  for (const auto& [base, exponent] : parts) collect_factor(collector, coefficient, base, exponent);
   if (coefficient == 0.0) return constant(0.0);
-  std::vector<Part> factors = gathered.parts();
+  std::vector<Part> factors = collector.parts();
   if (factors.empty()) return constant(coefficient);
   const bool single = factors.size() == 1 && factors[0].second == 1.0;
-  const Expression whole = single ? factors[0].first : interned(Kind::product, {}, 0.0, "", std::move(factors));
+  const Expression whole =
+      single ? factors[0].first : interned(ExpressionKind::product, {}, 0.0, "", std::move(factors));
   return coefficient == 1.0 ? whole : sum({{whole, coefficient}});
 }
 
@@ -155,11 +157,11 @@ Expression Algebra::function(Function function, const std::vector<Expression>& a
   DEMECAL_CHECK(function != Function::formula && !arguments.empty(), arguments.size() << " arguments");
   if (const auto value = folded(function, arguments)) return *value;
   if (function == Function::sine || function == Function::cosine) {
-    if (const auto shorter = turned(function, arguments[0])) return *shorter;
+    if (const auto shorter = simplified_trigonometric(function, arguments[0])) return *shorter;
   }
   std::vector<Part> parts;
   for (const Expression argument : arguments) parts.emplace_back(argument, 1.0);
-  return interned(Kind::function, function, 0.0, "", std::move(parts));
+  return interned(ExpressionKind::function, function, 0.0, "", std::move(parts));
 }
 
 Expression Algebra::formula(const std::string& name, const Tree& tree, const std::vector<Expression>& arguments) {
@@ -168,7 +170,7 @@ Expression Algebra::formula(const std::string& name, const Tree& tree, const std
   DEMECAL_CHECK(known->second == tree, "two formulas are called " << name);
   std::vector<Part> parts;
   for (const Expression argument : arguments) parts.emplace_back(argument, 1.0);
-  return interned(Kind::function, Function::formula, 0.0, name, std::move(parts));
+  return interned(ExpressionKind::function, Function::formula, 0.0, name, std::move(parts));
 }
 
 const Tree& Algebra::tree_of(const std::string& name) const {

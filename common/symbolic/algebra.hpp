@@ -1,6 +1,7 @@
 // Algebra with names: expressions of symbols whose equal parts are one, kept in a short form as they are made.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -14,7 +15,7 @@
 
 namespace demecal {
 
-enum class Kind { constant, symbol, sum, product, function };
+enum class ExpressionKind { constant, symbol, sum, product, function };
 
 /// What sums and products cannot say. `divide_or_one` is the protected division of evolved formulas, `divide_or_zero`
 /// gives 0 where the divisor is 0, `round` goes away from zero at halves, `if_not_negative(c, a, b)` is a where c >= 0
@@ -69,7 +70,7 @@ using Part = std::pair<Expression, double>;
 struct ExpressionNode {
   Algebra* algebra;
   std::uint32_t id;
-  Kind kind;
+  ExpressionKind kind;
   Function function;
   double value;      ///< of a constant, and the constant of a sum
   std::string name;  ///< of a symbol or an evolved formula
@@ -102,10 +103,11 @@ class Algebra {
 
  private:
   /// Numbers by their bits: what is no number has no place in an order.
-  using Key =
-      std::tuple<Kind, Function, std::uint64_t, std::string, std::vector<std::pair<std::uint32_t, std::uint64_t>>>;
+  using Key = std::tuple<ExpressionKind, Function, std::uint64_t, std::string,
+                         std::vector<std::pair<std::uint32_t, std::uint64_t>>>;
 
-  Expression interned(Kind kind, Function function, double value, const std::string& name, std::vector<Part> parts);
+  Expression interned(ExpressionKind kind, Function function, double value, const std::string& name,
+                      std::vector<Part> parts);
 
   std::deque<ExpressionNode> terms_;
   std::map<Key, const ExpressionNode*> known_;

@@ -1,22 +1,24 @@
 #include "symbolic/code.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <sstream>
+#include <utility>
 
-#include "symbolic/differentiate.hpp"
-#include "symbolic/shared_terms.hpp"
-#include "symbolic/values.hpp"
+#include "symbolic/calculus.hpp"
+#include "symbolic/printing.hpp"
 
 namespace demecal {
 namespace {
 
-struct Helper {
+struct SupportFunction {
   Function function;
   const char *c, *python, *matlab;
 };
 
-const std::vector<Helper>& helpers() {
-  static const std::vector<Helper> all{
+const std::vector<SupportFunction>& support_functions() {
+  static const std::vector<SupportFunction> all{
       {Function::sign, "static double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }\n",
        "def sign_of(x):\n    return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else x)\n", ""},
       {Function::round, "", "def round_away(x):\n    return math.floor(x + 0.5) if x >= 0.0 else math.ceil(x - 0.5)\n",
@@ -66,10 +68,10 @@ std::string list(const std::vector<std::string>& texts, const std::string& befor
   return all;
 }
 
-class File {
+class CodeFile {
  public:
-  File(const Listing& listing, CodeLanguage language)
-      : listing_(listing), spelling_(language), pose_(elements(listing.pose)) {
+  CodeFile(const Listing& listing, CodeLanguage language)
+      : listing_(listing), printer_(language), pose_(elements(listing.pose)) {
     everything_ = pose_;
     everything_.insert(everything_.end(), listing.actual.begin(), listing.actual.end());
   }
@@ -88,12 +90,12 @@ class File {
     for (const std::string& line : listing_.remarks) all += mark + line + '\n';
     return all + '\n';
   }
-  std::string helpers_in(const char* Helper::*language) const {
+  std::string support_functions_in(const char* SupportFunction::*language) const {
     const std::set<Function> called = functions_in(everything_);
     std::string all;
-    for (const Helper& helper : helpers()) {
-      const std::string text = helper.*language;
-      if (called.contains(helper.function) && !text.empty()) all += text + '\n';
+    for (const SupportFunction& support : support_functions()) {
+      const std::string text = support.*language;
+      if (called.contains(support.function) && !text.empty()) all += text + '\n';
     }
     return all;
   }
@@ -102,17 +104,17 @@ class File {
     std::set<std::string> names;
     std::vector<Expression> found;
     for (const Expression term : terms_of(everything_)) {
-      const bool formula = term->kind == Kind::function && term->function == Function::formula;
+      const bool formula = term->kind == ExpressionKind::function && term->function == Function::formula;
       if (formula && names.insert(term->name).second) found.push_back(term);
     }
     return found;
   }
   std::string formula_text(Expression formula) const {
-    return spelling_.formula(formula.algebra().tree_of(formula->name), variables_of(*formula));
+    return printer_.formula(formula.algebra().tree_of(formula->name), variables_of(*formula));
   }
-  bool speaks_of(const std::string& symbol) const {
-    return std::ranges::any_of(terms_of(pose_),
-                               [&](Expression term) { return term->kind == Kind::symbol && term->name == symbol; });
+  bool pose_uses(const std::string& symbol) const {
+    return std::ranges::any_of(
+        terms_of(pose_), [&](Expression term) { return term->kind == ExpressionKind::symbol && term->name == symbol; });
   }
   /// Assignments of steps, each with what stands before and after it.
   static std::string assignments(const Steps& steps, const std::string& before, const std::string& after) {
@@ -123,22 +125,22 @@ class File {
   std::string equations();
 
   const Listing& listing_;
-  Spelling spelling_;
+  ExpressionPrinter printer_;
   std::vector<Expression> pose_, everything_;
 };
 
-std::string File::equations() {
+std::string CodeFile::equations() {
   std::ostringstream out;
   for (const Expression formula : formulas()) {
     out << formula->name << '(' << list(variables_of(*formula)) << ") = " << formula_text(formula) << '\n';
   }
-  const Steps joints = steps_to(listing_.actual, spelling_, "s");
+  const Steps joints = plan_steps(listing_.actual, printer_, "s");
   out << assignments(joints, "", "\n");
   for (std::size_t i = 0; i < this->joints(); ++i) {
     out << actual_joint(static_cast<int>(i + 1)) << " = h" << i + 1 << '(' << commanded_joint(static_cast<int>(i + 1))
         << ") = " << joints.results[i] << '\n';
   }
-  const Steps steps = steps_to(pose_, spelling_);
+  const Steps steps = plan_steps(pose_, printer_);
   out << '\n' << assignments(steps, "", "\n") << '\n';
   for (std::size_t i = 0; i < 12; ++i) {
     out << "pose(" << i / 4 + 1 << ',' << i % 4 + 1 << ") = " << steps.results[i] << '\n';
@@ -146,54 +148,55 @@ std::string File::equations() {
   return out.str();
 }
 
-std::string File::c() {
+std::string CodeFile::c() {
   std::ostringstream out;
-  out << remarks("// ") << "#include <math.h>\n\n" << helpers_in(&Helper::c);
+  out << remarks("// ") << "#include <math.h>\n\n" << support_functions_in(&SupportFunction::c);
   for (const Expression formula : formulas()) {
     out << "static double " << formula->name << '(' << list(variables_of(*formula), "double ") << ") {\n  return "
         << formula_text(formula) << ";\n}\n\n";
   }
   for (std::size_t i = 0; i < joints(); ++i) {
-    const Steps steps = steps_to({listing_.actual[i]}, spelling_);
+    const Steps steps = plan_steps({listing_.actual[i]}, printer_);
     out << "double h" << number_of(i) << "(double q" << number_of(i) << ") {\n"
         << assignments(steps, "  const double ", ";\n") << "  return " << steps.results[0] << ";\n}\n\n";
   }
   out << "void forward(const double q[" << joints() << "], double pose[16]) {\n";
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i), index = std::to_string(i);
-    if (speaks_of('q' + number)) out << "  const double q" << number << " = q[" << index << "];\n";
-    if (speaks_of("actual" + number))
+    if (pose_uses('q' + number)) out << "  const double q" << number << " = q[" << index << "];\n";
+    if (pose_uses("actual" + number))
       out << "  const double actual" << number << " = h" << number << "(q[" << index << "]);\n";
   }
-  const Steps steps = steps_to(pose_, spelling_);
+  const Steps steps = plan_steps(pose_, printer_);
   out << assignments(steps, "  const double ", ";\n");
   for (std::size_t i = 0; i < pose_.size(); ++i) out << "  pose[" << i << "] = " << steps.results[i] << ";\n";
   out << "}\n";
   return out.str();
 }
 
-std::string File::python() {
+std::string CodeFile::python() {
   std::ostringstream out;
   out << remarks("# ") << "import math\n\n\n";
-  std::string helpers = helpers_in(&Helper::python);
-  for (std::size_t at = 0; (at = helpers.find("\n\n", at)) != std::string::npos; at += 3) helpers.insert(at, "\n");
-  out << helpers;
+  std::string support_functions = support_functions_in(&SupportFunction::python);
+  for (std::size_t at = 0; (at = support_functions.find("\n\n", at)) != std::string::npos; at += 3)
+    support_functions.insert(at, "\n");
+  out << support_functions;
   for (const Expression formula : formulas()) {
     out << "def " << formula->name << '(' << list(variables_of(*formula)) << "):\n    return " << formula_text(formula)
         << "\n\n\n";
   }
   for (std::size_t i = 0; i < joints(); ++i) {
-    const Steps steps = steps_to({listing_.actual[i]}, spelling_);
+    const Steps steps = plan_steps({listing_.actual[i]}, printer_);
     out << "def h" << number_of(i) << "(q" << number_of(i) << "):\n"
         << assignments(steps, "    ", "\n") << "    return " << steps.results[0] << "\n\n\n";
   }
   out << "def forward(q):\n";
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i), index = std::to_string(i);
-    if (speaks_of('q' + number)) out << "    q" << number << " = q[" << index << "]\n";
-    if (speaks_of("actual" + number)) out << "    actual" << number << " = h" << number << "(q[" << index << "])\n";
+    if (pose_uses('q' + number)) out << "    q" << number << " = q[" << index << "]\n";
+    if (pose_uses("actual" + number)) out << "    actual" << number << " = h" << number << "(q[" << index << "])\n";
   }
-  const Steps steps = steps_to(pose_, spelling_);
+  const Steps steps = plan_steps(pose_, printer_);
   out << assignments(steps, "    ", "\n") << "    return [\n";
   for (std::size_t row = 0; row < 4; ++row) {
     const auto first = steps.results.begin() + static_cast<std::ptrdiff_t>(4 * row);
@@ -203,24 +206,24 @@ std::string File::python() {
   return out.str();
 }
 
-std::string File::matlab() {
+std::string CodeFile::matlab() {
   std::ostringstream out;
   out << "function [pose, h] = forward(q)\n" << remarks("% ");
   std::vector<std::string> actual;
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i);
-    if (speaks_of('q' + number)) out << "  q" << number << " = q(" << number << ");\n";
+    if (pose_uses('q' + number)) out << "  q" << number << " = q(" << number << ");\n";
     out << "  actual" << number << " = h" << number << "(q(" << number << "));\n";
     actual.push_back("actual" + number);
   }
-  const Steps steps = steps_to(pose_, spelling_);
+  const Steps steps = plan_steps(pose_, printer_);
   out << assignments(steps, "  ", ";\n") << "  pose = zeros(4, 4);\n";
   for (std::size_t i = 0; i < pose_.size(); ++i) {
     out << "  pose(" << i / 4 + 1 << ", " << i % 4 + 1 << ") = " << steps.results[i] << ";\n";
   }
   out << "  h = [" << list(actual) << "];\nend\n\n";
   for (std::size_t i = 0; i < joints(); ++i) {
-    const Steps of_joint = steps_to({listing_.actual[i]}, spelling_);
+    const Steps of_joint = plan_steps({listing_.actual[i]}, printer_);
     out << "function x = h" << number_of(i) << "(q" << number_of(i) << ")\n"
         << assignments(of_joint, "  ", ";\n") << "  x = " << of_joint.results[0] << ";\nend\n\n";
   }
@@ -228,7 +231,7 @@ std::string File::matlab() {
     out << "function x = " << formula->name << '(' << list(variables_of(*formula))
         << ")\n  x = " << formula_text(formula) << ";\nend\n\n";
   }
-  out << helpers_in(&Helper::matlab);
+  out << support_functions_in(&SupportFunction::matlab);
   return out.str();
 }
 
@@ -253,7 +256,7 @@ Listing derivative(const Listing& listing, int joint) {
 }
 
 std::string code_of(const Listing& listing, CodeLanguage language) {
-  File file(listing, language);
+  CodeFile file(listing, language);
   switch (language) {
     case CodeLanguage::c:
       return file.c();

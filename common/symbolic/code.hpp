@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/matrix.hpp"
-#include "symbolic/spelling.hpp"
+#include "symbolic/algebra.hpp"
+#include "symbolic/parse_expression.hpp"
+#include "symbolic/printing.hpp"
 
 namespace demecal {
 
 /// What is written. Joint i (from 1) is commanded to the symbol qi; `actual[i - 1]` says in terms of it where the joint
-/// then is, and `pose` may speak of that as the symbol actual_joint(i), and of all q.
+/// then is, and `pose` may refer to that as the symbol actual_joint(i), and of all q.
 struct Listing {
   std::vector<std::string> remarks;  ///< lines of comment at the head
   std::vector<Expression> actual;

@@ -4,25 +4,29 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <system_error>
+#include <utility>
 
-#include "expression/syntax_error.hpp"
-#include "symbolic/values.hpp"
+#include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "symbolic/calculus.hpp"
 
 namespace demecal {
 namespace {
 
-constexpr int kDeepestNesting = 256;       // the parser calls itself, and text comes from strangers
-constexpr double kLargestExponent = 64.0;  // as written
-constexpr double kLargestPower = 4096.0;   // of powers of powers
+constexpr int kDeepestNesting = 256;              // the parser calls itself, and text comes from strangers
+constexpr double kLargestWrittenExponent = 64.0;  // as written
+constexpr double kLargestPower = 4096.0;          // of powers of powers
 
 bool begins_name(char character) {
   return character == '_' || std::isalpha(static_cast<unsigned char>(character));
 }
 
-class Parser {
+class ExpressionParser {
  public:
-  Parser(Algebra& algebra, std::string_view text, const SymbolNames& names)
+  ExpressionParser(Algebra& algebra, std::string_view text, const SymbolNames& names)
       : algebra_(algebra), text_(text), names_(names) {}
 
   Expression whole() {
@@ -33,7 +37,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& expected) const { refuse_at(text_, at_, expected); }
+  [[noreturn]] void fail(const std::string& expected) const { throw_syntax_error(text_, at_, expected); }
 
   /// Numbers that no double holds, and powers of powers that no code can be written for.
   void refuse_excess(Expression expression) const {
@@ -41,7 +45,7 @@ class Parser {
       bool fits = std::isfinite(term->value);
       for (const Part& part : term->parts) {
         fits = fits && std::isfinite(part.second);
-        fits = fits && (term->kind != Kind::product || std::abs(part.second) <= kLargestPower);
+        fits = fits && (term->kind != ExpressionKind::product || std::abs(part.second) <= kLargestPower);
       }
       if (!fits) fail("numbers that a double can hold, and powers of at most 4096, before this");
     }
@@ -104,7 +108,7 @@ class Parser {
     next();
     const std::size_t begin = at_;
     const double exponent = number();
-    if (exponent != std::round(exponent) || exponent > kLargestExponent || (negative && base.is(0.0))) {
+    if (exponent != std::round(exponent) || exponent > kLargestWrittenExponent || (negative && base.is(0.0))) {
       at_ = begin;
       fail("a whole exponent of at most 64, and none below 0 of 0");
     }
@@ -191,7 +195,66 @@ class Parser {
 }  // namespace
 
 Expression parse_expression(Algebra& algebra, std::string_view text, const SymbolNames& names) {
-  return Parser(algebra, text, names).whole();
+  return ExpressionParser(algebra, text, names).whole();
+}
+
+namespace {
+
+SymbolicMatrix identity_matrix(Algebra& algebra) {
+  SymbolicMatrix matrix(4, std::vector<Expression>(4, algebra.constant(0.0)));
+  for (std::size_t i = 0; i < 4; ++i) matrix[i][i] = algebra.constant(1.0);
+  return matrix;
+}
+
+}  // namespace
+
+SymbolicMatrix parse_matrix(Algebra& algebra, const MatrixText& text, const SymbolNames& names) {
+  SymbolicMatrix matrix = identity_matrix(algebra);
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      try {
+        matrix[row][column] = parse_expression(algebra, text[row][column], names);
+      } catch (const InputError& error) {
+        throw InputError(
+            error.where(), error.value(),
+            "row " + std::to_string(row + 1) + ", element " + std::to_string(column + 1) + ", " + error.rule());
+      }
+    }
+  }
+  return matrix;
+}
+
+SymbolicMatrix product(const SymbolicMatrix& a, const SymbolicMatrix& b) {
+  Algebra& algebra = a[0][0].algebra();
+  SymbolicMatrix result = identity_matrix(algebra);
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      std::vector<Part> sum;
+      for (std::size_t k = 0; k < 4; ++k) sum.emplace_back(a[row][k] * b[k][column], 1.0);
+      result[row][column] = algebra.sum(sum);
+    }
+  }
+  return result;
+}
+
+SymbolicMatrix parse_product(Algebra& algebra, const std::vector<MatrixText>& texts) {
+  SymbolicMatrix result = identity_matrix(algebra);
+  for (const MatrixText& text : texts) result = product(result, parse_matrix(algebra, text));
+  return result;
+}
+
+SymbolicMatrix derivative(const SymbolicMatrix& matrix, const std::string& symbol) {
+  SymbolicMatrix result = matrix;
+  for (auto& row : result) {
+    for (Expression& element : row) element = derivative(element, symbol);
+  }
+  return result;
+}
+
+std::vector<Expression> elements(const SymbolicMatrix& matrix) {
+  std::vector<Expression> all;
+  for (const auto& row : matrix) all.insert(all.end(), row.begin(), row.end());
+  return all;
 }
 
 }  // namespace demecal

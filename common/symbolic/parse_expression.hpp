@@ -1,9 +1,12 @@
-// Expressions read from text as people write matrices: + - * / ^, sin cos tan sqrt abs, PI, names.
+// Expressions read from text as people write matrices (+ - * / ^, sin cos tan sqrt abs, PI, names), and homogeneous
+// matrices of them (thesis 5.2.2).
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "symbolic/algebra.hpp"
 
@@ -17,5 +20,24 @@ using SymbolNames = std::map<std::string, Expression>;
 /// the column (from 1) and what was expected there; also where parentheses or signs nest deeper than 256, where a
 /// function stands without its parenthesis, and where a constant is divided by zero.
 Expression parse_expression(Algebra& algebra, std::string_view text, const SymbolNames& names = {});
+
+/// Four rows of four; the last is 0 0 0 1.
+using SymbolicMatrix = std::vector<std::vector<Expression>>;
+/// The first three rows of a homogeneous matrix, each element written as parse_expression() reads it.
+using MatrixText = std::array<std::array<std::string, 4>, 3>;
+
+/// The matrix that the text writes. Throws InputError naming row, column and what is wrong there.
+SymbolicMatrix parse_matrix(Algebra& algebra, const MatrixText& text, const SymbolNames& names = {});
+
+SymbolicMatrix product(const SymbolicMatrix& a, const SymbolicMatrix& b);
+
+/// The product of matrices in their order; the identity of none.
+SymbolicMatrix parse_product(Algebra& algebra, const std::vector<MatrixText>& texts);
+
+/// Element by element.
+SymbolicMatrix derivative(const SymbolicMatrix& matrix, const std::string& symbol);
+
+/// Its elements row by row.
+std::vector<Expression> elements(const SymbolicMatrix& matrix);
 
 }  // namespace demecal

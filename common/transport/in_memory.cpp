@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/mailbox.hpp"
 #include "transport/run_owners.hpp"
 

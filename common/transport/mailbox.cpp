@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "protocol/message_bytes.hpp"
-#include "protocol/printable.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 namespace {

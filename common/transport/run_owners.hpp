@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 #include "transport/mailbox.hpp"
 #include "transport/participants.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 

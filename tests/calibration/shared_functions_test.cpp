@@ -9,8 +9,8 @@
 #include <cmath>
 #include <set>
 
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 #include "island_evolution.hpp"
 
 namespace demecal {
@@ -71,8 +71,8 @@ TEST(FunctionStages, FindTheStructureOfJointsWhoseErrorsShareIt) {
   EXPECT_EQ(bodies.size(), outcome.functions.size());  // each is defined once
   for (const JointCandidates& joint : outcome.candidates) {
     const FoldedFormula best = folded(good_formulas(joint).front(), outcome.functions);
-    EXPECT_TRUE(std::ranges::binary_search(functions_called(best), std::size_t{0})) << to_text(best);
-    EXPECT_LT(joint.front.back().fitness, 0.02 * 40) << to_text(joint.front.back().tree);
+    EXPECT_TRUE(std::ranges::binary_search(functions_called(best), std::size_t{0})) << to_string(best);
+    EXPECT_LT(joint.front.back().fitness, 0.02 * 40) << to_string(joint.front.back().tree);
   }
   EXPECT_EQ(definition_text(outcome.functions[0], 0), "F1(c1, c2, a1) = SIN(c1 * a1 + c2)");
 }

@@ -113,7 +113,7 @@ TEST(Shortened, KeepsEveryValueInTheRange) {
 
 TEST(Shortened, IsShorterWhereTermsCanBeCollected) {
   const JointCorrection correction(parse("0.25 * (theta + (theta - 0.5) + 1 * theta)"), {}, {-2.0, 1.5});
-  EXPECT_EQ(to_text(shortened(correction).formula()), "0.75 * theta - 0.125");
+  EXPECT_EQ(to_string(shortened(correction).formula()), "0.75 * theta - 0.125");
 }
 
 TEST(Shortened, LeavesNeutralCorrectionsNeutral) {

@@ -249,7 +249,7 @@ TEST(LoadScenario, ReadsEveryErrorCountingJointsFromOne) {
   EXPECT_EQ(scenario.geometry[0].parameter, LinkParameter::a);
   EXPECT_DOUBLE_EQ(scenario.geometry[0].value, 4e-4);
   EXPECT_DOUBLE_EQ(scenario.geometry[1].value, radians(0.1));
-  EXPECT_EQ(to_text(scenario.joint_errors.at(0).formula), "0.001 * SIN(theta)");
+  EXPECT_EQ(to_string(scenario.joint_errors.at(0).formula), "0.001 * SIN(theta)");
   EXPECT_DOUBLE_EQ(scenario.backlash.at(0).width_rad, radians(0.02));
   EXPECT_EQ(scenario.backlash.at(1).joint, 1);
   EXPECT_DOUBLE_EQ(scenario.backlash.at(1).width_rad, 1e-4);

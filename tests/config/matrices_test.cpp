@@ -7,7 +7,7 @@
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
-#include "symbolic/values.hpp"
+#include "symbolic/calculus.hpp"
 #include "temporary_folder.hpp"
 #include "yaml/files.hpp"
 

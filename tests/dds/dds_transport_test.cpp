@@ -14,7 +14,6 @@
 #include <optional>
 #include <thread>
 
-#include "dds/endpoints.hpp"
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "errors/input_error.hpp"
@@ -59,8 +58,8 @@ TEST(Dds, MalformedSamplesAreCountedAndRejected) {
   no_run.replace(0, sizeof(RunId), sizeof(RunId), '\0');
   std::uint32_t place = 0;
   for (const std::string& bytes : {no_run, sound.substr(1), sound})
-    for (Sample<MessagePart> part : parts_of(bytes, place++, 1)) ASSERT_TRUE(writer->write(&part));
-  Sample<MessagePart> beyond = parts_of(sound, place, 1).front();
+    for (Sample<MessagePart> part : split_into_parts(bytes, place++, 1)) ASSERT_TRUE(writer->write(&part));
+  Sample<MessagePart> beyond = split_into_parts(sound, place, 1).front();
   beyond->index = 7;
   ASSERT_TRUE(writer->write(&beyond));
   receive_until(*worker, [](const auto& messages) { return !messages.empty(); });
@@ -77,8 +76,8 @@ class SlowReader final : public eprosima::fastdds::dds::DataReaderListener {
       const std::lock_guard lock(mutex_);
       if (!info.valid_data) continue;
       const auto result = assembly_.take({}, std::move(*sample));
-      if (result.verdict == Assembly::Verdict::whole)
-        epochs_.push_back(message_of<Checkpoint>(result.bytes)->state.epoch);
+      if (result.verdict == MessageAssembler::Verdict::whole)
+        epochs_.push_back(from_bytes<Checkpoint>(result.bytes)->state.epoch);
     }
     arrived_ = true;
     arrived_.notify_all();
@@ -97,7 +96,7 @@ class SlowReader final : public eprosima::fastdds::dds::DataReaderListener {
  private:
   std::atomic<bool> arrived_{false}, let_go_{false};
   std::mutex mutex_;
-  Assembly assembly_;
+  MessageAssembler assembly_;
   std::vector<std::uint32_t> epochs_;
 };
 

@@ -41,7 +41,7 @@ std::string written(const Wire& message) {
 
 template <class Plain, class Wire>
 std::optional<Plain> decode(const Wire& message) {
-  return message_of<Plain>(written(message));
+  return from_bytes<Plain>(written(message));
 }
 
 }  // namespace demecal

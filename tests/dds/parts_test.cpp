@@ -12,7 +12,7 @@
 namespace demecal {
 namespace {
 
-using enum Assembly::Verdict;
+using enum MessageAssembler::Verdict;
 
 constexpr std::uint32_t kPlace = 4;
 
@@ -29,7 +29,7 @@ std::string random_bytes(std::size_t size, RandomStream& random) {
 }
 
 /// The messages that came of handing over these parts.
-std::vector<std::string> messages_of(Assembly& assembly, const std::vector<MessagePart>& parts,
+std::vector<std::string> messages_of(MessageAssembler& assembly, const std::vector<MessagePart>& parts,
                                      const WriterId& from = {}) {
   std::vector<std::string> messages;
   for (const MessagePart& part : parts) {
@@ -42,12 +42,12 @@ std::vector<std::string> messages_of(Assembly& assembly, const std::vector<Messa
 
 TEST(Parts, ComeBackAsTheMessageAndFitIntoADatagram) {
   RandomStream random{1};
-  Assembly assembly;
+  MessageAssembler assembly;
   std::uint64_t number = 0;
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, kPart_bytes - 1, kPart_bytes, kPart_bytes + 1,
                                  2 * kPart_bytes, 7 * kPart_bytes + 123}) {
     const std::string message = random_bytes(size, random);
-    const auto parts = parts_of(message, kPlace, ++number);
+    const auto parts = split_into_parts(message, kPlace, ++number);
     constexpr std::size_t kDatagram_bytes = 65'000;
     for (const MessagePart& part : parts) EXPECT_LT(to_sample(part).size(), kDatagram_bytes);
     EXPECT_EQ(messages_of(assembly, parts), std::vector{message});
@@ -57,26 +57,26 @@ TEST(Parts, ComeBackAsTheMessageAndFitIntoADatagram) {
 TEST(Parts, OfAMessageThatWasReplacedOnItsWayAreGivenUpForTheNewer) {
   RandomStream random{2};
   for (int i = 0; i < 50; ++i) {
-    Assembly assembly;
+    MessageAssembler assembly;
     // What a slow reader sees: of each message those parts that were not replaced before it looked, of the last all.
     std::vector<MessagePart> seen;
     std::string last;
     for (std::uint64_t number = 1; number <= 5; ++number) {
       last = random_bytes(kPart_bytes * (2 + random.index(2)) + 10, random);
-      std::vector<MessagePart> parts = parts_of(last, kPlace, number);
+      std::vector<MessagePart> parts = split_into_parts(last, kPlace, number);
       if (number < 5) parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(random.index(parts.size())));
       seen.insert(seen.end(), parts.begin(), parts.end());
     }
     EXPECT_EQ(messages_of(assembly, seen), std::vector{last});
-    EXPECT_TRUE(messages_of(assembly, {parts_of(last, kPlace, 1).front()}).empty());
+    EXPECT_TRUE(messages_of(assembly, {split_into_parts(last, kPlace, 1).front()}).empty());
   }
 }
 
 TEST(Parts, OfDifferentPlacesAndWritersDoNotMix) {
   RandomStream random{3};
-  Assembly assembly;
+  MessageAssembler assembly;
   const std::string one = random_bytes(2 * kPart_bytes, random), other = random_bytes(2 * kPart_bytes, random);
-  const auto of_one = parts_of(one, kPlace, 1), of_other = parts_of(other, kPlace + 1, 2);
+  const auto of_one = split_into_parts(one, kPlace, 1), of_other = split_into_parts(other, kPlace + 1, 2);
   for (const std::uint8_t from : {1, 2}) EXPECT_EQ(assembly.take(writer(from), of_one[0]).verdict, waits);
   EXPECT_EQ(assembly.take(writer(1), of_other[0]).verdict, waits);
   EXPECT_EQ(assembly.take(writer(1), of_one[1]).bytes, one);
@@ -84,10 +84,10 @@ TEST(Parts, OfDifferentPlacesAndWritersDoNotMix) {
 }
 
 TEST(Parts, OfOneWhoIsGoneAreKeptForAWhileSinceTheyAreNotSentAgain) {
-  Assembly assembly;
-  const Assembly::Time now{};
+  MessageAssembler assembly;
+  const MessageAssembler::Time now{};
   const std::string message(2 * kPart_bytes, 'x');
-  const auto parts = parts_of(message, kPlace, 1);
+  const auto parts = split_into_parts(message, kPlace, 1);
   for (const std::uint8_t from : {1, 2}) EXPECT_EQ(assembly.take(writer(from), parts[0]).verdict, waits);
   assembly.departed(writer(1), now);
   assembly.departed(writer(2), now + kLongestAbsence / 2);
@@ -97,8 +97,8 @@ TEST(Parts, OfOneWhoIsGoneAreKeptForAWhileSinceTheyAreNotSentAgain) {
 }
 
 TEST(Parts, OfAVacatedPlaceAreForgotten) {
-  Assembly assembly;
-  const auto parts = parts_of(std::string(2 * kPart_bytes, 'x'), kPlace, 1);
+  MessageAssembler assembly;
+  const auto parts = split_into_parts(std::string(2 * kPart_bytes, 'x'), kPlace, 1);
   EXPECT_EQ(assembly.take({}, parts[0]).verdict, waits);
   EXPECT_EQ(assembly.take({}, vacant_part(kPlace, 0, 2)).verdict, waits);
   EXPECT_EQ(assembly.take({}, parts[1]).verdict, waits);
@@ -106,8 +106,8 @@ TEST(Parts, OfAVacatedPlaceAreForgotten) {
 }
 
 TEST(Parts, ThatCannotBeAreRefused) {
-  Assembly assembly;
-  const MessagePart sound = parts_of(std::string(2 * kPart_bytes, 'x'), kPlace, 1)[0];
+  MessageAssembler assembly;
+  const MessagePart sound = split_into_parts(std::string(2 * kPart_bytes, 'x'), kPlace, 1)[0];
   MessagePart nothing, beyond = sound, countless = sound, small = sound, large = sound, other_count = sound;
   beyond.index = 2;
   countless.count = 0xFFFFFFFF;
@@ -116,21 +116,21 @@ TEST(Parts, ThatCannotBeAreRefused) {
   other_count.count = 3;
   EXPECT_EQ(assembly.take({}, sound).verdict, waits);
   for (const MessagePart& part : {nothing, beyond, countless, small, large, other_count})
-    EXPECT_EQ(assembly.take({}, part).verdict, Assembly::Verdict::malformed);
+    EXPECT_EQ(assembly.take({}, part).verdict, MessageAssembler::Verdict::malformed);
   EXPECT_EQ(assembly.take({}, sound).verdict, waits) << "doubled";
 }
 
 TEST(Parts, OfOneParticipantAreKeptUpToABoundAndOthersGoOn) {
-  Assembly assembly(4 * kPart_bytes);
+  MessageAssembler assembly(4 * kPart_bytes);
   const std::string message(2 * kPart_bytes, 'x');
   int refused = 0;
   for (std::uint32_t place = 0; place < 100; ++place)
-    refused += assembly.take(writer(1), parts_of(message, place, 1)[0]).verdict == too_much;
+    refused += assembly.take(writer(1), split_into_parts(message, place, 1)[0]).verdict == too_much;
   EXPECT_GT(refused, 90);
-  EXPECT_EQ(messages_of(assembly, parts_of(message, 0, 2), writer(2)), std::vector{message});
+  EXPECT_EQ(messages_of(assembly, split_into_parts(message, 0, 2), writer(2)), std::vector{message});
   assembly.departed(writer(1), {});
-  assembly.departed(writer(2), Assembly::Time{} + kLongestAbsence);
-  EXPECT_EQ(messages_of(assembly, parts_of(message, 0, 2), writer(1)), std::vector{message});
+  assembly.departed(writer(2), MessageAssembler::Time{} + kLongestAbsence);
+  EXPECT_EQ(messages_of(assembly, split_into_parts(message, 0, 2), writer(1)), std::vector{message});
 }
 
 Checkpoint checkpoint(RunId run, std::uint32_t deme, std::uint32_t epoch) {
@@ -146,7 +146,7 @@ Migrants migrants(RunId run, std::uint32_t epoch) {
 }
 
 TEST(Places, AreKeptByWhatReplacesAValueAndSharedByNothingElse) {
-  Places places;
+  PlaceAllocator places;
   std::set<std::uint32_t> seen;
   for (const RunId run : {5, 9})
     for (std::uint32_t deme = 0; deme < 4; ++deme) {
@@ -157,7 +157,7 @@ TEST(Places, AreKeptByWhatReplacesAValueAndSharedByNothingElse) {
 }
 
 TEST(Places, OfMigrantsAreKeptForAsManyEpochsAsWaitForThoseWhoComeLate) {
-  Places places;
+  PlaceAllocator places;
   std::set<std::uint32_t> seen;
   for (std::uint32_t epoch = 1; epoch <= kMigrantEpochs; ++epoch) seen.insert(places.place_of(migrants(1, epoch)));
   EXPECT_EQ(seen.size(), static_cast<std::size_t>(kMigrantEpochs));
@@ -166,7 +166,7 @@ TEST(Places, OfMigrantsAreKeptForAsManyEpochsAsWaitForThoseWhoComeLate) {
 }
 
 TEST(Places, AreNoMoreThanThereAreValuesAtOnceHoweverManyRunsThereWere) {
-  Places places;
+  PlaceAllocator places;
   std::uint32_t largest = 0;
   for (RunId run = 1; run <= 50; ++run) {
     std::set<std::uint32_t> taken;

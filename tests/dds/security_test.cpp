@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "dds/participant.hpp"
-#include "dds/participant_qos.hpp"
 #include "errors/input_error.hpp"
 #include "network.hpp"
 #include "random_messages.hpp"

@@ -1,5 +1,5 @@
 // The types of the topics are to other DDS programs those that fastddsgen makes of idl/calibration.idl.
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
 #include "calibrationPubSubTypes.h"
-#include "dds/participant_qos.hpp"
 #include "generated_types.hpp"
 #include "network.hpp"
 #include "random_messages.hpp"

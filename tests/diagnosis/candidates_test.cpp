@@ -188,14 +188,14 @@ TEST(FormulaLibrary, HasEachFormulaOnceOfMovingJointsAndKnownCircumstances) {
   std::set<std::string> all;
   const std::vector<Effect> library = formula_library(arm.data.robot, evidence);
   for (const Effect& effect : library) {
-    const std::string text = to_text(effect.formula, names);
+    const std::string text = to_string(effect.formula, names);
     EXPECT_THAT(text, Not(::testing::HasSubstr("q6")));
     all.insert(std::to_string(effect.joint) + ": " + effect.form + text);
   }
   EXPECT_EQ(all.size(), library.size());
-  EXPECT_THAT(all, Contains("2: " + to_text(parse("SIN(q2+2*q3)", names), names)));
-  EXPECT_THAT(all, Contains("2: wave" + to_text(parse("q2+2*q3", names), names)));
-  EXPECT_THAT(all, Contains("0: " + to_text(parse("s*tau", names), names)));
+  EXPECT_THAT(all, Contains("2: " + to_string(parse("SIN(q2+2*q3)", names), names)));
+  EXPECT_THAT(all, Contains("2: wave" + to_string(parse("q2+2*q3", names), names)));
+  EXPECT_THAT(all, Contains("0: " + to_string(parse("s*tau", names), names)));
   evidence.approach = evidence.temperature = evidence.masses = false;
   for (const Effect& effect : formula_library(arm.data.robot, evidence)) {
     for (const Node& node : effect.formula) {

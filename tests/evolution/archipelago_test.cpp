@@ -1,9 +1,10 @@
-// Who sends elites to whom.
-#include "evolution/archipelago.hpp"
-
+// Which islands feed which, and how the parameters of a joint's islands differ.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "evolution/archipelago.hpp"
 
 namespace demecal {
 namespace {
@@ -79,6 +80,38 @@ TEST(Archipelago, EveryIslandConsumesWhatItsSourcesSend) {
       }
     }
     EXPECT_EQ(ways, 0U);
+  }
+}
+
+TEST(IslandParameters, AreTheSameWithoutASpreadOrNeighbours) {
+  const GpParameters parameters;
+  Archipelago archipelago;
+  for (std::uint32_t deme = 0; deme < 2; ++deme)
+    EXPECT_EQ(island_parameters(parameters, archipelago, deme), parameters);
+  archipelago.spread = 1.0;
+  archipelago.demes_per_joint = 1;
+  EXPECT_EQ(island_parameters(parameters, archipelago, 0), parameters);
+}
+
+TEST(IslandParameters, GoFromExploringToExploitingWithinTheRules) {
+  GpParameters parameters;
+  for (const double spread : {0.1, 0.5, 1.0}) {
+    for (const int tournament_size : {1, 5, 300}) {
+      parameters.tournament_size = tournament_size;
+      Archipelago archipelago;
+      archipelago.spread = spread;
+      archipelago.demes_per_joint = 5;
+      EXPECT_EQ(island_parameters(parameters, archipelago, 2), parameters);
+      for (std::uint32_t deme = 0; deme < 5; ++deme) {
+        const GpParameters own = island_parameters(parameters, archipelago, deme);
+        EXPECT_FALSE(find_fault(own));
+        if (deme == 0) continue;
+        const GpParameters before = island_parameters(parameters, archipelago, deme - 1);
+        EXPECT_LT(own.mutation_rate, before.mutation_rate);
+        EXPECT_GE(own.tournament_size, before.tournament_size);
+        EXPECT_GT(own.shrink_mutation_rate, before.shrink_mutation_rate);
+      }
+    }
   }
 }
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "evolution/selection.hpp"
+#include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
 #include "lessons.hpp"
 

@@ -1,4 +1,5 @@
-// Expressions that were planted in the fronts of several joints are found again, counted, and told from what luck made.
+// Expressions that were planted in the fronts of several joints are found again, counted, and distinguished from what
+// chance made.
 #include "evolution/building_blocks.hpp"
 
 #include <gmock/gmock.h>
@@ -6,7 +7,7 @@
 
 #include <algorithm>
 
-#include "../expression/random_function.hpp"
+#include "../expression/random_formulas.hpp"
 #include "expression/simplify.hpp"
 
 namespace demecal {
@@ -42,7 +43,7 @@ TEST(BlockForm, IsOneWhateverTheOrderOfArgumentsAndTheConstants) {
       if (node.primitive == Primitive::constant) node.value *= random.real(0.5, 2.0);
     }
     if (simplified(tree) != tree || simplified(other) != other) continue;  // what falls away depends on the constants
-    EXPECT_EQ(block_form(tree), block_form(other)) << to_text(tree) << " and " << to_text(other);
+    EXPECT_EQ(block_form(tree), block_form(other)) << to_string(tree) << " and " << to_string(other);
     tried += tree.size() > 3 ? 1 : 0;
   }
   EXPECT_GT(tried, 200);

@@ -1,5 +1,5 @@
 // What fitted constants do to generations and islands: what is inherited, for how many, and that nobody else matters.
-#include "evolution/constant_learning.hpp"
+#include "evolution/breeding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
-// Fitness: the weighted sum of absolute errors, infinite where a formula has no value.
-#include "evolution/fitness.hpp"
-
+// The fitness of formulas one by one, and of populations whose formulas share their subtrees.
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "allocation_count.hpp"
+#include "evolution/breeding.hpp"
+#include "evolution/fitness.hpp"
 #include "evolution/tree_generation.hpp"
 #include "lessons.hpp"
 
@@ -72,6 +73,77 @@ TEST(Fitness, IsInfiniteWhereARowIsNoNumber) {
   const Tree huge = apply(Primitive::multiply, constant_tree(1e200), constant_tree(1e200));
   const TrainingTable table{{{1.0}}, {0.0}, {1.0}};
   EXPECT_EQ(Fitness(table)(apply(Primitive::subtract, huge, huge)), std::numeric_limits<double>::infinity());
+}
+
+TEST(SharedFitness, HasTheBitsOfFitness) {
+  RandomStream random{22};
+  const NodeSet nodes = node_set(GpParameters{}, 2);
+  for (const std::size_t rows : {1, 7, 30, 513, 1300}) {
+    TrainingTable table = two_variable_lesson(random, rows);
+    if (rows % 2 == 0) table.loss = Loss::squared;
+    Fitness fitness(table);
+    SharedFitness shared(table);
+    NodeStore store;
+    for (int generation = 0; generation < 5; ++generation) {
+      std::vector<Tree> trees(40);
+      std::vector<NodeId> roots;
+      for (Tree& tree : trees) append_grown(random, nodes, 6, tree);
+      for (const Tree& tree : trees) roots.push_back(store.enter(tree));
+      shared.bind(store, roots);
+      shared.run();
+      for (std::size_t i = 0; i < trees.size(); ++i) ASSERT_EQ(shared.of(roots[i]), fitness(trees[i]));
+      roots.resize(10);
+      shared.forget(store.collect(roots));
+    }
+  }
+}
+
+TEST(SharedFitness, IsInfiniteWhereARowIsNotFiniteEvenWithoutWeight) {
+  Tree huge = constant_tree(1e200);
+  huge = apply(Primitive::multiply, huge, apply(Primitive::multiply, huge, variable_tree(0)));
+  for (const double weight : {0.0, 1.0}) {
+    const TrainingTable table{{{1.0, 0.0}}, {0.0, 0.0}, {weight, 1.0}};
+    NodeStore store;
+    SharedFitness shared(table);
+    const NodeId root = store.enter(huge);
+    shared.bind(store, {&root, 1});
+    shared.run();
+    EXPECT_EQ(shared.of(root), std::numeric_limits<double>::infinity());
+  }
+}
+
+TEST(ErrorSum, AddsRowsByTurnsIntoEightSums) {
+  RandomStream random{23};
+  const std::size_t rows = 53;
+  std::vector<double> target(rows), weight(rows), values(padded(rows));
+  for (std::size_t i = 0; i < rows; ++i)
+    target[i] = random.real(), weight[i] = random.real(), values[i] = random.real();
+  ErrorSum::Lanes sums{}, expected{};
+  const ErrorSum errors(target, weight);
+  errors.add(sums, 0, values.data(), 24);
+  errors.add(sums, 24, values.data() + 24, values.size() - 24);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double error = weight[i] * std::abs(target[i] - values[i]);
+    expected[i % 8] += error;
+  }
+  EXPECT_EQ(sums, expected);
+}
+
+TEST(Breeding, AllocatesNothingOnceItIsWarm) {
+  GpParameters parameters = small_parameters();
+  parameters.population_size = 200;
+  parameters.max_tree_nodes = 64;
+  const TrainingTable table = smooth_lesson();
+  RandomStream random{24};
+  Breeder breeder(parameters, table);
+  SharedPopulation population = breeder.enter(ramped_half_and_half(random, parameters, 1));
+  for (int generation = 0; generation < 300; ++generation) breeder.breed(random, population);
+  const std::uint64_t before = allocation_count();
+  for (int generation = 0; generation < 50; ++generation) breeder.breed(random, population);
+  const std::uint64_t after = allocation_count();
+  const std::vector<double> allocated(100);
+  EXPECT_EQ(allocation_count(), after + 1);
+  EXPECT_EQ(after, before);
 }
 
 }  // namespace

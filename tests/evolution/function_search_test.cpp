@@ -1,14 +1,14 @@
 // Structures that formulas of several joints share become functions; what is of one joint, or saves nothing, does not.
-#include "evolution/function_search.hpp"
+#include "evolution/building_blocks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "../expression/random_function.hpp"
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "../expression/random_formulas.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal {
 namespace {

@@ -2,8 +2,8 @@
 #include <functional>
 #include <limits>
 
-#include "evolution/selection.hpp"
-#include "expression/limit.hpp"
+#include "evolution/population.hpp"
+#include "expression/bound.hpp"
 #include "island_fixture.hpp"
 
 namespace demecal {

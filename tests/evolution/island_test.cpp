@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "evolution/selection.hpp"
+#include "evolution/population.hpp"
 #include "island_fixture.hpp"
 
 namespace demecal {

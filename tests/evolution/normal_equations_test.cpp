@@ -1,11 +1,11 @@
 // Damped steps of least squares: they solve what they state, in a fixed order of sums.
-#include "evolution/normal_equations.hpp"
+#include "evolution/constant_fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "expression/aligned_column.hpp"
+#include "expression/columns.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
@@ -24,7 +24,7 @@ struct Problem {
     fill(weight, 0.0, 1.0);
   }
 
-  void add_to(NormalEquations& equations, std::size_t begin, std::size_t end) const {
+  void add_to(DampedNormalEquations& equations, std::size_t begin, std::size_t end) const {
     std::vector<const double*> columns;
     for (const AlignedColumn& column : slopes) columns.push_back(column.data() + begin);
     equations.add(columns, error.data() + begin, weight.data() + begin, end - begin);
@@ -36,9 +36,9 @@ struct Problem {
   }
 };
 
-TEST(NormalEquations, AreSolvedByTheirSteps) {
+TEST(DampedNormalEquations, AreSolvedByTheirSteps) {
   RandomStream random{51};
-  NormalEquations equations;
+  DampedNormalEquations equations;
   for (const std::size_t unknowns : {1, 2, 5, 12}) {
     for (const double damping : {0.0, 1e-3, 10.0}) {
       const Problem problem(random, unknowns, 48);
@@ -58,10 +58,10 @@ TEST(NormalEquations, AreSolvedByTheirSteps) {
   }
 }
 
-TEST(NormalEquations, AreTheSameStripByStrip) {
+TEST(DampedNormalEquations, AreTheSameStripByStrip) {
   RandomStream random{52};
   const Problem problem(random, 4, 64);
-  NormalEquations whole, strips;
+  DampedNormalEquations whole, strips;
   whole.clear(4);
   strips.clear(4);
   problem.add_to(whole, 0, 64);
@@ -73,11 +73,11 @@ TEST(NormalEquations, AreTheSameStripByStrip) {
   EXPECT_EQ(one, other);
 }
 
-TEST(NormalEquations, LeaveUnknownsThatChangeNothing) {
+TEST(DampedNormalEquations, LeaveUnknownsThatChangeNothing) {
   RandomStream random{53};
   Problem problem(random, 3, 32);
   problem.slopes[1].assign(32, 0.0);
-  NormalEquations equations;
+  DampedNormalEquations equations;
   equations.clear(3);
   problem.add_to(equations, 0, 32);
   ASSERT_TRUE(equations.finish());
@@ -88,11 +88,11 @@ TEST(NormalEquations, LeaveUnknownsThatChangeNothing) {
   EXPECT_NE(step[2], 0.0);
 }
 
-TEST(NormalEquations, SayWhereASumIsNotFinite) {
+TEST(DampedNormalEquations, SayWhereASumIsNotFinite) {
   RandomStream random{54};
   Problem problem(random, 2, 32);
   problem.slopes[1][7] = INFINITY;
-  NormalEquations equations;
+  DampedNormalEquations equations;
   equations.clear(2);
   problem.add_to(equations, 0, 32);
   EXPECT_FALSE(equations.finish());

@@ -1,5 +1,5 @@
 // The simplex: it keeps its budget, never ends above where it began, and crosses jumps.
-#include "evolution/simplex_search.hpp"
+#include "evolution/constant_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
-// Random trees and the first population.
-#include "evolution/tree_generation.hpp"
-
+// Random trees keep to their depths and sets of nodes, and equal ones are found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "expression/folded_formula.hpp"
+#include "evolution/tree_generation.hpp"
+#include "expression/shared_function.hpp"
 
 namespace demecal {
 namespace {
@@ -132,7 +131,7 @@ TEST(Calls, HaveNumbersInTheRangeOfConstantsAsCoefficients) {
     const FoldedFormula formula = folded(tree, parameters.shared_functions);
     EXPECT_TRUE(std::ranges::all_of(formula.outline, [](const Node& node) {
       return arity(node.primitive) == 0 || node.primitive == Primitive::sine;
-    })) << to_text(formula);
+    })) << to_string(formula);
     calls += static_cast<int>(formula.calls.size());
     for (const Node& node : tree) {
       if (node.primitive != Primitive::constant) continue;
@@ -234,6 +233,24 @@ TEST(FirstPopulation, ReachesMinimaThatGrowHardlyEverDoes) {
   parameters.functions = {Primitive::sine};
   const auto trees = ramped_half_and_half(random, parameters, 1);
   for (std::size_t i = 1; i < trees.size(); ++i) EXPECT_EQ(depth(trees[i]), 15);
+}
+
+TEST(TreeIndex, GivesTheFirstOfEqualTrees) {
+  RandomStream random{51};
+  const NodeSet nodes{{Primitive::add, Primitive::sine}, 2, 0.0, 1.0};
+  std::vector<Tree> trees(2000);
+  for (Tree& tree : trees) append_grown(random, nodes, 2, tree);
+  TreeIndex index(trees.size());
+  int repeated = 0;
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const auto first = std::find(trees.begin(), trees.end(), trees[i]);
+      ASSERT_EQ(index.enter(trees[i], i), static_cast<std::size_t>(first - trees.begin()));
+      repeated += first - trees.begin() < static_cast<std::ptrdiff_t>(i);
+    }
+    index.clear(trees.size());
+  }
+  EXPECT_GT(repeated, 500);
 }
 
 }  // namespace

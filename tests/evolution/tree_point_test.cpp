@@ -1,5 +1,5 @@
 // Places in shared formulas against places in prefix order.
-#include "evolution/tree_point.hpp"
+#include "evolution/variation.hpp"
 
 #include <gtest/gtest.h>
 

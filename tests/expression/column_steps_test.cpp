@@ -1,12 +1,11 @@
 // The vector kernels against the primitives one value at a time.
-#include "expression/column_steps.hpp"
+#include "expression/columns.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "expression/aligned_column.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
@@ -28,7 +27,7 @@ class ColumnSteps : public testing::Test {
   }
   /// What a step made of the rows from kBegin on; `expected` gives each row's value.
   template <class Expected>
-  void expect(const Step& made, Expected expected, const std::string& what) {
+  void expect(const ColumnStep& made, Expected expected, const std::string& what) {
     run({&made, 1}, kBegin, kStepRows - kBegin);
     for (std::size_t row = kBegin; row < kStepRows; ++row) {
       const double value = made.out[made.out_whole ? row : row - kBegin];
@@ -47,16 +46,16 @@ TEST_F(ColumnSteps, GiveTheBitsOfEveryPrimitiveForColumnsAndConstants) {
     const Operand left{a.data(), 0.0, true}, right{b.data(), 0.0, true};
     if (function.arity == 1)
       expect(
-          step_of(f, left, out.data(), true), [&](std::size_t i) { return value_of(f, a[i]); }, name);
+          make_step(f, left, out.data(), true), [&](std::size_t i) { return value_of(f, a[i]); }, name);
     if (function.arity != 2) continue;
     expect(
-        step_of(f, left, right, out.data(), true), [&](std::size_t i) { return value_of(f, a[i], b[i]); }, name);
+        make_step(f, left, right, out.data(), true), [&](std::size_t i) { return value_of(f, a[i], b[i]); }, name);
     for (const double c : {0.75, 0.0}) {
       const Operand constant{nullptr, c, false};
       expect(
-          step_of(f, left, constant, out.data(), true), [&](std::size_t i) { return value_of(f, a[i], c); }, name);
+          make_step(f, left, constant, out.data(), true), [&](std::size_t i) { return value_of(f, a[i], c); }, name);
       expect(
-          step_of(f, constant, right, out.data(), true), [&](std::size_t i) { return value_of(f, c, b[i]); }, name);
+          make_step(f, constant, right, out.data(), true), [&](std::size_t i) { return value_of(f, c, b[i]); }, name);
     }
   }
 }
@@ -64,14 +63,14 @@ TEST_F(ColumnSteps, GiveTheBitsOfEveryPrimitiveForColumnsAndConstants) {
 TEST_F(ColumnSteps, ReadAndWriteStripsAsWellAsWholeColumns) {
   const Operand strip{a.data(), 0.0, false}, whole{b.data(), 0.0, true};
   expect(
-      step_of(Primitive::subtract, strip, whole, out.data(), false),
+      make_step(Primitive::subtract, strip, whole, out.data(), false),
       [&](std::size_t row) { return a[row - kBegin] - b[row]; }, "strip");
 }
 
 TEST_F(ColumnSteps, MayWriteToWhatTheyRead) {
   const AlignedColumn before = a;
   expect(
-      step_of(Primitive::divide, {b.data(), 0.0, true}, {a.data(), 0.0, true}, a.data(), true),
+      make_step(Primitive::divide, {b.data(), 0.0, true}, {a.data(), 0.0, true}, a.data(), true),
       [&](std::size_t row) { return protected_divide(b[row], before[row]); }, "in place");
 }
 
@@ -85,7 +84,7 @@ TEST(Kernels, GiveTheSameBitsOnEveryMachine) {
     for (double& x : in) x = random.real(-largest, largest);
     for (const Primitive function : {Primitive::sine, Primitive::cosine, Primitive::square_root, Primitive::logarithm,
                                      Primitive::exponential, Primitive::hyperbolic_tangent, Primitive::arc_tangent}) {
-      const Step step = step_of(function, {in.data(), 0.0, true}, out.data(), true);
+      const ColumnStep step = make_step(function, {in.data(), 0.0, true}, out.data(), true);
       run({&step, 1}, 0, in.size());
       for (const double value : out) add(value);
       for (const double x : in) add(value_of(function, x));

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "expression/text.hpp"
-#include "random_columns.hpp"
-#include "random_tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {

@@ -1,5 +1,5 @@
 // Derivatives against central differences.
-#include "expression/differentiate.hpp"
+#include "expression/simplify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "expression/evaluate.hpp"
 #include "expression/text.hpp"
-#include "random_tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {
@@ -38,7 +38,7 @@ TEST(Derivative, AgreesWithCentralDifferencesOnRandomTrees) {
     if (!(std::abs(coarse - fine) < 1e-7 * scale)) continue;
     const Tree exact = derivative(tree, static_cast<std::uint8_t>(variable));
     ASSERT_TRUE(is_valid(exact, 2));
-    EXPECT_NEAR(evaluate(exact, point), fine, 1e-6 * scale) << to_text(tree, {"a", "b"});
+    EXPECT_NEAR(evaluate(exact, point), fine, 1e-6 * scale) << to_string(tree, {"a", "b"});
     ++compared;
   }
   EXPECT_GT(compared, 3000);
@@ -53,9 +53,9 @@ TEST(Derivative, IsZeroWhereTheFormulaIsConstant) {
 }
 
 TEST(Derivative, LeavesOutTermsThatAreZero) {
-  EXPECT_EQ(to_text(derivative(parse("SIN(0.5 * theta)"), 0)), "COS(0.5 * theta) * 0.5");
-  EXPECT_EQ(to_text(derivative(parse("theta + 3 * theta"), 0)), "4");
-  EXPECT_EQ(to_text(derivative(parse("theta % 4"), 0)), "0.25");
+  EXPECT_EQ(to_string(derivative(parse("SIN(0.5 * theta)"), 0)), "COS(0.5 * theta) * 0.5");
+  EXPECT_EQ(to_string(derivative(parse("theta + 3 * theta"), 0)), "4");
+  EXPECT_EQ(to_string(derivative(parse("theta % 4"), 0)), "0.25");
 }
 
 TEST(Derivative, OfAQuotientIsThatOfThePiecesBesideAZeroDivisor) {
@@ -70,7 +70,7 @@ TEST(Derivative, OfAQuotientIsThatOfThePiecesBesideAZeroDivisor) {
 
 TEST(Derivative, RegardsOtherVariablesAsConstant) {
   const VariableNames names{"a", "b"};
-  EXPECT_EQ(to_text(derivative(parse("a * b", names), 0), names), "b");
+  EXPECT_EQ(to_string(derivative(parse("a * b", names), 0), names), "b");
   EXPECT_EQ(derivative(parse("SIN(a)", names), 1), constant_tree(0.0));
 }
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "expression/evaluate.hpp"
-#include "random_tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "expression/evaluate.hpp"
-#include "expression/fold.hpp"
 #include "expression/text.hpp"
-#include "random_tree.hpp"
+#include "expression/tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {
@@ -47,13 +47,13 @@ TEST(Simplified, KeepsEveryValueOnTheDataAndIsNeverLonger) {
     const Tree simple = simplified(tree);
     ASSERT_TRUE(is_valid(simple, 2));
     ASSERT_LE(simple.size(), tree.size());
-    ASSERT_EQ(simplified(simple).size(), simple.size()) << to_text(tree, {"x", "y"});
+    ASSERT_EQ(simplified(simple).size(), simple.size()) << to_string(tree, {"x", "y"});
     shorter += simple.size() < tree.size();
     for (int row = 0; row < 20; ++row) {
       const double point[]{row == 0 ? 0.0 : random.real(-3.0, 3.0), row < 2 ? 0.0 : random.real(-3.0, 3.0)};
       const double expected = value_if_finite(tree, point[0], point[1]);
       if (std::isnan(expected)) continue;
-      ASSERT_EQ(evaluate(simple, point), expected) << to_text(tree, {"x", "y"});
+      ASSERT_EQ(evaluate(simple, point), expected) << to_string(tree, {"x", "y"});
       ++compared;
     }
   }
@@ -62,7 +62,7 @@ TEST(Simplified, KeepsEveryValueOnTheDataAndIsNeverLonger) {
 }
 
 TEST(Simplified, KnowsTheProtectedOperators) {
-  const auto simple = [](const char* text) { return to_text(simplified(parse(text))); };
+  const auto simple = [](const char* text) { return to_string(simplified(parse(text))); };
   EXPECT_EQ(simple("theta % theta"), "1");
   EXPECT_EQ(simple("SIN(theta) % (theta - theta)"), "1");
   EXPECT_EQ(simple("0 % theta"), "0 % theta");
@@ -78,7 +78,7 @@ TEST(Simplified, LeavesConstantsThatOverflow) {
 }
 
 TEST(Collected, GathersTermsAndConstants) {
-  const auto simple = [](const char* text) { return to_text(collected(parse(text))); };
+  const auto simple = [](const char* text) { return to_string(collected(parse(text))); };
   EXPECT_EQ(simple("2 * theta + theta * 3"), "5 * theta");
   EXPECT_EQ(simple("theta + 1 + theta + 2 - theta"), "theta + 3");
   EXPECT_EQ(simple("2 * SIN(theta) - 5 * SIN(theta)"), "-3 * SIN(theta)");
@@ -90,7 +90,7 @@ TEST(Collected, GathersTermsAndConstants) {
 }
 
 TEST(Collected, KeepsToTheProtectedQuotient) {
-  const auto simple = [](const char* text) { return to_text(collected(parse(text))); };
+  const auto simple = [](const char* text) { return to_string(collected(parse(text))); };
   // Where theta is 0 these are 1 times the factor, 1, and 2.
   for (const char* text : {"3 * (theta % SIN(theta))", "(3 * theta) % theta", "1 % theta + 1 % SIN(theta)"})
     EXPECT_EQ(collected(parse(text)), parse(text));
@@ -107,7 +107,7 @@ TEST(Collected, KeepsValuesToRoundingAndIsNeverLonger) {
       for (std::size_t row = 0; row < column.size(); ++row) column[row] = row == 0 ? 0.0 : random.real(-3.0, 3.0);
     const Tree simple = simplified_over(tree, columns);
     ASSERT_TRUE(is_valid(simple, 2));
-    ASSERT_LE(collected(tree).size(), simplified(tree).size()) << to_text(tree, {"x", "y"});
+    ASSERT_LE(collected(tree).size(), simplified(tree).size()) << to_string(tree, {"x", "y"});
     ASSERT_LE(simple.size(), tree.size());
     shorter += simple.size() < simplified(tree).size();
     exact += simple.size() > collected(tree).size();
@@ -120,7 +120,7 @@ TEST(Collected, KeepsValuesToRoundingAndIsNeverLonger) {
     for (std::size_t row = 0; row < 20; ++row) {
       if (std::isnan(expected[row])) continue;
       const double point[]{columns[0][row], columns[1][row]};
-      ASSERT_NEAR(evaluate(simple, point), expected[row], 1e-9 * largest) << to_text(tree, {"x", "y"});
+      ASSERT_NEAR(evaluate(simple, point), expected[row], 1e-9 * largest) << to_string(tree, {"x", "y"});
       ++compared;
     }
   }

@@ -8,7 +8,7 @@
 
 #include "errors/input_error.hpp"
 #include "expression/evaluate.hpp"
-#include "random_tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {
@@ -38,7 +38,7 @@ TEST(Text, RoundTripsTreesToTheBit) {
   const VariableNames names{"theta", "payload", "t_2"};
   for (int trial = 0; trial < 2000; ++trial) {
     const Tree tree = random_tree(random, 7, 3);
-    EXPECT_EQ(parse(to_text(tree, names), names), tree) << to_text(tree, names);
+    EXPECT_EQ(parse(to_string(tree, names), names), tree) << to_string(tree, names);
   }
 }
 
@@ -46,10 +46,10 @@ TEST(Text, RoundTripsEveryFiniteConstant) {
   RandomStream random{4, 2};
   for (int trial = 0; trial < 1000; ++trial) {
     const Tree tree = with_constants_of_any_bits(random, random_tree(random, 4));
-    EXPECT_EQ(parse(to_text(tree)), tree) << to_text(tree);
+    EXPECT_EQ(parse(to_string(tree)), tree) << to_string(tree);
   }
   for (const double value : {0.0, -0.0, 5e-324, -5e-324, 1.7976931348623157e308, 0.1}) {
-    EXPECT_EQ(parse(to_text(constant_tree(value))), constant_tree(value)) << value;
+    EXPECT_EQ(parse(to_string(constant_tree(value))), constant_tree(value)) << value;
   }
 }
 
@@ -58,7 +58,7 @@ TEST(Text, IsWrittenInTheNotationOfTheThesis) {
        {"theta + SQRTp(0.3988464003418073) * 0.0002441480758079775", "theta - theta", "SIN(COS(theta) * SIGN(theta))",
         "(theta + 1) * theta", "theta * (theta % 0.5)", "theta * theta % 0.5", "theta - (theta - 0.5)",
         "theta - theta - 0.5", "-0.5 * theta + (-0.25)", "theta - (-0.5 * theta)"}) {
-    EXPECT_EQ(to_text(parse(formula)), formula);
+    EXPECT_EQ(to_string(parse(formula)), formula);
   }
 }
 
@@ -119,7 +119,7 @@ TEST(Text, RefusesDeepNestingButNotLongSums) {
 
   std::string sum = "theta";
   for (int i = 0; i < 20000; ++i) sum += " + theta";
-  EXPECT_EQ(to_text(parse(sum)), sum);
+  EXPECT_EQ(to_string(parse(sum)), sum);
 }
 
 TEST(Text, IsNeverReadAsMoreThanAnErrorOrAValidTree) {
@@ -127,7 +127,7 @@ TEST(Text, IsNeverReadAsMoreThanAnErrorOrAValidTree) {
   const std::string_view alphabet = "theta()+-*%SINCOSGQRTp0123456789.e ";
   int valid = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    std::string text = to_text(random_tree(random, 3));
+    std::string text = to_string(random_tree(random, 3));
     for (int change = 0; change < 2; ++change) {
       text[random.index(text.size())] = alphabet[random.index(alphabet.size())];
     }

@@ -1,10 +1,13 @@
-// The prefix form: where subtrees end, how deep they are, and which sequences are formulas at all.
+// Formulas as prefix sequences: their parts and depth, validity, and the order of arguments.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "random_tree.hpp"
+#include "expression/evaluate.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "random_formulas.hpp"
 
 namespace demecal {
 namespace {
@@ -82,6 +85,48 @@ TEST(Primitives, StandInTheTableWhereTheirNumberSays) {
   for (std::size_t i = 0; i < kPrimitives.size(); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(kPrimitives[i].primitive), i);
     EXPECT_EQ(kPrimitives[i].symbol.empty(), kPrimitives[i].arity == 0);
+  }
+}
+
+TEST(InOrder, IsTheSameForFormulasThatDifferInTheOrderOfArguments) {
+  RandomStream random{811};
+  int different = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Tree tree = random_tree(random, 6, 2), other = swapped(random, tree);
+    ASSERT_EQ(in_order(tree), in_order(other)) << to_string(tree, {"x", "y"});
+    different += tree != other ? 1 : 0;
+  }
+  EXPECT_GT(different, 1000);
+}
+
+TEST(InOrder, KeepsValuesToTheBitAndChangesNothingTwice) {
+  RandomStream random{812};
+  for (int i = 0; i < 3000; ++i) {
+    const Tree tree = random_tree(random, 6), ordered = in_order(tree);
+    ASSERT_EQ(ordered.size(), tree.size());
+    ASSERT_EQ(in_order(ordered), ordered);
+    for (int k = 0; k < 5; ++k) {
+      const double theta[] = {random.real(-3.0, 3.0)};
+      const double before = evaluate(tree, theta), after = evaluate(ordered, theta);
+      ASSERT_TRUE(before == after || (std::isnan(before) && std::isnan(after))) << to_string(tree);
+    }
+  }
+}
+
+TEST(InOrder, AddsTheNegativeOfAConstant) {
+  EXPECT_EQ(in_order(parse("theta - 0.25")), in_order(parse("-0.25 + theta")));
+  EXPECT_NE(in_order(parse("0.25 - theta")), in_order(parse("theta - 0.25")));
+  EXPECT_NE(in_order(parse("theta % 2")), in_order(parse("2 % theta")));
+}
+
+TEST(Precedes, IsATotalOrder) {
+  RandomStream random{813};
+  for (int i = 0; i < 3000; ++i) {
+    const Tree a = random_tree(random, 2), b = random_tree(random, 2), c = random_tree(random, 2);
+    EXPECT_EQ(int{precedes(a, b)} + int{precedes(b, a)}, a == b ? 0 : 1);
+    if (precedes(a, b) && precedes(b, c)) {
+      EXPECT_TRUE(precedes(a, c));
+    }
   }
 }
 

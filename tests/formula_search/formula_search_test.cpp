@@ -92,8 +92,8 @@ TEST(EvolvedFormula, ComesBackAsAPersonWritesItInPlaceOfTheSumsThatImitateIt) {
   const Effect& found = robot.effects[0];
   const VariableNames names = symbolic_variables(puma());
   EXPECT_EQ(found.joint, 2);
-  EXPECT_NEAR(found.value(0), 8e-4, 3e-5) << to_text(found.formula, names);
-  EXPECT_EQ(found.formula.size(), parse("q1 * SIN(q4) * COS(q2)", names).size()) << to_text(found.formula, names);
+  EXPECT_NEAR(found.value(0), 8e-4, 3e-5) << to_string(found.formula, names);
+  EXPECT_EQ(found.formula.size(), parse("q1 * SIN(q4) * COS(q2)", names).size()) << to_string(found.formula, names);
   const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
   EXPECT_GT(correlation(formulas_at(robot, data, accept), values_at(parse(kTruth, names), data, accept)), 0.98);
   EXPECT_LT(error_figures(robot, data, accept).rms_mm, 1.15 * 0.05 * std::sqrt(3.0));
@@ -138,7 +138,7 @@ TEST(FormulaSearch, FindsNothingInWhatACleanArmLeaves) {
           return found;
         }));
     EXPECT_GT(evolved, 20U);
-    EXPECT_TRUE(search.formulas.empty()) << to_text(search.formulas[0].effect.formula, symbolic_variables(puma()));
+    EXPECT_TRUE(search.formulas.empty()) << to_string(search.formulas[0].effect.formula, symbolic_variables(puma()));
   }
 }
 

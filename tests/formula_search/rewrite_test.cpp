@@ -12,7 +12,7 @@ namespace {
 
 std::string rewrite(const char* text, const TrainingTable& table) {
   FormulaMisfit misfit(table);
-  return to_text(rewritten(parse(text, kNames), misfit), kNames);
+  return to_string(rewritten(parse(text, kNames), misfit), kNames);
 }
 
 TEST(Rewritten, LeavesOutWhatEarnsNothing) {
@@ -70,7 +70,7 @@ Tree polish(const Tree& tree, const TrainingTable& table) {
 TEST(Polished, BringsConstantsToRoundNumbersThatTheDataAllow) {
   const TrainingTable table = table_of(1.0, 0.1, 1);
   const Tree evolved = parse("SIN(0.93 * q1 + 2.08 * q2)", kNames);
-  EXPECT_EQ(to_text(polish(evolved, table), kNames), to_text(parse("SIN(1 * q1 + 2 * q2)", kNames), kNames));
+  EXPECT_EQ(to_string(polish(evolved, table), kNames), to_string(parse("SIN(1 * q1 + 2 * q2)", kNames), kNames));
 }
 
 TEST(Polished, LeavesConstantsThatTheDataKnowNotToBeRound) {
@@ -80,7 +80,7 @@ TEST(Polished, LeavesConstantsThatTheDataKnowNotToBeRound) {
   for (const Node& node : tree) {
     if (node.primitive == Primitive::constant) nearest = std::min(nearest, std::abs(node.value - 1.1));
   }
-  EXPECT_LT(nearest, 0.01) << to_text(tree, kNames);
+  EXPECT_LT(nearest, 0.01) << to_string(tree, kNames);
 }
 
 TEST(Polished, KeepsAFormulaWithoutConstants) {

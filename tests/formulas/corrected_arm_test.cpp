@@ -6,7 +6,7 @@
 
 #include "effects/random_effects.hpp"
 #include "effects/symbolic_state.hpp"
-#include "symbolic/values.hpp"
+#include "symbolic/calculus.hpp"
 
 namespace demecal {
 namespace {

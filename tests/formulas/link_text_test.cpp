@@ -4,8 +4,8 @@
 #include "formulas/link_text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
+#include "symbolic/calculus.hpp"
 #include "symbolic/code.hpp"
-#include "symbolic/values.hpp"
 
 namespace demecal {
 namespace {
@@ -89,7 +89,7 @@ TEST(LinkText, DifferentiatesToTheNumericJacobiansByEveryJointAndParameter) {
 TEST(LinkText, OfAnArmAsDrawnComesOutAsTextbooksWriteIt) {
   Algebra algebra;
   const SymbolicMatrix pose = parse_product(algebra, link_texts(wrist_arm(), LinkNumbers::given));
-  const Spelling text(CodeLanguage::text);
+  const ExpressionPrinter text(CodeLanguage::text);
   EXPECT_EQ(text(pose[2][3]),
             "0.6*cos(q2 + q3) + 0.125*(cos(q2 + q3)*cos(q5) - sin(q2 + q3)*cos(q4)*sin(q5)) - 0.65*sin(q2)");
 }

@@ -6,13 +6,13 @@
 #include "scheduling/run_state.hpp"
 #include "data/csv.hpp"
 #include "errors/input_error.hpp"
-#include "expression/argument_order.hpp"
-#include "expression/folded_formula.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
-#include "symbolic/differentiate.hpp"
+#include "symbolic/calculus.hpp"
 #include "symbolic/parse_expression.hpp"
-#include "symbolic/spelling.hpp"
+#include "symbolic/printing.hpp"
 #include "targets.hpp"
 #include "terminal/monitor_page.hpp"
 
@@ -24,7 +24,7 @@ void read_formula(std::string_view bytes) {
   try {
     const Tree tree = parse(bytes, names);
     demand(is_valid(tree, static_cast<int>(names.size())), "what is parsed is a formula");
-    demand(parse(to_text(tree, names), names) == tree, "a formula comes back from its text");
+    demand(parse(to_string(tree, names), names) == tree, "a formula comes back from its text");
   } catch (const InputError&) {
   }
 }
@@ -37,7 +37,7 @@ void read_definition(std::string_view bytes) {
     demand(parse_definition(definition_text(functions[0], 0), 0) == functions[0], "a definition comes back");
     const Tree tree = parse(bytes.substr(end), theta_only(), functions);
     const FoldedFormula formula = folded(tree, functions);
-    demand(in_order(parse(to_text(formula), theta_only(), functions)) == in_order(tree), "calls come back");
+    demand(in_order(parse(to_string(formula), theta_only(), functions)) == in_order(tree), "calls come back");
   } catch (const InputError&) {
   }
 }
@@ -46,7 +46,7 @@ void read_expression(std::string_view bytes) {
   try {
     Algebra algebra;
     const Expression expression = parse_expression(algebra, bytes);
-    demand(!Spelling(CodeLanguage::c)(expression).empty(), "what is parsed can be written");
+    demand(!ExpressionPrinter(CodeLanguage::c)(expression).empty(), "what is parsed can be written");
     derivative(expression, "q1");
   } catch (const InputError&) {
   }

@@ -2,7 +2,7 @@
 
 #include "../protocol/random_messages.hpp"
 #include "../protocol/small_run.hpp"
-#include "dds/endpoints.hpp"
+#include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "evolution/island.hpp"
 #include "hosting/hosted_island.hpp"
@@ -10,7 +10,6 @@
 #include "monitor/watched.hpp"
 #include "protocol/faults.hpp"
 #include "protocol/message_bytes.hpp"
-#include "protocol/printable.hpp"
 #include "scheduling/run_state.hpp"
 #include "targets.hpp"
 
@@ -22,7 +21,7 @@ const CalibrationData& the_run() {
   return data;
 }
 
-// What is done with a message that is believed: nothing of it may break a promise further in.
+// What is done with a message that is accepted: nothing of it may break a precondition further in.
 
 void use(const CalibrationData& data) {
   std::size_t cells = 0;
@@ -46,7 +45,7 @@ void use(const IslandTask& task) {
     island.run_epoch({}, [] {});
     demand(!find_fault(island.last_migrants(), the_run()), "what an island sends is sound");
     const auto progress = island.due_progress("w", std::chrono::milliseconds(0));
-    demand(progress && !find_fault(*progress, the_run()), "what an island tells is sound");
+    demand(progress && !find_fault(*progress, the_run()), "what an island reports is sound");
   }
   demand(!find_fault(island.outcome("w"), the_run()) || !island.finished(), "what an island ends with is sound");
 }
@@ -90,7 +89,7 @@ void use(const LoopNews& news) {
 template <class Plain>
 void use_decoded(const Plain& message) {
   // To the bit, since a number that is none equals nothing.
-  demand(to_bytes(message) == to_bytes(*message_of<Plain>(to_bytes(message))),
+  demand(to_bytes(message) == to_bytes(*from_bytes<Plain>(to_bytes(message))),
          "what was decoded comes back from its bytes");
   use(message);
   Watched watched;
@@ -128,7 +127,7 @@ Target progress_target(const Progress& progress) {
 template <class Plain>
 Target target(const std::string& name, const std::vector<Plain>& messages) {
   Target made{name, {}, [](std::string_view bytes) {
-                if (const auto read = message_of<Plain>(bytes)) use_decoded(*read);
+                if (const auto read = from_bytes<Plain>(bytes)) use_decoded(*read);
               }};
   for (const Plain& message : messages) made.seeds.push_back(to_bytes(message));
   return made;
@@ -150,7 +149,7 @@ std::string stream_of(const std::vector<MessagePart>& parts) {
 
 void put_together(std::string_view stream) {
   constexpr std::size_t kFew_bytes = 200'000, kHead_bytes = 3;
-  Assembly assembly(kFew_bytes);
+  MessageAssembler assembly(kFew_bytes);
   int departures = 0;
   while (stream.size() > kHead_bytes) {
     WriterId writer{};
@@ -159,17 +158,18 @@ void put_together(std::string_view stream) {
     const std::string_view sample = stream.substr(kHead_bytes, size);
     stream.remove_prefix(kHead_bytes + sample.size());
     const auto part = sample_from<MessagePart>(Topic::task, sample);
-    const auto result = part ? assembly.take(writer, *part) : Assembly::Result{};
-    demand(result.bytes.empty() || result.verdict == Assembly::Verdict::whole, "only what is whole is handed over");
+    const auto result = part ? assembly.take(writer, *part) : MessageAssembler::Result{};
+    demand(result.bytes.empty() || result.verdict == MessageAssembler::Verdict::whole,
+           "only what is whole is handed over");
     demand(result.bytes.size() <= kFew_bytes, "no more than may be kept is put together");
-    if (sample.empty()) assembly.departed(writer, Assembly::Time{} + departures++ * std::chrono::seconds{30});
+    if (sample.empty()) assembly.departed(writer, MessageAssembler::Time{} + departures++ * std::chrono::seconds{30});
   }
 }
 
 Target parts_target() {
   std::vector<MessagePart> parts;
   for (const std::size_t size : {std::size_t{40}, kPart_bytes + 5})
-    for (const MessagePart& part : parts_of(std::string(size, 'x'), 3, 1 + parts.size())) parts.push_back(part);
+    for (const MessagePart& part : split_into_parts(std::string(size, 'x'), 3, 1 + parts.size())) parts.push_back(part);
   parts.push_back(vacant_part(3, 1, 9));
   return {"sample_parts", {stream_of(parts)}, put_together};
 }

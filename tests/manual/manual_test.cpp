@@ -17,7 +17,7 @@ using ::testing::Not;
 
 struct MadeUpProgram {
   CLI::App app{"weigh: tells what things weigh", "weigh"};
-  std::string printed, thing, unit = "kg";
+  std::string printed, thing, hands, unit = "kg";
   int times = 3;
   bool quiet = false;
 
@@ -26,6 +26,7 @@ struct MadeUpProgram {
     scale->add_option("thing", thing, "THING.yaml")->required();
     scale->add_option("--unit", unit, "of the answer")->check(CLI::IsMember({"kg", "g"}))->capture_default_str();
     scale->add_option("--times", times, "how often")->check(CLI::Range(1, 9))->envname("WEIGH_TIMES");
+    scale->add_option("--hands", hands, "that help")->type_name("N|none[:N]");
     scale->add_flag("--quiet", quiet, "say nothing [at all]");
     app.add_subcommand("tare", "set the scale to 0");
     add_manual(app, "0: done.", [this](const std::string& text) { printed = text; });
@@ -51,7 +52,7 @@ TEST(ManualPage, NamesOptionsValuesRulesAndDefaults) {
   const std::string page = manual_page(program.app, "scale", "0: done.");
   EXPECT_THAT(page, AllOf(HasSubstr(".TH WEIGH\\-SCALE 1"), HasSubstr("\\fB\\-\\-unit\\fR \\fITEXT\\fR"),
                           HasSubstr("one of kg, g; default kg"), HasSubstr("1 to 9"), HasSubstr("WEIGH_TIMES"),
-                          HasSubstr("\\fITHING\\fR"), HasSubstr("0: done.")));
+                          HasSubstr("\\fIN|none[:N]\\fR"), HasSubstr("\\fITHING\\fR"), HasSubstr("0: done.")));
 }
 
 TEST(ManualPage, OfTheProgramListsItsCommandsAndHidesWhatHelpHides) {

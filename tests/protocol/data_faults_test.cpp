@@ -26,10 +26,10 @@ const std::vector<DataSpoiling>& spoilings() {
       {"no run", [](auto& d) { d.run = 0; }},
       {"parameter out of its range", [](auto& d) { d.parameters.crossover_rate = 1.5; }},
       {"population of none", [](auto& d) { d.parameters.population_size = 0; }},
-      {"more individuals than are believed", [](auto& d) { d.parameters.population_size = kMostIndividuals + 1; }},
-      {"more generations than are believed", [](auto& d) { d.parameters.number_generations = kMostGenerations + 1; }},
-      {"more attempts than are believed", [](auto& d) { d.parameters.invalid_attempts = kMostAttempts + 1; }},
-      {"more rows than are believed",
+      {"more individuals than the limit", [](auto& d) { d.parameters.population_size = kMostIndividuals + 1; }},
+      {"more generations than the limit", [](auto& d) { d.parameters.number_generations = kMostGenerations + 1; }},
+      {"more attempts than the limit", [](auto& d) { d.parameters.invalid_attempts = kMostAttempts + 1; }},
+      {"more rows than the limit",
        [](auto& d) {
          const std::vector<double> column(kMostRows + 1);
          d.tables[0] = TrainingTable{{column}, column, column};
@@ -79,10 +79,10 @@ const std::vector<DataSpoiling>& spoilings() {
          d.tables[0].variables.push_back(d.tables[0].target);
          d.tables[0].limit = 3.0;
        }},
-      {"more shared functions than are believed",
+      {"more shared functions than the limit",
        [](auto& d) { d.parameters.shared_functions.assign(kMostSharedFunctions + 1, sine_of_multiple()); }},
       {"a shared function that is no formula", [](auto& d) { d.parameters.shared_functions = {SharedFunction{}}; }},
-      {"a shared function longer than is believed",
+      {"a shared function longer than the limit",
        [](auto& d) {
          Tree body = variable_tree(0);
          while (body.size() <= kLongestBody) body = apply(Primitive::sine, body);

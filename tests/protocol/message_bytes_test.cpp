@@ -1,11 +1,10 @@
-// What is kept as bytes comes back to the bit, and bytes that are no message are refused before memory is claimed for
-// them.
-#include "protocol/message_bytes.hpp"
-
+// Messages as bytes come back whole, damaged ones are refused, and their texts are printable.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "protocol/message_bytes.hpp"
+#include "random/random_stream.hpp"
 #include "random_messages.hpp"
 
 namespace demecal {
@@ -32,14 +31,14 @@ void with_every_kind(Check check) {
 
 template <class Plain>
 bool is_message(const Plain&, std::string_view bytes) {
-  return message_of<Plain>(bytes).has_value();
+  return from_bytes<Plain>(bytes).has_value();
 }
 
 TEST(MessageBytes, OfEveryMessageComeBackToTheBit) {
   with_every_kind([]<class Plain>(const Plain& message) {
     const std::string bytes = to_bytes(message);
-    EXPECT_EQ(message_of<Plain>(bytes), message);
-    EXPECT_EQ(to_bytes(*message_of<Plain>(bytes)), bytes);
+    EXPECT_EQ(from_bytes<Plain>(bytes), message);
+    EXPECT_EQ(to_bytes(*from_bytes<Plain>(bytes)), bytes);
   });
 }
 
@@ -65,7 +64,7 @@ TEST(MessageBytes, WhoseCountPromisesMoreThanFollowsAreNone) {
   constexpr std::size_t kCount = 20;  // behind run, joint, deme and epoch
   for (const unsigned char byte : {0x7F, 0xFF}) {
     bytes[kCount + 3] = static_cast<char>(byte);
-    EXPECT_FALSE(message_of<Migrants>(bytes).has_value());
+    EXPECT_FALSE(from_bytes<Migrants>(bytes).has_value());
   }
 }
 
@@ -79,38 +78,38 @@ TEST(MessageBytes, WhoseFlagIsNeitherTrueNorFalseAreNone) {
   for (int value = 0; value < 256; ++value) {
     std::string bytes = sound;
     bytes[flag] = static_cast<char>(value);
-    EXPECT_EQ(message_of<WorkerStatus>(bytes).has_value(), value <= 1);
+    EXPECT_EQ(from_bytes<WorkerStatus>(bytes).has_value(), value <= 1);
   }
 }
 
 TEST(MessageBytes, OfARunWorkerOrCalibrationThatIsNoneAreNone) {
   const auto of_run_0 = []<class Plain>(Plain message) {
     message.run = 0;
-    return message_of<Plain>(to_bytes(message)).has_value();
+    return from_bytes<Plain>(to_bytes(message)).has_value();
   };
   RandomMessages random(23);
   EXPECT_FALSE(of_run_0(random.data()) || of_run_0(random.task()) || of_run_0(random.migrants()) ||
                of_run_0(random.progress()) || of_run_0(random.checkpoint()) || of_run_0(random.outcome()) ||
                of_run_0(random.control()));
-  EXPECT_FALSE(message_of<WorkerStatus>(to_bytes(WorkerStatus{})).has_value());
-  EXPECT_FALSE(message_of<LoopNews>(to_bytes(LoopNews{})).has_value());
+  EXPECT_FALSE(from_bytes<WorkerStatus>(to_bytes(WorkerStatus{})).has_value());
+  EXPECT_FALSE(from_bytes<LoopNews>(to_bytes(LoopNews{})).has_value());
 }
 
 TEST(MessageBytes, WhoseTextIsLongerThanItsBoundAreNone) {
   std::string bytes = to_bytes(Control{1, Control::State::running, std::string(1023, 'n')});
-  EXPECT_TRUE(message_of<Control>(bytes).has_value());
+  EXPECT_TRUE(from_bytes<Control>(bytes).has_value());
   constexpr std::size_t kLength = 12;  // behind run and state
   bytes[kLength] = 1;
   bytes[kLength + 1] = 4;
   bytes.insert(kLength + 4, "n");
-  EXPECT_FALSE(message_of<Control>(bytes).has_value());
+  EXPECT_FALSE(from_bytes<Control>(bytes).has_value());
 }
 
 TEST(MessageBytes, TextThatWouldMoveACursorIsMadePrintable) {
   WorkerStatus status = RandomMessages(3).status();
   status.worker = "a\nb";
   status.host = "\033[2J";
-  const auto read = message_of<WorkerStatus>(to_bytes(status));
+  const auto read = from_bytes<WorkerStatus>(to_bytes(status));
   EXPECT_EQ(read->worker, "a?b");
   EXPECT_EQ(read->host, "?[2J");
 }
@@ -119,30 +118,30 @@ TEST(Samples, AreMessagesBehindTheNameOfTheirForm) {
   with_every_kind([]<class Plain>(const Plain& message) {
     const std::string sample = to_sample(message);
     EXPECT_EQ(sample, std::string("\0\1\0\0", 4) + to_bytes(message));
-    EXPECT_EQ(sample_of<Plain>(sample), message);
-    for (std::size_t size = 0; size < 4; ++size) EXPECT_FALSE(sample_of<Plain>(sample.substr(0, size)));
-    EXPECT_FALSE(sample_of<Plain>(std::string("\0\2\0\0", 4) + to_bytes(message)));
-    EXPECT_FALSE(sample_of<Plain>(std::string("\1\1\0\0", 4) + to_bytes(message)));
+    EXPECT_EQ(from_sample<Plain>(sample), message);
+    for (std::size_t size = 0; size < 4; ++size) EXPECT_FALSE(from_sample<Plain>(sample.substr(0, size)));
+    EXPECT_FALSE(from_sample<Plain>(std::string("\0\2\0\0", 4) + to_bytes(message)));
+    EXPECT_FALSE(from_sample<Plain>(std::string("\1\1\0\0", 4) + to_bytes(message)));
   });
 }
 
 TEST(Samples, MayEndWithWhatFillsAWord) {
   with_every_kind([]<class Plain>(const Plain& message) {
-    EXPECT_TRUE(sample_of<Plain>(to_sample(message) + std::string(3, '\0')));
-    EXPECT_FALSE(sample_of<Plain>(to_sample(message) + std::string(4, '\0')));
+    EXPECT_TRUE(from_sample<Plain>(to_sample(message) + std::string(3, '\0')));
+    EXPECT_FALSE(from_sample<Plain>(to_sample(message) + std::string(4, '\0')));
   });
 }
 
 TEST(Samples, OfTheOtherOrderOfBytesAreRead) {
   std::string numbers("\0\0\0\0\0\0\0\0\0\0\0\7\0\0\0\2\0\0\0\3ok", 22);
   numbers += '\0';
-  EXPECT_EQ(sample_of<Control>(numbers), (Control{7, Control::State::cancelled, "ok"}));
+  EXPECT_EQ(from_sample<Control>(numbers), (Control{7, Control::State::cancelled, "ok"}));
   const std::string bytes = to_bytes(RandomMessages(83).control());
-  EXPECT_FALSE(sample_of<Control>(std::string(4, '\0') + bytes));
+  EXPECT_FALSE(from_sample<Control>(std::string(4, '\0') + bytes));
 }
 
 TEST(Samples, AreNoLargerThanIsBelieved) {
-  EXPECT_FALSE(sample_of<Control>(std::string(kMostSample_bytes + 1, '\0')));
+  EXPECT_FALSE(from_sample<Control>(std::string(kMostSample_bytes + 1, '\0')));
 }
 
 TEST(Weight, GrowsWithWhatAMessageHolds) {
@@ -156,6 +155,41 @@ TEST(Weight, GrowsWithWhatAMessageHolds) {
   data.tables.push_back({{std::vector<double>(1000)}, {}, {}});
   EXPECT_GE(weight_bytes(data), without + 8000);
   EXPECT_GE(weight_bytes(Control{1, Control::State::running, std::string(500, 'n')}), 500U);
+}
+
+TEST(Printable, LeavesTextAsItIs) {
+  for (const char* text : {"", "host-1-22", "Größe 5 µm", "机器人", "🤖 ok"}) {
+    EXPECT_EQ(printable(text), text);
+    EXPECT_TRUE(is_printable(text));
+  }
+}
+
+TEST(Printable, ReplacesControlCharactersAndWhatTurnsTheLine) {
+  EXPECT_EQ(printable("a\nb\tc\x1b[2J\x7f"), "a?b?c?[2J?");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "?31m");
+  EXPECT_EQ(printable("x\xe2\x80\xaey"), "x?y");
+  EXPECT_EQ(printable("x\xe2\x80\xa8y"), "x?y");
+  EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a?b");
+}
+
+TEST(Printable, ReplacesWhatIsNoUtf8) {
+  EXPECT_EQ(printable("\xff"), "?");
+  EXPECT_EQ(printable("\xc3"), "?");
+  EXPECT_EQ(printable("\xc0\xaf"), "??");            // overlong
+  EXPECT_EQ(printable("\xed\xa0\x80"), "???");       // a surrogate
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");  // beyond the last
+}
+
+TEST(Printable, OfAnyBytesIsPrintable) {
+  RandomStream random{31};
+  for (int i = 0; i < 2000; ++i) {
+    std::string bytes(random.index(20), '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random.index(256));
+    EXPECT_TRUE(is_printable(printable(bytes)));
+    EXPECT_LE(printable(bytes).size(), bytes.size());
+  }
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ inline JointEntry neutral_joint(std::uint64_t joint, double error_rad, const std
   entry.mean_abs_error_rad = {error_rad, error_rad};
   entry.bound_rad = 0.0;
   entry.note = note;
-  entry.expression = to_text(neutral_tree());
+  entry.expression = to_string(neutral_tree());
   entry.range_rad = Interval{-1.5, 1.7};
   return entry;
 }

@@ -5,10 +5,9 @@
 
 #include "expression/text.hpp"
 #include "random/random_stream.hpp"
-#include "symbolic/differentiate.hpp"
+#include "symbolic/calculus.hpp"
 #include "symbolic/parse_expression.hpp"
-#include "symbolic/spelling.hpp"
-#include "symbolic/values.hpp"
+#include "symbolic/printing.hpp"
 
 namespace demecal {
 namespace {
@@ -67,7 +66,7 @@ TEST(Algebra, KeepsTheValuesOfRandomExpressions) {
     const SymbolValues at = random_values(stream);
     const Twin twin = random_twin(algebra, stream, at, 3);
     EXPECT_NEAR(value_of(twin.expression, at), twin.value, 1e-11 * std::max(1.0, std::abs(twin.value)))
-        << Spelling(CodeLanguage::text)(twin.expression);
+        << ExpressionPrinter(CodeLanguage::text)(twin.expression);
   }
 }
 
@@ -77,7 +76,7 @@ TEST(Algebra, WritesTextThatReadsBackAsTheSameExpression) {
     Algebra algebra;
     const SymbolValues at = random_values(stream);
     Expression expression = random_twin(algebra, stream, at, 3).expression;
-    const std::string text = Spelling(CodeLanguage::text)(expression);
+    const std::string text = ExpressionPrinter(CodeLanguage::text)(expression);
     if (text.find("max(") != std::string::npos) continue;  // not a word of matrices
     EXPECT_NEAR(value_of(parse_expression(algebra, text), at), value_of(expression, at),
                 1e-12 * std::max(1.0, std::abs(value_of(expression, at))))
@@ -101,7 +100,7 @@ TEST(Algebra, DifferentiatesAsDifferencesDo) {
     const double slope = value_of(derivative(expression, "a"), at);
     // At a kink of max the slope is that of either side; elsewhere the sides agree.
     const double scale = std::max(1.0, std::abs(slope) + std::abs(forward - backward) / kStep);
-    EXPECT_NEAR(slope, (right - left) / (2 * kStep), 1e-5 * scale) << Spelling(CodeLanguage::text)(expression);
+    EXPECT_NEAR(slope, (right - left) / (2 * kStep), 1e-5 * scale) << ExpressionPrinter(CodeLanguage::text)(expression);
   }
 }
 
@@ -120,14 +119,14 @@ TEST(Algebra, DifferentiatesTheFunctionsOfEvolvedFormulas) {
           (value_of(expression, {{"a", at + step}}) - value_of(expression, {{"a", at - step}})) / (2 * step);
       EXPECT_NEAR(value_of(derivative(expression, "a"), {{"a", at}}), by_differences,
                   1e-6 * std::max(1.0, std::abs(by_differences)))
-          << Spelling(CodeLanguage::text)(expression) << " at " << at;
+          << ExpressionPrinter(CodeLanguage::text)(expression) << " at " << at;
     }
   }
 }
 
 std::string simplified_text(const std::string& text) {
   Algebra algebra;
-  return Spelling(CodeLanguage::text)(parse_expression(algebra, text));
+  return ExpressionPrinter(CodeLanguage::text)(parse_expression(algebra, text));
 }
 
 TEST(Algebra, ShortensByTheTheoremsOfSinesAndCosines) {

@@ -4,9 +4,8 @@
 
 #include "errors/input_error.hpp"
 #include "random/random_stream.hpp"
-#include "symbolic/matrix.hpp"
 #include "symbolic/parse_expression.hpp"
-#include "symbolic/spelling.hpp"
+#include "symbolic/printing.hpp"
 
 namespace demecal {
 namespace {
@@ -69,7 +68,7 @@ TEST(ParseExpression, ReadsSumsAndProductsOfThousandsOfParts) {
 TEST(ParseExpression, KnowsOnlyTheNamesItIsGiven) {
   Algebra algebra;
   const SymbolNames names{{"theta1", algebra.symbol("q1")}, {"a2", algebra.constant(0.5)}};
-  EXPECT_EQ(Spelling(CodeLanguage::text)(parse_expression(algebra, "a2*cos(theta1)", names)), "0.5*cos(q1)");
+  EXPECT_EQ(ExpressionPrinter(CodeLanguage::text)(parse_expression(algebra, "a2*cos(theta1)", names)), "0.5*cos(q1)");
   EXPECT_THROW(parse_expression(algebra, "q1", names), InputError);
 }
 
@@ -79,7 +78,7 @@ TEST(ParseMatrix, ReadsTheFirstLinkOfThesisTable54) {
       parse_matrix(algebra, {{{"cos(theta1)", "-cos(PI/2)*sin(theta1)", "sin(PI/2)*sin(theta1)", "0"},
                               {"sin(theta1)", "cos(PI/2)*cos(theta1)", "-sin(PI/2)*cos(theta1)", "0"},
                               {"0", "sin(PI/2)", "cos(PI/2)", "0"}}});
-  const Spelling text(CodeLanguage::text);
+  const ExpressionPrinter text(CodeLanguage::text);
   EXPECT_EQ(text(link[0][2]), "sin(theta1)");
   EXPECT_EQ(text(link[1][2]), "-cos(theta1)");
   EXPECT_TRUE(link[0][1].is(0.0));

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/message_bytes.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 namespace {

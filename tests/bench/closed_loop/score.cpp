@@ -78,7 +78,7 @@ std::string words(const Effect& effect, const Robot& robot) {
     if (!effect.settings.contains(setting)) continue;
     text += std::string(" ") + setting + ' ' + std::to_string(static_cast<int>(effect.setting(setting)));
   }
-  if (!effect.formula.empty()) text += ' ' + to_text(effect.formula, symbolic_variables(robot.chain));
+  if (!effect.formula.empty()) text += ' ' + to_string(effect.formula, symbolic_variables(robot.chain));
   return text;
 }
 

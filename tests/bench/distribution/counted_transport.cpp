@@ -24,7 +24,7 @@ std::optional<Message> CountedTransport::receive(std::chrono::milliseconds patie
     return known;
   }
   std::optional<Message> message = carrier_.receive(patience);
-  if (message) heard_.push_back(*message);
+  if (message) received_.push_back(*message);
   return message;
 }
 
@@ -39,7 +39,7 @@ Traffic CountedTransport::traffic(const CalibrationData& data) const {
     traffic.messages += messages;
     traffic.bytes += messages * bytes;
   };
-  for (const Message& message : heard_) {
+  for (const Message& message : received_) {
     if (const auto* progress = std::get_if<Progress>(&message)) add(to_bytes(*progress).size());
     if (const auto* checkpoint = std::get_if<Checkpoint>(&message)) add(to_bytes(*checkpoint).size());
     const auto* outcome = std::get_if<Outcome>(&message);

@@ -41,7 +41,7 @@ class CountedTransport : public Transport {
   std::map<std::string, WorkerStatus> workers_;
   std::map<std::string, WorkerStatus> to_tell_;
   std::map<IslandKey, std::string> holders_;
-  std::vector<Message> heard_;  ///< counted when the run is over, not to take its time
+  std::vector<Message> received_;  ///< counted when the run is over, not to take its time
 };
 
 std::size_t epochs_of(const CalibrationData& data);

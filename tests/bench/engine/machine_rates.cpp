@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "evolution/error_sum.hpp"
-#include "expression/column_steps.hpp"
-#include "expression/vector_units.hpp"
+#include "evolution/fitness.hpp"
+#include "expression/columns.hpp"
+#include "expression/elementary.hpp"
 #include "thread_seconds.hpp"
 
 namespace demecal::bench::engine {
@@ -64,7 +64,7 @@ double measured_sin_per_s() {
     return AlignedColumn(column.begin(), column.end());
   }();
   AlignedColumn out(kRows);
-  const std::array<Step, 1> step{step_of(Primitive::sine, {in.data(), 0.0, true}, out.data(), true)};
+  const std::array<ColumnStep, 1> step{make_step(Primitive::sine, {in.data(), 0.0, true}, out.data(), true)};
   return best_per_s(static_cast<double>(kRows) * kRepeats, [&] {
     for (int i = 0; i < kRepeats; ++i) run(step, 0, kRows);
     sink = out[0];

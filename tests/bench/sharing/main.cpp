@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/shared_functions.hpp"
-#include "evolution/brief_forms.hpp"
 #include "evolution/island.hpp"
+#include "evolution/model_archive.hpp"
 #include "expression/evaluate.hpp"
 #include "fitting/median.hpp"
 #include "random/random_stream.hpp"

@@ -33,7 +33,7 @@ std::string bytes_of(const Message& message, std::uint32_t place) {
         } else if constexpr (kTravels<Plain>) {
           if (!is_large(topic_of(message))) return to_sample(plain);
           static std::uint64_t number = 0;
-          return to_sample(parts_of(to_bytes(plain), place, ++number).front());
+          return to_sample(split_into_parts(to_bytes(plain), place, ++number).front());
         }
         return std::string();
       },

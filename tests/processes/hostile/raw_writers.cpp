@@ -6,8 +6,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <stdexcept>
 
-#include "dds/endpoints.hpp"
-#include "dds/participant_qos.hpp"
+#include "dds/participant.hpp"
 
 namespace demecal {
 namespace {

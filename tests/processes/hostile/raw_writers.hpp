@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dds/dds_transport.hpp"
-#include "protocol/topics.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal {
 

@@ -1,0 +1,103 @@
+#include "protocol/messages.hpp"
+
+#include "errors/check.hpp"
+
+namespace demecal {
+namespace {
+
+struct KeyOf {
+  TopicKey operator()(const CalibrationData& m) const { return {Topic::data, m.run, {}, {}}; }
+  TopicKey operator()(const IslandTask& m) const { return {Topic::task, m.run, m.island, {}}; }
+  TopicKey operator()(const Control& m) const { return {Topic::control, m.run, {}, {}}; }
+  TopicKey operator()(const Migrants& m) const { return {Topic::migrants, m.run, m.island, {}}; }
+  TopicKey operator()(const Progress& m) const { return {Topic::progress, m.run, m.island, {}}; }
+  TopicKey operator()(const Checkpoint& m) const { return {Topic::checkpoint, m.run, m.island, {}}; }
+  TopicKey operator()(const Outcome& m) const { return {Topic::outcome, m.run, m.island, {}}; }
+  TopicKey operator()(const WorkerStatus& m) const { return {Topic::worker, 0, {}, m.worker}; }
+  TopicKey operator()(const LoopNews& m) const { return {Topic::loop, 0, {}, {}, m.calibration, m.round}; }
+  TopicKey operator()(const WorkerLost& m) const {
+    DEMECAL_CHECK(false, "WorkerLost is never sent; worker=" << m.worker);
+    return {};
+  }
+  TopicKey operator()(const CalibrationLost& m) const {
+    DEMECAL_CHECK(false, "CalibrationLost is never sent; calibration=" << m.calibration);
+    return {};
+  }
+};
+
+}  // namespace
+
+TopicKey key_of(const Message& message) {
+  return std::visit(KeyOf{}, message);
+}
+
+bool is_sent(const Message& message) {
+  return !std::holds_alternative<WorkerLost>(message) && !std::holds_alternative<CalibrationLost>(message);
+}
+
+Topic topic_of(const Message& message) {
+  return key_of(message).topic;
+}
+
+bool writes(Role role, Topic topic) {
+  const bool of_coordinator = topic == Topic::data || topic == Topic::task || topic == Topic::control;
+  switch (role) {
+    case Role::coordinator:
+      return of_coordinator;
+    case Role::worker:
+      return !of_coordinator && topic != Topic::loop;
+    case Role::herald:
+      return topic == Topic::loop || topic == Topic::progress;
+    case Role::watcher:
+      break;
+  }
+  return false;
+}
+
+bool reads(Role role, Topic topic) {
+  switch (role) {
+    case Role::coordinator:
+      return writes(Role::worker, topic) && topic != Topic::migrants;
+    case Role::worker:
+      return writes(Role::coordinator, topic) || topic == Topic::migrants;
+    case Role::watcher:
+      return topic == Topic::control || topic == Topic::worker || reads_reliably(role, topic);
+    case Role::herald:
+      break;
+  }
+  return false;
+}
+
+bool reads_reliably(Role role, Topic topic) {
+  return role != Role::watcher || !is_awaited(topic);
+}
+
+bool is_awaited(Topic topic) {
+  return topic != Topic::data && topic != Topic::progress && topic != Topic::loop;
+}
+
+bool ends_with_run(Topic topic) {
+  return topic != Topic::control && topic != Topic::worker && topic != Topic::loop;
+}
+
+bool is_large(Topic topic) {
+  return ends_with_run(topic) && topic != Topic::progress;
+}
+
+int values_kept(Topic topic) {
+  return topic == Topic::migrants ? kMigrantEpochs : 1;
+}
+
+void check_may_publish(Role role, const std::string& name, const TopicKey& key) {
+  DEMECAL_CHECK(writes(role, key.topic),
+                "role=" << static_cast<int>(role) << " topic=" << static_cast<int>(key.topic) << " name=" << name);
+  DEMECAL_CHECK(key.topic != Topic::worker || key.worker == name,
+                "'" << name << "' publishes as '" << key.worker << "'");
+}
+
+RunId ended_run(const Message& message) {
+  const auto* control = std::get_if<Control>(&message);
+  return control != nullptr && control->state != Control::State::running ? control->run : 0;
+}
+
+}  // namespace demecal
