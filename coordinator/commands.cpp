@@ -9,7 +9,6 @@
 #include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/searches.hpp"
 #include "effects/measurement.hpp"
 #include "html/page.hpp"
 #include "report/make_report.hpp"
@@ -34,11 +33,7 @@ const std::atomic<bool>& watch_for_interrupt() {
 
 CheckedData load_checked(const std::filesystem::path& path) {
   CheckedData checked{load_data_set(path), {}};
-  std::vector<Finding> copies = take_out_copies(checked.data);
-  checked.check = check_data(checked.data);
-  std::vector<Finding>& findings = checked.check.findings;
-  findings.insert(findings.end(), std::make_move_iterator(copies.begin()), std::make_move_iterator(copies.end()));
-  if (checked.check.verdict() != DataVerdict::contradiction) require_joint_limits(checked.data, checked.check);
+  checked.check = check_without_copies(checked.data);
   return checked;
 }
 

@@ -116,7 +116,7 @@ void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
           "--workers", take,
           "local worker processes; 0 waits for workers started elsewhere; in-process or in-process:N breeds on as many "
           "threads of this process, without DDS: nobody else can work or watch")
-      ->type_name("N|in-process[:N]")
+      ->type_name("N|in-process")
       ->default_str("one per core");  // not their number: the manual page is of every machine
   fleet.dds = add_dds_arguments(command);
 }

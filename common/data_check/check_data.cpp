@@ -208,4 +208,12 @@ void require_joint_limits(const DataSet& data, const DataCheck& check) {
   check_joint_limits(others, data.robot.chain, data.file);
 }
 
+DataCheck check_without_copies(DataSet& data) {
+  std::vector<Finding> copies = take_out_copies(data);
+  DataCheck check = check_data(data);
+  for (Finding& copy : copies) check.findings.push_back(std::move(copy));
+  if (check.verdict() != DataVerdict::contradiction) require_joint_limits(data, check);
+  return check;
+}
+
 }  // namespace demecal

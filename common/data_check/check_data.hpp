@@ -22,4 +22,8 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
 /// Throws InputError where a joint stands far outside its limits in a pose that no finding names.
 void require_joint_limits(const DataSet& data, const DataCheck& check);
 
+/// As every command takes data up: takes copies of rows out, checks the rest, and returns what was found of both.
+/// Throws InputError as require_joint_limits(), unless the data contradict the arm.
+DataCheck check_without_copies(DataSet& data);
+
 }  // namespace demecal

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/searches.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
@@ -120,12 +118,8 @@ DataSet to_data_set(const Robot& robot, const std::vector<PoseMeasurement>& meas
 std::shared_ptr<const Measurements::Implementation> checked_measurements(DataSet data) {
   auto measured = std::make_shared<Measurements::Implementation>();
   measured->data = std::move(data);
-  std::vector<Finding> copies = take_out_copies(measured->data);
-  measured->check = check_data(measured->data);
-  std::vector<Finding>& findings = measured->check.findings;
-  findings.insert(findings.end(), std::make_move_iterator(copies.begin()), std::make_move_iterator(copies.end()));
-  if (measured->check.verdict() != DataVerdict::contradiction) require_joint_limits(measured->data, measured->check);
-  for (const Finding& finding : findings) measured->findings.push_back(finding.sentence);
+  measured->check = check_without_copies(measured->data);
+  for (const Finding& finding : measured->check.findings) measured->findings.push_back(finding.sentence);
   return measured;
 }
 

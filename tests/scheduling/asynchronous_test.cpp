@@ -42,7 +42,7 @@ class OneStops : public RunObserver {
   MortalTransport& network_;
   std::size_t left_, held_;
   bool stopped_ = false;
-  static constexpr int kMostTicks = 600;  ///< longer than it takes on a busy machine
+  static constexpr int kMostTicks = 600 * kPatience;  ///< longer than it takes on a busy machine
   int ticks_ = 0;
 };
 

@@ -64,11 +64,7 @@ class DisturbedRun : public RunObserver {
 
  private:
   struct CoordinatorDied {};
-#ifdef DEMECAL_SANITIZED
-  static constexpr int kMostTicks = 3000;
-#else
-  static constexpr int kMostTicks = 300;
-#endif
+  static constexpr int kMostTicks = 300 * kPatience;
 
   /// A worker, and its end of the network, which outlives its thread.
   struct Host {

@@ -12,6 +12,13 @@
 
 namespace demecal {
 
+/// How many times as long as a release build's a run may take before a test gives it up.
+#ifdef DEMECAL_SANITIZED
+inline constexpr int kPatience = 10;
+#else
+inline constexpr int kPatience = 1;
+#endif
+
 /// Any thread may call.
 class MortalTransport final : public Transport {
  public:
