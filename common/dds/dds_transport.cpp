@@ -1,15 +1,23 @@
 #include "dds/dds_transport.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "dds/participant.hpp"
 #include "dds/receiver.hpp"
 #include "dds/writers.hpp"
 #include "protocol/messages.hpp"
+#include "transport/mailbox.hpp"
+#include "transport/participants.hpp"
+#include "transport/run_owners.hpp"
 
 namespace demecal {
 namespace {

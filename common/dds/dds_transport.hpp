@@ -1,9 +1,12 @@
 // The transport over Fast DDS.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "protocol/messages.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal {

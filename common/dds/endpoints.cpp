@@ -1,9 +1,15 @@
 #include "dds/participant.hpp"
+#include "protocol/messages.hpp"
 
 #include <fastrtps/utils/md5.h>
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <fastdds/dds/topic/TopicDataType.hpp>
+#include <functional>
+#include <string>
 
 #include "protocol/message_bytes.hpp"
 #include "transport/transport.hpp"

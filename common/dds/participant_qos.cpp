@@ -1,12 +1,21 @@
+#include "dds/dds_transport.hpp"
 #include "dds/participant.hpp"
+#include "protocol/messages.hpp"
 
 #include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "errors/input_error.hpp"
 #include "transport/participants.hpp"

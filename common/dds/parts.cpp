@@ -1,6 +1,8 @@
 #include "dds/parts.hpp"
 
 #include <algorithm>
+#include <array>
+#include <variant>
 
 #include "protocol/message_bytes.hpp"
 

@@ -1,6 +1,8 @@
 #include "dds/receiver.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <mutex>

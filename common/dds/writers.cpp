@@ -1,12 +1,18 @@
 #include "dds/writers.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <ranges>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "errors/check.hpp"
+#include "evolution/archipelago.hpp"
 #include "protocol/message_bytes.hpp"
 
 namespace demecal {
