@@ -30,7 +30,8 @@ constexpr PoseCircumstance kCircumstances[] = {
     {"time", "time", "the effect's reference", &Needs::time,
      [](const MeasuredPose& pose) { return pose.time_s.has_value(); }}};
 
-UnappliedEffect unapplied(const Effect& effect, const PoseCircumstance& lacking, std::size_t without, std::size_t poses) {
+UnappliedEffect unapplied(const Effect& effect, const PoseCircumstance& lacking, std::size_t without,
+                          std::size_t poses) {
   UnappliedEffect one{effect.kind, std::nullopt, lacking.name, without, {}};
   if (effect.joint >= 0) one.joint = static_cast<std::uint64_t>(effect.joint) + 1;
   one.sentence = fmt::format(

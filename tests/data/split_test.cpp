@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-
 namespace demecal {
 namespace {
 
