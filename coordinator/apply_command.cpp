@@ -4,15 +4,14 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
+#include "languages/languages.hpp"
 #include "library/conversion.hpp"
-#include "programs/mark.hpp"
-#include "programs/read_program.hpp"
 #include "programs/summary.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -77,14 +76,26 @@ void refuse_corrected(const ApplyRequest& request, const std::string& text) {
                    "original program");
 }
 
-Language language_asked(const ApplyRequest& request, const std::string& text) {
-  if (!request.language.empty()) return *language_named(request.language);
-  const std::optional<Language> language = language_of(text, request.program_file);
-  if (!language) {
-    throw InputError({request.program_file, 0}, "",
-                     "is in no language that can be told; name it with --language (val2, csv, krl, rapid, urscript)");
-  }
-  return *language;
+std::vector<std::string> language_names() {
+  std::vector<std::string> names;
+  for (const Language& language : languages()) names.emplace_back(language.name);
+  return names;
+}
+
+/// What `part` is of every language, separated by commas.
+std::string listed_languages(std::string_view Language::*part) {
+  std::string text;
+  for (const Language& language : languages()) text += (text.empty() ? "" : ", ") + std::string(language.*part);
+  return text;
+}
+
+const Language& language_asked(const ApplyRequest& request, const std::string& text) {
+  const Language* const language =
+      request.language.empty() ? recognize_language(text, request.program_file) : find_language(request.language);
+  if (language != nullptr) return *language;
+  throw InputError(
+      {request.program_file, 0}, "",
+      "is in no language that can be told; name it with --language (" + listed_languages(&Language::name) + ')');
 }
 
 ExitCode run(const ApplyRequest& request) {
@@ -93,7 +104,8 @@ ExitCode run(const ApplyRequest& request) {
   const CommandModel model = command_model_of(calibrated, request);
   const std::string text = read_file(request.program_file);
   refuse_corrected(request, text);
-  Program program = read_program(language_asked(request, text), text, request.program_file, model.nominal.chain);
+  const Language& language = language_asked(request, text);
+  Program program = read_program(language, text, request.program_file, model.nominal.chain);
   CorrectedProgram corrected = correct_program(text, std::move(program), model,
                                                {.payload_kg = request.payload_kg,
                                                 .temperature_celsius = request.temperature_celsius,
@@ -106,9 +118,9 @@ ExitCode run(const ApplyRequest& request) {
                warnings, warnings == 1 ? "" : "s");
     return ExitCode::bad_input;
   }
-  const std::string mark = mark_of(calibrated.version, calibrated.job, calibrated.data_sha256);
+  const std::string mark = correction_mark(calibrated.version, calibrated.job, calibrated.data_sha256);
   const bool changed = corrected.text != text;
-  write_file(request.out, changed ? with_mark(corrected.text, corrected.program.language, mark) : corrected.text);
+  write_file(request.out, changed ? with_mark(corrected.text, language, mark) : corrected.text);
   fmt::print("{}", request.json ? summary_json(corrected, model.nominal.chain)
                                 : summary_table(corrected, model.nominal.chain));
   return ExitCode::done;
@@ -122,12 +134,12 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
   command
       ->add_option("program", request->program_file,
-                   "VAL II, CSV, KUKA KRL, ABB RAPID or URScript; poses are of the tool point in the base frame "
-                   "where the program states no other")
+                   "in one of " + listed_languages(&Language::title) +
+                       "; poses are of the tool point in the base frame where the program states no other")
       ->required();
   command->add_option("--out", request->out, "the corrected program")->required();
   command->add_option("--language", request->language, "where the file's ending and words do not say it")
-      ->check(CLI::IsMember({"val2", "csv", "krl", "rapid", "urscript"}, CLI::ignore_case));
+      ->check(CLI::IsMember(language_names(), CLI::ignore_case));
   command->add_flag("--strict", request->strict, "write nothing where there is a warning (exit code 11)");
   command->add_flag("--force", request->force, "overwrite a file that demecal did not write");
   command

@@ -8,10 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/files.hpp"
-#include "config/load_job.hpp"
-#include "config/robot_text.hpp"
-#include "config/sha256.hpp"
+#include "config/job_file.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
@@ -19,6 +17,7 @@
 #include "coordinator/result_folder.hpp"
 #include "errors/input_error.hpp"
 #include "terminal/report_text.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

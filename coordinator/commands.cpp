@@ -6,7 +6,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "config/load_data_set.hpp"
+#include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
 #include "effects/measurement.hpp"

@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "baselines/baseline.hpp"
-#include "config/files.hpp"
-#include "config/load_job.hpp"
+#include "config/job_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/fleet.hpp"
@@ -21,7 +20,7 @@
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
 #include "terminal/report_text.hpp"
-#include "terminal/tables.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

@@ -3,10 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
-#include "config/load_preparation.hpp"
-#include "config/load_scenario.hpp"
-#include "config/write_data_set.hpp"
+#include "config/data_set_file.hpp"
+#include "config/preparation_file.hpp"
+#include "config/scenario_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
@@ -14,6 +13,7 @@
 #include "preparation/results.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "terminal/report_text.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

@@ -8,14 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "config/load_job.hpp"
-#include "config/model_text.hpp"
-#include "config/proposed_poses.hpp"
-#include "config/read_declared.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/result_folder.hpp"
-#include "data/nearest_name.hpp"
+#include "data/text.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
 #include "terminal/report_text.hpp"
@@ -46,7 +45,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
 DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<CalibratedModel>& known,
                           const DataSet& data) {
   DeclaredModel declared = known ? known->declared : declared_by_default(data);
-  if (!request.declared.empty()) declared = declared_of(request.declared);
+  if (!request.declared.empty()) declared = declared_model(request.declared);
   declared.registration = true;
   return declared;
 }

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 #include "terminal/monitor_page.hpp"
 
 namespace demecal {

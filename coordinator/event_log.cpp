@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <set>
 
-#include "config/files.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/watched.hpp"
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

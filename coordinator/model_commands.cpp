@@ -4,11 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "config/files.hpp"
-#include "config/load_matrices.hpp"
-#include "config/load_robot.hpp"
-#include "config/model_text.hpp"
-#include "config/read_yaml.hpp"
+#include "config/model_file.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
@@ -16,6 +13,8 @@
 #include "formulas/corrected_arm.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/diagnose.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

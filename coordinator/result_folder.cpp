@@ -11,14 +11,13 @@
 #include <fmt/format.h>
 
 #include "closed_calibration/loop_passes.hpp"
-#include "config/files.hpp"
-#include "config/model_text.hpp"
-#include "config/sha256.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "html/page.hpp"
 #include "report/history.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

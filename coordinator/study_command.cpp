@@ -12,7 +12,6 @@
 #include "coordinator/result_folder.hpp"
 #include "errors/input_error.hpp"
 #include "terminal/report_text.hpp"
-#include "terminal/tables.hpp"
 #include "workflows/study.hpp"
 
 namespace demecal {

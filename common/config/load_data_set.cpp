@@ -1,20 +1,17 @@
-#include "config/load_data_set.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <sstream>
 
-#include "config/load_robot.hpp"
-#include "config/named_file.hpp"
-#include "config/read_columns.hpp"
-#include "config/read_yaml.hpp"
-#include "config/sha256.hpp"
-#include "data/nearest_name.hpp"
+#include "config/data_set_file.hpp"
+#include "config/robot_file.hpp"
+#include "data/data_set.hpp"
 #include "data/read_poses.hpp"
-#include "data/split.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 #include "random/random_stream.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -41,13 +38,13 @@ std::map<std::string, Eigen::Vector3d> read_tools(const YamlNode* node) {
   return tools_m;
 }
 
-struct Split {
+struct SplitKeys {
   SplitFractions fractions;
   std::uint64_t seed = 1;
 };
 
-Split read_split(const YamlNode* node) {
-  Split split;
+SplitKeys read_split(const YamlNode* node) {
+  SplitKeys split;
   if (!node) return split;
   node->with_keys({"validation_fraction", "accept_fraction", "seed"});
   split.fractions.validation = node->at("validation_fraction").number(0.0, 1.0);
@@ -76,11 +73,28 @@ void exclude(const YamlNode* ids, DataSet& data) {
   }
 }
 
+ColumnName read_column(const YamlNode& node) {
+  return {node.text(), {node.file, node.line}};
+}
+
+std::vector<ColumnName> read_columns(const YamlNode* node) {
+  std::vector<ColumnName> columns;
+  if (node) {
+    for (const YamlNode& item : node->list()) columns.push_back(read_column(item));
+  }
+  return columns;
+}
+
+std::optional<ColumnName> read_single(const YamlNode* node) {
+  if (!node) return std::nullopt;
+  return read_column(*node);
+}
+
 }  // namespace
 
 DataSet load_data_set(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
-  root.of_version("dataset", 1)
+  root.with_version("dataset", 1)
       .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "units", "frame",
                   "split", "exclude"});
   DataSet data;
@@ -94,7 +108,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
   require_anchors(root, columns);
   read_anchors(root.find("anchors_mm"), columns.distances.size(), data);
   data.tools_m = read_tools(root.find("tools_mm"));
-  const Split split = read_split(root.find("split"));
+  const SplitKeys split = read_split(root.find("split"));
 
   const std::string bytes = read_named(root.at("poses"), read_file);
   data.file = resolve(path, root.at("poses").text()).string();
@@ -107,6 +121,38 @@ DataSet load_data_set(const std::filesystem::path& path) {
   }
   exclude(root.find("exclude"), data);
   return data;
+}
+
+ColumnMap read_column_map(const YamlNode& node) {
+  node.with_keys({"joints", "position", "orientation", "distances", "approach", "payload", "temperature", "time", "set",
+                  "pose", "target"});
+  ColumnMap map;
+  map.where = {node.file, node.line};
+  map.joints = read_columns(&node.at("joints"));
+  map.position = read_columns(node.find("position"));
+  map.orientation = read_columns(node.find("orientation"));
+  map.distances = read_columns(node.find("distances"));
+  map.approach = read_columns(node.find("approach"));
+  map.payload = read_single(node.find("payload"));
+  map.temperature = read_single(node.find("temperature"));
+  map.time = read_single(node.find("time"));
+  map.set = read_single(node.find("set"));
+  map.pose = read_single(node.find("pose"));
+  map.target = read_single(node.find("target"));
+  return map;
+}
+
+AssumedUnits read_units(const YamlNode* node) {
+  AssumedUnits units;
+  if (!node) return units;
+  node->with_keys({"angle", "length"});
+  if (const YamlNode* angle = node->find("angle")) {
+    units.angle = find_unit(angle->one_of<std::string_view>({{"deg", "deg"}, {"rad", "rad"}}));
+  }
+  if (const YamlNode* length = node->find("length")) {
+    units.length = find_unit(length->one_of<std::string_view>({{"mm", "mm"}, {"m", "m"}}));
+  }
+  return units;
 }
 
 }  // namespace demecal

@@ -1,8 +1,8 @@
-#include "config/read_true_errors.hpp"
+#include "config/scenario_file.hpp"
 
-#include "config/joint_keys.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

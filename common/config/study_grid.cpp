@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "config/load_job.hpp"
-#include "config/read_yaml.hpp"
+#include "config/job_file.hpp"
 #include "errors/input_error.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -147,7 +147,7 @@ GridAxis read_axis(const std::string& option) {
 
 std::vector<GridAxis> load_grid(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
-  root.of_version("grid", 1).with_keys({"demecal_grid", "method", kSections[0], kSections[1], kSections[2]});
+  root.with_version("grid", 1).with_keys({"demecal_grid", "method", kSections[0], kSections[1], kSections[2]});
   std::vector<GridAxis> axes;
   const auto add = [&](const YamlNode& node) {
     axes.push_back({node.key, node.list()});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/job.hpp"
-#include "config/yaml_node.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 

@@ -1,13 +1,43 @@
-// What was measured: the poses of one robot, the points they were measured at, and where they came from.
+// What was measured: the poses of one robot, the points they were measured at, where they came from, and their sets.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <functional>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "data/pose.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal {
+
+/// What a pose is used for: fitting, choosing, or the one final judgement.
+enum class PoseSet { calibration, validation, accept };
+
+/// As data sets and reports name it.
+std::string_view to_string(PoseSet set);
+
+/// -1, 0 or +1 per joint: the sign of its last motion before the pose.
+using ApproachSigns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxJoints, 1>;
+
+struct MeasuredPose {
+  JointVector joints;                             ///< commanded, rad or m
+  std::optional<Eigen::Vector3d> position_m;      ///< measured tool point
+  std::optional<Eigen::Quaterniond> orientation;  ///< measured, unit
+  std::vector<double> distances_m;                ///< measured from fixed points, in the order of DataSet::anchors
+  std::optional<ApproachSigns> approach;
+  std::optional<double> payload_kg;
+  std::optional<double> temperature_celsius;
+  std::optional<double> time_s;
+  PoseSet set = PoseSet::calibration;
+  std::string pose_id;   ///< equal ids are repeats of one pose
+  std::string target;    ///< which point on the tool; empty: the robot's own tool
+  std::size_t line = 0;  ///< where it stands in its file
+};
 
 /// Whether positions are given in the robot's base frame or in the instrument's own.
 enum class Frame { base, sensor };
@@ -46,5 +76,18 @@ std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set);
 
 /// The nominal tool point of a pose, in the flange frame, m.
 Eigen::Vector3d nominal_tool(const DataSet& data, const MeasuredPose& pose);
+
+/// Fractions of the poses, each 0 to 1; the rest is for calibration.
+struct SplitFractions {
+  double validation = 0.3;
+  double accept = 0.0;
+};
+
+/// A random index below its argument.
+using DrawIndex = std::function<std::size_t(std::size_t)>;
+
+/// Sets every pose's set, by pose id: repeats stay together. Each set gets its fraction of the ids, rounded;
+/// calibration keeps one at least. Equal draws give equal sets.
+void split_by_pose(std::span<MeasuredPose> poses, const SplitFractions& fractions, const DrawIndex& draw);
 
 }  // namespace demecal

@@ -1,37 +1,74 @@
 #include "data/read_poses.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
-#include "data/pose_rules.hpp"
-#include "data/table_column.hpp"
+#include "data/columns.hpp"
+#include "data/text.hpp"
+#include "errors/input_error.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
 
-using Columns = std::vector<TableColumn>;
+constexpr double kLimitMargin_rad = radians(5.0);
+constexpr double kLimitMargin_m = 0.010;
+constexpr double kEqualJoints = 1e-6;  // rad or m: below any controller's resolution
+
+void check_count(const ColumnMap& map, const std::vector<ColumnName>& columns, std::size_t expected,
+                 const std::string& what) {
+  if (columns.size() == expected) return;
+  throw InputError(columns.empty() ? map.where : columns.front().where, "",
+                   what + " must name " + std::to_string(expected) + " columns, not " + std::to_string(columns.size()));
+}
+
+void check_distinct(const ColumnMap& map) {
+  std::set<std::string> seen;
+  for (const ColumnName& column : map.all()) {
+    if (!seen.insert(column.name).second) throw InputError(column.where, column.name, "is named twice under columns");
+  }
+}
+
+std::string in_border_unit(double value, bool angle) {
+  return angle ? number_text(value, degrees, radians) + " deg" : number_text(value, millimetres, metres) + " mm";
+}
+
+void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const std::string& file) {
+  const bool angle = is_revolute(joint);
+  const double margin = angle ? kLimitMargin_rad : kLimitMargin_m;
+  const double value = pose.joints[static_cast<Eigen::Index>(index)];
+  if (value >= joint.lower - margin && value <= joint.upper + margin) return;
+  throw InputError({file, pose.line}, in_border_unit(value, angle),
+                   "is far outside the limits of joint " + std::to_string(index + 1) + ", " +
+                       in_border_unit(joint.lower, angle) + " to " + in_border_unit(joint.upper, angle) +
+                       "; correct the data, or the limits in the robot file");
+}
+
+using TableColumns = std::vector<TableColumn>;
 
 /// The columns of a data set, found in its table.
 struct PoseColumns {
-  Columns joints, position, orientation, distances, approach;
+  TableColumns joints, position, orientation, distances, approach;
   std::optional<TableColumn> payload, temperature, time, set, pose, target;
 };
 
-Columns find_all(const CsvTable& table, const std::vector<ColumnName>& names) {
-  Columns columns;
+TableColumns find_all(const CsvTable& table, const std::vector<ColumnName>& names) {
+  TableColumns columns;
   for (const ColumnName& name : names) columns.emplace_back(table, name);
   return columns;
 }
 
-Columns find_all(const CsvTable& table, const std::vector<ColumnName>& names, Quantity quantity,
-                 const AssumedUnits& units) {
-  Columns columns;
+TableColumns find_all(const CsvTable& table, const std::vector<ColumnName>& names, Quantity quantity,
+                      const AssumedUnits& units) {
+  TableColumns columns;
   for (const ColumnName& name : names) columns.emplace_back(table, name, quantity, units);
   return columns;
 }
 
-Columns find_joints(const CsvTable& table, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
-  Columns columns;
+TableColumns find_joints(const CsvTable& table, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+  TableColumns columns;
   for (std::size_t i = 0; i < map.joints.size(); ++i) {
     columns.emplace_back(table, map.joints[i], joint_quantity(chain.joints[i]), units);
   }
@@ -59,13 +96,13 @@ PoseColumns find_columns(const CsvTable& table, const ColumnMap& map, const Assu
 }
 
 template <typename Vector>
-Vector read_vector(const Columns& columns, const CsvRow& row) {
+Vector read_vector(const TableColumns& columns, const CsvRow& row) {
   Vector values(static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) values[static_cast<Eigen::Index>(i)] = columns[i].number(row);
   return values;
 }
 
-Eigen::Quaterniond read_orientation(const Columns& columns, const CsvRow& row) {
+Eigen::Quaterniond read_orientation(const TableColumns& columns, const CsvRow& row) {
   constexpr double kNormTolerance = 1e-3;  // rounded decimals stay within it; Euler angles and swapped columns do not
   const Eigen::Vector4d wxyz = read_vector<Eigen::Vector4d>(columns, row);
   if (!(std::abs(wxyz.norm() - 1.0) <= kNormTolerance)) {
@@ -75,7 +112,7 @@ Eigen::Quaterniond read_orientation(const Columns& columns, const CsvRow& row) {
   return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
 }
 
-ApproachSigns read_approach(const Columns& columns, const CsvRow& row) {
+ApproachSigns read_approach(const TableColumns& columns, const CsvRow& row) {
   const auto signs = read_vector<ApproachSigns>(columns, row);
   for (Eigen::Index i = 0; i < signs.size(); ++i) {
     if (signs[i] == -1.0 || signs[i] == 0.0 || signs[i] == 1.0) continue;
@@ -84,7 +121,7 @@ ApproachSigns read_approach(const Columns& columns, const CsvRow& row) {
   return signs;
 }
 
-std::vector<double> read_distances(const Columns& columns, const CsvRow& row) {
+std::vector<double> read_distances(const TableColumns& columns, const CsvRow& row) {
   std::vector<double> distances;
   for (const TableColumn& column : columns) {
     distances.push_back(column.number(row));
@@ -129,6 +166,57 @@ MeasuredPose read_pose(const PoseColumns& columns, const CsvRow& row) {
 }
 
 }  // namespace
+
+Quantity joint_quantity(const Joint& joint) {
+  return is_revolute(joint) ? Quantity::angle : Quantity::length;
+}
+
+void check_column_map(const ColumnMap& columns, const Chain& chain) {
+  check_count(columns, columns.joints, chain.joints.size(), "columns.joints");
+  if (!columns.position.empty()) check_count(columns, columns.position, 3, "columns.position");
+  if (!columns.orientation.empty()) check_count(columns, columns.orientation, 4, "columns.orientation (w, x, y, z)");
+  if (!columns.approach.empty()) check_count(columns, columns.approach, chain.joints.size(), "columns.approach");
+  check_distinct(columns);
+  if (columns.position.empty() && columns.orientation.empty() && columns.distances.empty()) {
+    throw InputError(columns.where, "", "columns must name position, orientation or distances: nothing was measured");
+  }
+}
+
+void check_targets(std::span<const MeasuredPose> poses, const std::map<std::string, Eigen::Vector3d>& tools_m,
+                   const std::string& file) {
+  std::vector<std::string> names;
+  for (const auto& [name, tool] : tools_m) names.push_back(name);
+  for (const MeasuredPose& pose : poses) {
+    if (pose.target.empty() || tools_m.contains(pose.target)) continue;
+    throw InputError({file, pose.line}, pose.target,
+                     names.empty()
+                         ? "is a target, but the data set has no tools_mm"
+                         : "is no target of tools_mm; the nearest is '" + nearest_name(pose.target, names) + "'");
+  }
+}
+
+void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file) {
+  for (const MeasuredPose& pose : poses) {
+    for (std::size_t i = 0; i < chain.joints.size(); ++i) check_limits(pose, chain.joints[i], i, file);
+  }
+}
+
+void check_repeats(std::span<const MeasuredPose> poses, const std::string& file) {
+  std::map<std::string, const MeasuredPose*> first;
+  for (const MeasuredPose& pose : poses) {
+    const auto [entry, is_first] = first.emplace(pose.pose_id, &pose);
+    if (is_first) continue;
+    const MeasuredPose& other = *entry->second;
+    const std::string of_line = " those of line " + std::to_string(other.line) + ", which has the same pose id";
+    if ((pose.joints - other.joints).cwiseAbs().maxCoeff() > kEqualJoints) {
+      throw InputError({file, pose.line}, pose.pose_id, "joints differ from" + of_line);
+    }
+    if (pose.set != other.set) {
+      throw InputError({file, pose.line}, pose.pose_id,
+                       "is in another set than line " + std::to_string(other.line) + ", which has the same pose id");
+    }
+  }
+}
 
 std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& columns, const AssumedUnits& units,
                                      const Chain& chain, const std::map<std::string, Eigen::Vector3d>& tools_m) {

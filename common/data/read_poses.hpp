@@ -2,15 +2,32 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "data/column_map.hpp"
-#include "data/column_unit.hpp"
+#include "data/columns.hpp"
 #include "data/csv.hpp"
-#include "data/pose.hpp"
+#include "data/data_set.hpp"
 
 namespace demecal {
+
+/// Angle for a revolute, length for a prismatic joint.
+Quantity joint_quantity(const Joint& joint);
+
+/// As many joint and approach columns as the arm has joints, three of position, four of orientation, no column twice,
+/// and something measured.
+void check_column_map(const ColumnMap& columns, const Chain& chain);
+
+/// Every target named has its tool point.
+void check_targets(std::span<const MeasuredPose> poses, const std::map<std::string, Eigen::Vector3d>& tools_m,
+                   const std::string& file);
+
+/// No joint stands further outside its limits than a controller's tolerance explains.
+void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file);
+
+/// Poses of one id have equal joints and serve one set: otherwise validation would judge what calibration has seen.
+void check_repeats(std::span<const MeasuredPose> poses, const std::string& file);
 
 /// One pose per row of the table, in its order, in SI units and radians. Where there is no pose column every row is a
 /// pose of its own ("line 7"); where there is no set column all are for calibration. `tools_m` names the targets there

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "data/pose_rules.hpp"
+#include "data/read_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
 #include "fitting/distributions.hpp"

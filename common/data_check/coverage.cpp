@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "data_check/searches.hpp"
 #include "kinematics/units.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "data/pose.hpp"
+#include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "data/pose.hpp"
 
 namespace demecal {
 

@@ -1,11 +1,13 @@
 #include "html/chart.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "expression/evaluate.hpp"
 #include "html/markup.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
@@ -85,6 +87,116 @@ std::vector<double> logarithmic_ticks(const Axis& axis, const std::vector<double
   return found;
 }
 
+constexpr int kSamples = 400;
+/// No joint errs by more: larger values come from poles and would spoil the arithmetic of the picture.
+constexpr double kLargestMrad = 1e6;
+
+struct Sample {
+  double theta_deg, value_mrad;
+};
+/// Samples without a jump or a pole between them.
+using Stretch = std::vector<Sample>;
+
+/// The formula at evenly spaced angles strictly between two jumps.
+void sample_between(const Tree& formula, double lower_rad, double upper_rad, double width_rad,
+                    std::vector<Stretch>& curve) {
+  const int steps = std::max(2, static_cast<int>(std::lround(kSamples * (upper_rad - lower_rad) / width_rad)));
+  // Ends are taken a little inside, where the value is that of this side of the jump.
+  const double inset_rad = 1e-6 * (upper_rad - lower_rad);
+  Stretch stretch;
+  for (int i = 0; i <= steps; ++i) {
+    const double theta_rad = std::clamp(std::lerp(lower_rad, upper_rad, static_cast<double>(i) / steps),
+                                        lower_rad + inset_rad, upper_rad - inset_rad);
+    const double value_mrad = 1e3 * evaluate(formula, {&theta_rad, 1});
+    if (std::abs(value_mrad) <= kLargestMrad) {
+      stretch.push_back({degrees(theta_rad), value_mrad});
+    } else if (!stretch.empty()) {
+      curve.push_back(std::exchange(stretch, {}));
+    }
+  }
+  if (!stretch.empty()) curve.push_back(std::move(stretch));
+}
+
+std::vector<Stretch> sampled(const Tree& formula, const Interval& range_rad, const std::vector<double>& jumps_rad) {
+  std::vector<Stretch> curve;
+  const double width_rad = range_rad.upper - range_rad.lower;
+  double lower_rad = range_rad.lower;
+  for (const double jump_rad : jumps_rad) {
+    if (jump_rad <= lower_rad || jump_rad >= range_rad.upper) continue;
+    sample_between(formula, lower_rad, jump_rad, width_rad, curve);
+    lower_rad = jump_rad;
+  }
+  sample_between(formula, lower_rad, range_rad.upper, width_rad, curve);
+  return curve;
+}
+
+/// What the picture must show, mrad: zero and the curve, but not what single peaks add to it.
+Interval shown_mrad(const std::vector<Stretch>& curve) {
+  std::vector<double> values{0.0};
+  for (const Stretch& stretch : curve) {
+    for (const Sample& sample : stretch) values.push_back(sample.value_mrad);
+  }
+  std::ranges::sort(values);
+  const std::size_t aside = values.size() / 50;
+  const Interval most{std::min(0.0, values[aside]), std::max(0.0, values[values.size() - 1 - aside])};
+  const double dwarfed = 4.0 * (most.upper - most.lower);
+  Interval shown{std::max(values.front(), most.lower - dwarfed), std::min(values.back(), most.upper + dwarfed)};
+  if (shown.upper - shown.lower < 1e-6) shown = {shown.lower - 0.5, shown.upper + 0.5};
+  const double margin = 0.06 * (shown.upper - shown.lower);
+  return {shown.lower - margin, shown.upper + margin};
+}
+
+std::string jump_mark(const LineChart& chart, double jump_rad) {
+  return fmt::format(
+      "<line class=\"jump\" x1=\"{0:.2f}\" x2=\"{0:.2f}\" y1=\"{1}\" y2=\"{2}\"><title>jump at {3:.2f} deg</title>"
+      "</line>\n",
+      chart.x(degrees(jump_rad)), chart.y.from_px, chart.y.to_px, degrees(jump_rad));
+}
+
+std::string zero_line(const LineChart& chart) {
+  return fmt::format("<line class=\"zero\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.2f}\" y2=\"{0:.2f}\"/>\n", chart.y(0.0),
+                     chart.x.from_px, chart.x.to_px);
+}
+
+std::vector<PicturePoint> placed(const LineChart& chart, const Stretch& stretch) {
+  std::vector<PicturePoint> points;
+  for (const Sample& sample : stretch) points.emplace_back(chart.x(sample.theta_deg), chart.y(sample.value_mrad));
+  return points;
+}
+
+/// As many line styles as the page's style sheet tells apart.
+constexpr std::size_t kStyles = 6;
+
+const FitnessCurves& curves_of(const FitnessHistory& history, std::uint64_t joint) {
+  static const FitnessCurves none;
+  const auto found = history.joints.find(joint);
+  return found == history.joints.end() ? none : found->second;
+}
+
+double last_generation(const FitnessCurves& curves) {
+  double last = 0.0;
+  for (const auto& [island, points] : curves) {
+    for (const FitnessPoint& point : points) last = std::max(last, point.generation);
+  }
+  return last;
+}
+
+std::vector<PicturePoint> placed(const LineChart& chart, const std::vector<FitnessPoint>& points) {
+  std::vector<PicturePoint> places;
+  for (const FitnessPoint& point : points) places.emplace_back(chart.x(point.generation), chart.y(point.best));
+  return places;
+}
+
+std::string island_marks(const LineChart& chart, std::uint64_t island, const std::vector<FitnessPoint>& points) {
+  if (points.empty()) return {};
+  const std::string style = fmt::format("island i{}", (island - 1) % kStyles);
+  const std::vector<PicturePoint> places = placed(chart, points);
+  // The dot at the end also shows islands of a single row.
+  return polyline(places, style, fmt::format("island {}", island)) +
+         fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"2.6\"/>\n", style, places.back().first,
+                     places.back().second);
+}
+
 }  // namespace
 
 double Axis::operator()(double value) const {
@@ -116,7 +228,7 @@ LineChart line_chart(double x_lower, double x_upper, double y_lower, double y_up
           .label = {}};
 }
 
-std::string drawn(const LineChart& chart, const std::string& marks) {
+std::string chart_svg(const LineChart& chart, const std::string& marks) {
   // The inner picture has the coordinates of the outer one and is there to cut off what leaves the frame.
   const std::string frame = fmt::format("x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\"",
                                         kLeft, kTop, kRight - kLeft, kBottom - kTop);
@@ -130,6 +242,48 @@ std::string polyline(const std::vector<PicturePoint>& points, const std::string&
   for (const auto& [x, y] : points) places += fmt::format("{}{:.2f},{:.2f}", places.empty() ? "" : " ", x, y);
   return fmt::format("<polyline class=\"{}\" points=\"{}\"><title>{}</title></polyline>\n", css_class, places,
                      escaped(title));
+}
+
+std::string correction_chart(const Tree& formula, const Interval& range_rad, const std::vector<double>& jumps_rad,
+                             const std::string& label) {
+  const std::vector<Stretch> curve = sampled(formula, range_rad, jumps_rad);
+  const Interval shown = shown_mrad(curve);
+  LineChart chart = line_chart(degrees(range_rad.lower), degrees(range_rad.upper), shown.lower, shown.upper, false);
+  chart.x_title = "joint angle theta, deg";
+  chart.y_title = "correction, mrad";
+  chart.label = label;
+  std::string marks = zero_line(chart);
+  for (const double jump_rad : jumps_rad) marks += jump_mark(chart, jump_rad);
+  for (const Stretch& stretch : curve) marks += polyline(placed(chart, stretch), "curve", label);
+  return chart_svg(chart, marks);
+}
+
+std::string fitness_chart(const FitnessHistory& history, std::uint64_t joint) {
+  const FitnessCurves& curves = curves_of(history, joint);
+  constexpr double kMargin = 1.15;
+  LineChart chart = line_chart(0.0, std::max(1.0, last_generation(curves)), history.lowest / kMargin,
+                               history.highest * kMargin, true);
+  chart.x.to_px -= 4.0;  // room for the dots at the ends
+  chart.x_title = "generation";
+  chart.y_title = "best fitness";
+  chart.label = fmt::format("Best fitness of the islands of joint {} over the generations", joint);
+  std::string marks;
+  for (const auto& [island, points] : curves) marks += island_marks(chart, island, points);
+  return marks.empty() ? marks : chart_svg(chart, marks);
+}
+
+std::string fitness_caption(const FitnessHistory& history, std::uint64_t joint) {
+  const FitnessPoint* best = nullptr;
+  std::uint64_t best_island = 0;
+  for (const auto& [island, points] : curves_of(history, joint)) {
+    for (const FitnessPoint& point : points) {
+      if (best != nullptr && point.best >= best->best) continue;
+      best = &point;
+      best_island = island;
+    }
+  }
+  if (best == nullptr) return {};
+  return fmt::format("best {:.4g} in generation {:.0f}, island {}", best->best, best->generation, best_island);
 }
 
 }  // namespace demecal

@@ -1,9 +1,13 @@
-// Charts as inline SVG: axes with their ticks, and what all line charts share: size, grid and titles.
+// Charts as inline SVG: axes with their ticks, what all line charts share, and the charts of a joint.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "expression/bound.hpp"
+#include "expression/tree.hpp"
+#include "report/history.hpp"
 
 namespace demecal {
 
@@ -39,9 +43,22 @@ struct LineChart {
 LineChart line_chart(double x_lower, double x_upper, double y_lower, double y_upper, bool y_logarithmic);
 
 /// The picture with `marks` (SVG) drawn over the grid and cut off at the frame.
-std::string drawn(const LineChart& chart, const std::string& marks);
+std::string chart_svg(const LineChart& chart, const std::string& marks);
 
 /// A line through the points, told apart by its CSS class; `title` (plain text) shows on pointing at it.
 std::string polyline(const std::vector<PicturePoint>& points, const std::string& css_class, const std::string& title);
+
+/// The correction in mrad over the joint angle in degrees, as inline SVG, with a line at zero and marks at its jumps,
+/// where the curve is broken. Where single peaks dwarf the rest (poles), they leave the picture at its edge. `formula`
+/// has the one variable theta and gives rad; `range_rad` is finite and not empty; `jumps_rad` ascend.
+std::string correction_chart(const Tree& formula, const Interval& range_rad, const std::vector<double>& jumps_rad,
+                             const std::string& label);
+
+/// One line per island with one point per row of the history, fitness on a logarithmic scale that all joints of
+/// `history` share, as inline SVG. Empty where the joint has no points.
+std::string fitness_chart(const FitnessHistory& history, std::uint64_t joint);
+
+/// The best of all: "best 1.23 in generation 200, island 2"; empty where the joint has no points.
+std::string fitness_caption(const FitnessHistory& history, std::uint64_t joint);
 
 }  // namespace demecal

@@ -81,13 +81,13 @@ std::string fact(const std::string& what, const std::string& markup, const char*
 }
 
 std::string count_text(std::optional<std::uint64_t> count) {
-  return count ? grouped(*count) : "";
+  return count ? grouped_digits(*count) : "";
 }
 
 std::string rate(const RuntimeEntry& runtime) {
   if (!runtime.evaluations || !runtime.wall_s || *runtime.wall_s <= 0.0) return {};
   const double per_s = static_cast<double>(*runtime.evaluations) / *runtime.wall_s;
-  return per_s < 1e15 ? grouped(static_cast<std::uint64_t>(per_s)) : "";
+  return per_s < 1e15 ? grouped_digits(static_cast<std::uint64_t>(per_s)) : "";
 }
 
 std::string code(const std::string& text) {

@@ -4,7 +4,7 @@
 
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"
-#include "html/joint_charts.hpp"
+#include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 #include "kinematics/units.hpp"

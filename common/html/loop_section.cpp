@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "html/chart.hpp"
-#include "html/loop_tables.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {
@@ -18,10 +17,10 @@ std::string paragraph(const std::string& markup) {
 std::string search_sentence(const Report& report) {
   if (report.candidates == 0) return {};
   const std::string against =
-      report.permutations > 0 ? " against " + grouped(report.permutations) + " draws of the noise" : "";
+      report.permutations > 0 ? " against " + grouped_digits(report.permutations) + " draws of the noise" : "";
   const auto added = std::ranges::count_if(report.rounds, &RoundEntry::added);
-  return fmt::format("{} effects were tried in every round{}; {} {} added. ", grouped(report.candidates), against,
-                     added == 0 ? std::string("none") : std::to_string(added), added == 1 ? "was" : "were");
+  return fmt::format("{} effects were tried in every round{}; {} {} added. ", grouped_digits(report.candidates),
+                     against, added == 0 ? std::string("none") : std::to_string(added), added == 1 ? "was" : "were");
 }
 
 std::string summary(const Report& report) {
@@ -85,8 +84,8 @@ std::string loop_chart(const Report& report, std::optional<double> noise_mm) {
     }
     marks += mark(chart, round, level);
   }
-  return drawn(chart, (noise_mm ? noise_mark(chart, *noise_mm) : "") +
-                          polyline(line, "fall", "mean tool error on the validation poses") + marks);
+  return chart_svg(chart, (noise_mm ? noise_mark(chart, *noise_mm) : "") +
+                              polyline(line, "fall", "mean tool error on the validation poses") + marks);
 }
 
 std::string stem(const LineChart& chart, const Harmonic& harmonic) {
@@ -115,7 +114,7 @@ std::string harmonics_chart(std::uint64_t joint, const std::vector<Harmonic>& ha
   chart.label = fmt::format("Amplitudes of the gear harmonics of joint {}", joint);
   std::string marks;
   for (const Harmonic& harmonic : harmonics) marks += stem(chart, harmonic);
-  return drawn(chart, marks);
+  return chart_svg(chart, marks);
 }
 
 std::string figure(const std::string& picture, const std::string& caption) {
@@ -143,7 +142,7 @@ std::string harmonics_figures(const Report& report) {
   std::string figures;
   for (const auto& [joint, harmonics] : joints) {
     figures += figure(harmonics_chart(joint, harmonics, highest),
-                      fmt::format("Joint {}: {}.", joint, escaped(harmonics_words(harmonics))));
+                      fmt::format("Joint {}: {}.", joint, escaped(harmonics_text(harmonics))));
   }
   return figures;
 }
@@ -157,8 +156,9 @@ std::string pictures(const Report& report) {
 
 std::string loop_section(const Report& report) {
   return section("loop", "What the model lacked",
-                 summary(report) + rounds_table(report) + dropped(report) + pictures(report) + further_list(report) +
-                     evidence_table(report) + not_found_table(report) + unseen_table(report) + decoys_table(report));
+                 summary(report) + rounds_table(report) + dropped(report) + pictures(report) +
+                     next_measurements_list(report) + evidence_table(report) + not_found_table(report) +
+                     untestable_table(report) + decoys_table(report));
 }
 
 }  // namespace demecal

@@ -1,4 +1,4 @@
-#include "html/loop_tables.hpp"
+#include "html/sections.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "html/markup.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {
@@ -103,7 +103,7 @@ std::string evidence_row(const RoundEntry& round) {
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"words wide\">{}</td><td class=\"numbers\">{}</td><td>{}</td><td>{}</td>"
       "<td>{}</td><td>{}</td></tr>\n",
-      round.round, law, numbers(round), probability(round.p_structure), fixed(round.fall_nats, 1),
+      round.round, law, numbers(round), probability(round.p_structure), fixed(round.gain_nats, 1),
       percent_of(round.confirmed) + " (" + percent_of(round.confirmed_lower) + ")", percent_of(round.sign_stability));
 }
 
@@ -154,12 +154,12 @@ std::string evidence_table(const Report& report) {
          "which the leading number keeps its sign.</p>\n";
 }
 
-std::string further_list(const Report& report) {
+std::string next_measurements_list(const Report& report) {
   std::string items;
   for (const RoundEntry& round : report.rounds) {
-    if (!round.further || round.further->sentence.empty()) continue;
+    if (!round.next_measurement || round.next_measurement->sentence.empty()) continue;
     items += fmt::format("<li>Round {}, {}: {}</li>\n", round.round, escaped(round.effect.name()),
-                         escaped(round.further->sentence));
+                         escaped(round.next_measurement->sentence));
   }
   if (items.empty()) return {};
   return "<h3>What to measure next</h3>\n<p class=\"note\">These poses cannot distinguish the named effects from "
@@ -181,23 +181,23 @@ std::string not_found_table(const Report& report) {
                             rows, report.not_found.size()));
 }
 
-std::string unseen_table(const Report& report) {
+std::string untestable_table(const Report& report) {
   std::string rows;
-  for (const auto& [kind, reason] : report.unseen) {
+  for (const auto& [kind, reason] : report.untestable) {
     rows +=
         fmt::format("<tr><th scope=\"row\">{}</th><td class=\"words\">{}</td></tr>\n", escaped(kind), escaped(reason));
   }
   if (rows.empty()) return {};
   return titled(
       "Not testable with these data", "Whether the arm has effects of these kinds stays open.",
-      table_panel("unseen", "<th scope=\"row\">kind</th><th class=\"words\">why</th>", rows, report.unseen.size()));
+      table_panel("unseen", "<th scope=\"row\">kind</th><th class=\"words\">why</th>", rows, report.untestable.size()));
 }
 
 std::string decoys_table(const Report& report) {
   std::string rows;
   for (const DecoyEntry& decoy : report.decoys) {
     rows += table_row(escaped(decoy.name),
-                      {fixed(decoy.best_fall_nats, 1),
+                      {fixed(decoy.best_gain_nats, 1),
                        decoy.won ? "<span class=\"badge no\">won</span>" : "<span class=\"badge\">did not win</span>"});
   }
   if (rows.empty()) return {};

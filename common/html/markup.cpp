@@ -1,7 +1,6 @@
 #include "html/markup.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +50,110 @@ std::string without_negative_zero(const std::string& number) {
   return zero && number.starts_with('-') ? number.substr(1) : number;
 }
 
+constexpr std::string_view kStyle = R"css(
+:root {
+  color-scheme: light dark;
+  --page: #f6f7f8; --card: #ffffff; --ink: #1b232b; --soft: #5c6873; --line: #dde2e6; --grid: #e9edf0;
+  --accent: #1769aa; --good: #1c7a4a; --good-back: #e2f3e9; --bad: #b3382c; --bad-back: #fbe7e4; --idle-back: #eceff1;
+  --calibration: #a9b6c1; --validation: #1769aa; --accept: #d98324; --jump: #c4501b;
+  --i0: #1769aa; --i1: #d98324; --i2: #2a8f6a; --i3: #a0479a; --i4: #7a8794; --i5: #b8a100;
+}
+@media screen and (prefers-color-scheme: dark) {
+  :root {
+    --page: #12171c; --card: #1a2128; --ink: #e6ebef; --soft: #9aa7b2; --line: #2f3942; --grid: #273038;
+    --accent: #63b0ee; --good: #6fd09c; --good-back: #173528; --bad: #f08d80; --bad-back: #41211d; --idle-back: #29323a;
+    --calibration: #5d6b77; --validation: #63b0ee; --accept: #eda550; --jump: #f08a55;
+    --i0: #63b0ee; --i1: #eda550; --i2: #5cc59b; --i3: #d184cb; --i4: #96a3af; --i5: #d9c640;
+  }
+}
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--page); color: var(--ink); font: 15px/1.5 system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif; }
+main { max-width: 1120px; margin: 0 auto; padding: 28px 20px 56px; }
+h1 { font-size: 28px; line-height: 1.2; margin: 0; font-weight: 650; }
+h2 { font-size: 19px; margin: 40px 0 10px; font-weight: 650; }
+h3 { font-size: 16px; margin: 22px 0 0; font-weight: 650; }
+header h3 { margin: 0; }
+p { margin: 6px 0; }
+.soft, figcaption, .legend, .note { color: var(--soft); font-size: 13.5px; }
+.headline { font-size: 21px; line-height: 1.4; margin: 18px 0 4px; max-width: 46em; }
+.headline b { white-space: nowrap; color: var(--accent); font-weight: 650; }
+.banner { background: var(--bad-back); color: var(--bad); padding: 8px 14px; border-radius: 8px; margin: 16px 0; }
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 18px 0 0; }
+.tile, .panel, .joint { background: var(--card); border: 1px solid var(--line); border-radius: 10px; }
+.tile { padding: 11px 14px; }
+.tile .what { color: var(--soft); font-size: 13px; }
+.tile .value { font-size: 23px; line-height: 1.3; font-weight: 620; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.tile .value small { font-size: 14px; font-weight: 400; color: var(--soft); }
+.tile .from { font-size: 12.5px; color: var(--soft); font-variant-numeric: tabular-nums; }
+.panel { padding: 12px 16px; margin: 12px 0; overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; font-size: 14px; }
+th, td { padding: 5px 9px; text-align: right; border-bottom: 1px solid var(--grid); font-weight: 400; white-space: nowrap; }
+thead th { color: var(--soft); font-size: 12.5px; vertical-align: bottom; border-bottom-color: var(--line); }
+thead th.set { text-align: center; color: var(--ink); font-size: 13.5px; font-weight: 600; border-bottom: 0; }
+thead th.set i { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 6px; }
+.panel.long { max-height: 720px; overflow: auto; padding-top: 0; }
+.long thead th { position: sticky; top: 0; background: var(--card); padding-top: 12px; }
+td.words .why { display: block; color: var(--soft); font-size: 13px; } td.words.wide { min-width: 19em; }
+td.numbers { text-align: left; font-size: 13px; line-height: 1.45; } td.numbers span { display: block; }
+#evidence thead th { white-space: normal; } #evidence td.wide { min-width: 13em; }
+td code.law { font-size: 12.5px; overflow-wrap: anywhere; }
+table.compact { width: auto; min-width: 50%; }
+th[scope="row"] { text-align: left; }
+td.words, th.words { text-align: left; white-space: normal; }
+tbody tr:last-child > * { border-bottom: 0; }
+tr.total > * { font-weight: 620; border-top: 1px solid var(--line); }
+tr.group th { color: var(--soft); font-size: 12.5px; padding-top: 12px; }
+.first { border-left: 1px solid var(--line); }
+td.faint { color: var(--soft); }
+code, pre, .mono { font-family: ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; }
+.good { color: var(--good); } .bad { color: var(--bad); }
+.badge { display: inline-block; padding: 1px 9px; border-radius: 10px; font-size: 12.5px; font-weight: 550; background: var(--idle-back); color: var(--soft); }
+.badge.yes { background: var(--good-back); color: var(--good); }
+.badge.no { background: var(--bad-back); color: var(--bad); }
+.joint { padding: 14px 16px; margin: 14px 0; }
+.joint header { display: flex; flex-wrap: wrap; align-items: baseline; gap: 4px 14px; margin-bottom: 6px; font-variant-numeric: tabular-nums; }
+.joint header .gain { margin-left: auto; }
+.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(330px, 1fr)); gap: 6px 22px; align-items: start; }
+.pair figure:only-child { max-width: 540px; }
+figure { margin: 0; min-width: 0; }
+figcaption { padding-left: 4px; }
+pre.formula { white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0 0; padding: 9px 12px; border-radius: 7px; background: var(--page); font-size: 13px; line-height: 1.55; max-height: 13em; overflow-y: auto; }
+pre.formula span { color: var(--soft); }
+.names { list-style: none; margin: 6px 0 10px; padding: 0; display: flex; flex-wrap: wrap; gap: 5px; }
+.names li { border: 1px solid var(--line); background: var(--card); border-radius: 6px; padding: 0 8px; font-size: 13px; overflow-wrap: anywhere; }
+ul.plain { margin: 6px 0; padding-left: 20px; }
+dl { display: grid; grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); gap: 12px 18px; margin: 0; }
+dl .wide { grid-column: 1 / -1; }
+dt { color: var(--soft); font-size: 13px; } dd { margin: 0; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
+.legend span { display: inline-block; margin-right: 16px; }
+.legend i { display: inline-block; width: 14px; height: 9px; border-radius: 2px; margin-right: 6px; }
+.key.calibration { background: var(--calibration); } .key.validation { background: var(--validation); } .key.accept { background: var(--accept); }
+svg.chart { display: block; width: 100%; height: auto; font: 12px system-ui, "Segoe UI", Roboto, Arial, sans-serif; fill: var(--ink); }
+svg.bars { min-width: 620px; }
+.chart .grid { stroke: var(--grid); stroke-width: 1; } .chart .tick, .chart .axis { fill: var(--soft); }
+.chart .stage, .chart .value { font-size: 13px; font-variant-numeric: tabular-nums; }
+.chart .bar.calibration { fill: var(--calibration); } .chart .bar.validation { fill: var(--validation); } .chart .bar.accept { fill: var(--accept); }
+.chart .whisker { stroke: var(--soft); fill: none; stroke-width: 1.3; } .chart .cut { stroke: var(--card); fill: none; stroke-width: 3; }
+.chart .noise { stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 4 3; }
+.chart .zero { stroke: var(--soft); stroke-width: 1; } .chart .jump { stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 3 3; }
+.chart .fall { fill: none; stroke: var(--validation); stroke-width: 2; }
+.chart circle.added { fill: var(--validation); } .chart circle.refused { fill: var(--card); stroke: var(--soft); stroke-width: 1.4; }
+.chart .stem { stroke: var(--accent); stroke-width: 2.4; } .chart circle.stem { fill: var(--accent); stroke: none; }
+.chart .curve { fill: none; stroke: var(--accent); stroke-width: 2; stroke-linejoin: round; }
+.chart polyline.island { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
+.chart polyline.i0 { stroke: var(--i0); } .chart polyline.i1 { stroke: var(--i1); } .chart polyline.i2 { stroke: var(--i2); }
+.chart polyline.i3 { stroke: var(--i3); } .chart polyline.i4 { stroke: var(--i4); } .chart polyline.i5 { stroke: var(--i5); }
+.chart circle.i0 { fill: var(--i0); } .chart circle.i1 { fill: var(--i1); } .chart circle.i2 { fill: var(--i2); }
+.chart circle.i3 { fill: var(--i3); } .chart circle.i4 { fill: var(--i4); } .chart circle.i5 { fill: var(--i5); }
+@media print {
+  :root { color-scheme: light; --page: #ffffff; }
+  body { font-size: 11pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  main { max-width: none; padding: 0; }
+  .joint, .tile, tr, figure { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .panel, .panel.long { overflow: visible; max-height: none; } .long thead th { position: static; } pre.formula { max-height: none; }
+}
+)css";
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -71,7 +174,7 @@ std::string fixed(std::optional<double> value, int decimals) {
   return without_negative_zero(fmt::format("{:.{}f}", *value, decimals));
 }
 
-std::string grouped(std::uint64_t value) {
+std::string grouped_digits(std::uint64_t value) {
   std::string text = std::to_string(value);
   for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, "\u202F");
   return text;
@@ -116,6 +219,10 @@ std::string table_panel(const std::string& id, const std::string& head_cells, co
   return fmt::format(
       "<div class=\"panel{}\"><table id=\"{}\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
       row_count > kMostAtOnce ? " long" : "", id, head_cells, rows);
+}
+
+std::string_view page_style() {
+  return kStyle;
 }
 
 }  // namespace demecal

@@ -17,7 +17,7 @@ std::string escaped(std::string_view text);
 std::string fixed(std::optional<double> value, int decimals);
 
 /// 1234567 as "1 234 567", with spaces that do not break the line.
-std::string grouped(std::uint64_t value);
+std::string grouped_digits(std::uint64_t value);
 
 /// The change from `before` to `after` with its sign, as in "-58 %" that does not break the line; a dash where either
 /// is missing or `before` is 0.

@@ -21,7 +21,7 @@ std::string subject(const Report& report) {
   const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : " · ") + words; };
   if (!report.job.empty()) add("job " + escaped(report.job));
   if (report.method == "direct" || report.method == "distal") add(report.method + " learning");
-  for (const PoseSetOfReport& set : kPoseSets) {
+  for (const ReportPoseSet& set : kPoseSets) {
     if (report.poses.*set.poses > 0) add(counted(report.poses.*set.poses, set.name));
   }
   return "<p class=\"soft\">" + text + "</p>\n";
@@ -33,7 +33,7 @@ std::string role_of(const std::string& set) {
   return "The model was fitted to these same poses: no others were measured to judge it by.";
 }
 
-std::string headline(const Report& report, const std::optional<Judgement>& judged) {
+std::string headline(const Report& report, const std::optional<Improvement>& judged) {
   if (!judged && report.data_check.verdict == "contradiction")
     return "<p class=\"headline\">Nothing was fitted, and no model was written.</p>\n";
   if (!judged) return "<p class=\"headline\">The report holds no tool error before and after calibration.</p>\n";
@@ -64,7 +64,7 @@ std::string error_tile(const std::string& what, std::optional<double> before, st
 }
 
 /// The share of the error beyond the measurement's noise that the model explains.
-std::string explained_tile(const Report& report, const Judgement& judged) {
+std::string explained_tile(const Report& report, const Improvement& judged) {
   const std::optional<double>& floor = report.noise_floor_mm;
   if (!floor || !judged.before.rms_mm || !judged.after.rms_mm) return {};
   const double noise = 3.0 * *floor * *floor;
@@ -80,7 +80,7 @@ std::string noise_tile(const Report& report) {
   return tile("noise floor", fixed(floor, 3), "mm", "per axis; mean " + fixed(noise_mean_mm(report), 3));
 }
 
-std::string tiles(const Report& report, const std::optional<Judgement>& judged) {
+std::string tiles(const Report& report, const std::optional<Improvement>& judged) {
   std::string all;
   if (judged) {
     all += error_tile("mean error", judged->before.mean_mm, judged->after.mean_mm);
@@ -112,7 +112,7 @@ std::string data_check(const Report& report) {
 
 /// What was calibrated, the error before and after in one sentence, and the figures to judge by.
 std::string opening(const Report& report) {
-  const std::optional<Judgement> judged = judgement(error_stages(report));
+  const std::optional<Improvement> judged = improvement(error_stages(report));
   return "<p class=\"soft\">Robot calibration</p>\n<h1>" +
          (report.robot.empty() ? "Unnamed robot" : escaped(report.robot)) + "</h1>\n" + subject(report) +
          banner(report) + data_check(report) + headline(report, judged) + tiles(report, judged);

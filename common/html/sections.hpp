@@ -6,6 +6,7 @@
 
 #include "report/figures.hpp"
 #include "report/history.hpp"
+#include "report/report.hpp"
 
 namespace demecal {
 
@@ -24,5 +25,20 @@ std::string run_section(const Report& report);
 
 /// The mean tool error (mm) that the measurement's noise alone makes, from the floor's standard deviation per axis.
 std::optional<double> noise_mean_mm(const Report& report);
+
+/// A row per round: verdict, effect with its diagnosis, size, p, error before and after, rivals. Where several rounds
+/// were judged together, their group stands above them.
+std::string rounds_table(const Report& report);
+/// A row per round with an effect: its law, its numbers with errors and intervals, and what it was judged by.
+std::string evidence_table(const Report& report);
+/// What to measure next, an entry per effect that has rivals.
+std::string next_measurements_list(const Report& report);
+
+/// Effects looked for and not found, with the smallest that would have shown.
+std::string not_found_table(const Report& report);
+/// Kinds of effects that the data cannot show, with the reason.
+std::string untestable_table(const Report& report);
+/// How the controls fared.
+std::string decoys_table(const Report& report);
 
 }  // namespace demecal

@@ -23,7 +23,7 @@ Cells changes(const SetErrors& before, const SetErrors& after) {
 
 std::string head(const Report& report, const Stages& stages) {
   std::string sets, figures;
-  for (const PoseSetOfReport& set : measured_sets(stages)) {
+  for (const ReportPoseSet& set : measured_sets(stages)) {
     const std::uint64_t count = report.poses.*set.poses;
     const std::string poses = count > 0 ? fmt::format(" ({})", count) : "";
     sets += fmt::format("<th class=\"set first\" colspan=\"4\"><i class=\"key {0}\"></i>{0}{1}</th>", set.name, poses);
@@ -36,7 +36,7 @@ std::string head(const Report& report, const Stages& stages) {
 template <class FiguresOfSet>
 std::string stage_row(const Stages& stages, const std::string& title, const char* css_class, FiguresOfSet figures) {
   std::string cells;
-  for (const PoseSetOfReport& set : measured_sets(stages)) {
+  for (const ReportPoseSet& set : measured_sets(stages)) {
     bool first = true;
     for (const std::string& cell : figures(set)) {
       cells += (first ? "<td class=\"first\">" : "<td>") + cell + "</td>";
@@ -49,13 +49,13 @@ std::string stage_row(const Stages& stages, const std::string& title, const char
 std::string stage_table(const Report& report, const Stages& stages) {
   std::string rows;
   for (const Stage& stage : stages) {
-    rows += stage_row(stages, stage.title, "", [&](const PoseSetOfReport& set) { return cells_of(stage.on(set)); });
+    rows += stage_row(stages, stage.title, "", [&](const ReportPoseSet& set) { return cells_of(stage.on(set)); });
   }
   const Stage* const registered = find_stage(stages, "registered");
   const Stage& last = stages.back();
   if (registered != nullptr && registered != &last) {
     rows += stage_row(stages, "change since base fitted", " class=\"total\"",
-                      [&](const PoseSetOfReport& set) { return changes(registered->on(set), last.on(set)); });
+                      [&](const ReportPoseSet& set) { return changes(registered->on(set), last.on(set)); });
   }
   return "<div class=\"panel\"><table id=\"errors\">\n" + head(report, stages) + "<tbody>\n" + rows +
          "</tbody></table></div>\n";
@@ -63,7 +63,7 @@ std::string stage_table(const Report& report, const Stages& stages) {
 
 std::string legend(const Stages& stages, bool noise) {
   std::string text = "<p class=\"legend\">";
-  for (const PoseSetOfReport& set : measured_sets(stages)) {
+  for (const ReportPoseSet& set : measured_sets(stages)) {
     text += fmt::format("<span><i class=\"key {0}\"></i>{0}</span>", set.name);
   }
   text += "<span>bar: mean, line: up to P95</span>";
@@ -96,7 +96,7 @@ constexpr double kBar = 13.0, kPitch = 17.0, kGap = 16.0;
 /// The largest value that a stage's bars reach.
 double reach_mm(const Stage& stage) {
   double reach = 0.0;
-  for (const PoseSetOfReport& set : kPoseSets)
+  for (const ReportPoseSet& set : kPoseSets)
     reach = std::max({reach, stage.on(set).mean_mm.value_or(0), stage.on(set).p95_mm.value_or(0)});
   return reach;
 }
@@ -155,7 +155,7 @@ std::string noise_line(const Axis& axis, double noise_mm, double bottom) {
 /// robot's bars are cut off where they would dwarf all others. `noise_mm`: the mean error that the noise of the
 /// measurement alone would make, drawn where known.
 std::string stage_chart(const Stages& stages, std::optional<double> noise_mm) {
-  const std::vector<PoseSetOfReport> sets = measured_sets(stages);
+  const std::vector<ReportPoseSet> sets = measured_sets(stages);
   const Axis axis{0.0, limit_mm(stages), kBarsLeft, kBarsRight, false};
   std::string bars;
   double top = kBarsTop;
@@ -163,7 +163,7 @@ std::string stage_chart(const Stages& stages, std::optional<double> noise_mm) {
     const double group = kPitch * static_cast<double>(sets.size());
     bars += fmt::format("<text class=\"stage\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", kBarsLeft - 12.0,
                         top + 0.5 * group + 2.5, stage.title);
-    for (const PoseSetOfReport& set : sets) {
+    for (const ReportPoseSet& set : sets) {
       if (stage.on(set).mean_mm) bars += bar(axis, top, stage.on(set), set.name);
       top += kPitch;
     }

@@ -5,9 +5,8 @@
 #include <thread>
 #include <utility>
 
-#include "config/load_job.hpp"
-#include "config/read_declared.hpp"
-#include "data/nearest_name.hpp"
+#include "config/job_file.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "library/conversion.hpp"
 #include "scheduling/fleet.hpp"
@@ -22,7 +21,7 @@ DeclaredModel declared_model(const std::vector<std::string>& words) {
     if (std::ranges::find(known, word) == known.end())
       throw InputError({}, word, "cannot be declared; the nearest that can is '" + nearest_name(word, known) + "'");
   }
-  return declared_of(words);
+  return declared_model(words);
 }
 
 Job to_job(const CalibrationSettings& settings) {

@@ -2,19 +2,18 @@
 #include <limits>
 #include <utility>
 
-#include "config/files.hpp"
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "effects/corrected_robot.hpp"
 #include "effects/effect.hpp"
 #include "effects/measurement.hpp"
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"
+#include "languages/languages.hpp"
 #include "library/conversion.hpp"
 #include "programs/correct_program.hpp"
-#include "programs/mark.hpp"
-#include "programs/read_program.hpp"
 #include "programs/summary.hpp"
 #include "workflows/diagnose.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -28,9 +27,10 @@ std::vector<double> stated_bounds(const CalibratedModel& model) {
   return bounds;
 }
 
-Language told_language(const std::string& text, const std::string& file) {
-  const std::optional<Language> language = language_of(text, file);
-  if (!language) throw InputError({file, 0}, "", "is in no language that can be told by its ending or its words");
+const Language& recognized_language(const std::string& text, const std::string& file) {
+  const Language* const language = recognize_language(text, file);
+  if (language == nullptr)
+    throw InputError({file, 0}, "", "is in no language that can be told by its ending or its words");
   return *language;
 }
 
@@ -39,7 +39,7 @@ Language told_language(const std::string& text, const std::string& file) {
 CommandModel to_command_model(const CalibratedModel& model, const std::optional<Eigen::Vector3d>& other_tool_m) {
   const bool registration = model.declared.registration;
   const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
-  CommandModel commands = with_certainty(command_model(model.nominal, robot, stated_bounds(model), other_tool_m), robot,
+  CommandModel commands = with_posterior(command_model(model.nominal, robot, stated_bounds(model), other_tool_m), robot,
                                          model.posterior, model.measured, registration);
   commands.interval = model.interval;
   return commands;
@@ -69,7 +69,7 @@ std::vector<double> CalibratedArm::correct(const JointCommand& command) const {
   const CommandModel commands = to_command_model(implementation_->model);
   const Chain& chain = commands.nominal.chain;
   const Stop stop = to_stop(command, chain);
-  return to_deg_or_mm(corrected_at({}, commands, stop).command, chain);
+  return to_deg_or_mm(correct_target({}, commands, stop).command, chain);
 }
 
 std::string CalibratedArm::correct_program(const std::string& text, const std::string& file,
@@ -79,7 +79,7 @@ std::string CalibratedArm::correct_program(const std::string& text, const std::s
     throw InputError({file, *line}, "",
                      "says that this program was corrected already; start from the original program");
   const CommandModel commands = to_command_model(model);
-  const Language language = told_language(text, file);
+  const Language& language = recognized_language(text, file);
   const Circumstances circumstances{.near = model.nominal.home};
   const CorrectedProgram corrected = demecal::correct_program(
       text, read_program(language, text, file, commands.nominal.chain), commands, circumstances);
@@ -87,7 +87,7 @@ std::string CalibratedArm::correct_program(const std::string& text, const std::s
     for (const Remark& warning : corrected.warnings) warnings->push_back(warning_text(corrected, warning));
   }
   if (corrected.text == text) return text;
-  return with_mark(corrected.text, language, mark_of(model.version, model.job, model.data_sha256));
+  return with_mark(corrected.text, language, correction_mark(model.version, model.job, model.data_sha256));
 }
 
 PositionErrors CalibratedArm::errors(const Measurements& measured, PoseUse use) const {

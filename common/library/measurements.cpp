@@ -3,18 +3,18 @@
 #include <string>
 #include <utility>
 
-#include "config/load_data_set.hpp"
-#include "config/load_robot.hpp"
-#include "config/sha256.hpp"
-#include "data/number.hpp"
-#include "data/pose_rules.hpp"
-#include "data/split.hpp"
+#include "config/data_set_file.hpp"
+#include "config/robot_file.hpp"
+#include "data/data_set.hpp"
+#include "data/read_poses.hpp"
+#include "data/text.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "library/conversion.hpp"
 #include "random/random_stream.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

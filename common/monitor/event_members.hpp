@@ -5,7 +5,7 @@
 #include <string>
 
 #include "protocol/message_bytes.hpp"
-#include "report/json_fields.hpp"
+#include "report/json.hpp"
 
 namespace demecal {
 

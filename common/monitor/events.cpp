@@ -135,7 +135,7 @@ constexpr Kind kKinds[] = {
     kind_of<CalibrationLost>("calibration_lost")};
 
 std::string one_line(const nlohmann::ordered_json& json) {
-  std::string line = dumped(json, -1);
+  std::string line = to_text(json, -1);
   line.pop_back();
   return line;
 }

@@ -5,7 +5,7 @@
 #include "kinematics/units.hpp"
 #include "preparation/prepared.hpp"
 #include "preparation/results.hpp"
-#include "programs/replace.hpp"
+#include "programs/correct_program.hpp"
 
 namespace demecal {
 namespace {
@@ -28,8 +28,10 @@ std::string to_text(const CsvTable& table) {
   return text.str();
 }
 
-bool in_val2(const RawMeasurements& raw, const PreparedPose& pose) {
-  return pose.pose_target && file_of_poses(raw.sets[pose.entry]).program.language == Language::val2;
+/// Whether the pose stands in a VAL II file: of all languages only that one writes axes.
+bool has_axes(const RawMeasurements& raw, const PreparedPose& pose) {
+  return pose.pose_target &&
+         file_of_poses(raw.sets[pose.entry]).program.targets[*pose.pose_target].form == OrientationForm::columns;
 }
 
 /// One VAL II file with the false targets of every set that has its poses there.
@@ -69,7 +71,7 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
   for (std::size_t i = 0; i < prepared.poses.size(); ++i) {
     const PreparedPose& pose = prepared.poses[i];
     const Eigen::Vector3d false_m = pose.nominal_m - errors_m[i];
-    if (!in_val2(raw, pose)) {
+    if (!has_axes(raw, pose)) {
       table.rows.push_back({0, {std::string(to_string(pose.commanded.set)), pose.id}});
       add_mm(table.rows.back().fields, false_m);
       continue;

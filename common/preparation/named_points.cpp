@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "data/lower_case.hpp"
-#include "data/nearest_name.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal {

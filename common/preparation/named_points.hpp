@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "languages/program.hpp"
 #include "preparation/readings.hpp"
-#include "programs/program.hpp"
 
 namespace demecal {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "data/pose_rules.hpp"
+#include "data/read_poses.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"

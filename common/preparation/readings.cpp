@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "data/table_column.hpp"
+#include "data/columns.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"

@@ -56,7 +56,7 @@ void take_tool(CommandModel& model, const Eigen::Vector3d& tool_m) {
 }
 
 /// Leaves out what is not the described tool in error.
-void judge_tool(CommandModel& model) {
+void check_tool(CommandModel& model) {
   const Eigen::Vector3d described_m = model.nominal.chain.tool_m;
   // A model of several targets on the tool need not hold the robot's own.
   if (!model.robot.tools.contains("")) return take_tool(model, described_m);
@@ -107,11 +107,11 @@ CommandModel command_model(const Robot& nominal, const CorrectedRobot& identifie
   DEMECAL_CHECK(std::ssize(model.bounds) == nominal.chain.size(), model.bounds.size() << " bounds");
   model.robot.sensor_from_base.setIdentity();
   std::erase_if(model.robot.effects, is_of_instrument);
-  other_tool_m ? take_tool(model, *other_tool_m) : judge_tool(model);
+  other_tool_m ? take_tool(model, *other_tool_m) : check_tool(model);
   return model;
 }
 
-CommandModel with_certainty(CommandModel model, const CorrectedRobot& identified,
+CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified,
                             const std::optional<Posterior>& posterior, std::vector<Interval> measured,
                             bool registration) {
   model.measured = std::move(measured);
@@ -166,7 +166,7 @@ std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint)
   return range;
 }
 
-std::optional<Interval> beyond_measured(const CommandModel& model, int joint, double value) {
+std::optional<Interval> outside_measured(const CommandModel& model, int joint, double value) {
   constexpr double kMargin_rad = 0.035, kMargin_m = 0.02;
   if (model.measured.empty()) return std::nullopt;
   const Interval& range = model.measured[static_cast<std::size_t>(joint)];
@@ -175,7 +175,7 @@ std::optional<Interval> beyond_measured(const CommandModel& model, int joint, do
   return beyond(range, value, revolute) > margin ? std::optional(range) : std::nullopt;
 }
 
-double beyond_calibrated(const CorrectedRobot& robot, int joint, double value) {
+double distance_outside_calibrated(const CorrectedRobot& robot, int joint, double value) {
   const std::optional<Interval> range = calibrated_range(robot, joint);
   if (!range) return 0.0;
   const bool revolute = is_revolute(robot.chain, joint);

@@ -40,7 +40,7 @@ CommandModel command_model(const Robot& nominal, const CorrectedRobot& identifie
 
 /// The model, with what its file states of how sure it is; numbers that are not part of it are left out.
 /// `registration`: the model's base was fitted, and without_base() was applied.
-CommandModel with_certainty(CommandModel model, const CorrectedRobot& identified,
+CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified,
                             const std::optional<Posterior>& posterior, std::vector<Interval> measured,
                             bool registration);
 
@@ -58,10 +58,10 @@ CorrectedRobot without_base(CorrectedRobot identified, const Chain& nominal);
 std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint);
 
 /// Nothing, or the range that the joint stands outside of by more than 2 deg (20 mm), whole turns aside.
-std::optional<Interval> beyond_measured(const CommandModel& model, int joint, double value);
+std::optional<Interval> outside_measured(const CommandModel& model, int joint, double value);
 
 /// How far the joint stands outside that range, whole turns of revolute joints aside; 0 within it.
-double beyond_calibrated(const CorrectedRobot& robot, int joint, double value);
+double distance_outside_calibrated(const CorrectedRobot& robot, int joint, double value);
 
 /// In the middle of what was calibrated or, where that is unknown, of the joint limits.
 JointVector middle_joints(const CommandModel& model);

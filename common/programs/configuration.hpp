@@ -1,13 +1,24 @@
-// Which of its configurations an arm reaches a target in, as far as the program and the user say it.
+// The joints in which the nominal arm reaches a target, and which of its configurations the program and the user mean.
 #pragma once
 
 #include <optional>
 #include <string_view>
 #include <vector>
 
-#include "programs/program.hpp"
+#include "languages/program.hpp"
+#include "programs/nominal_joints.hpp"
 
 namespace demecal {
+
+/// Joints at which the nominal arm's tool point (axes of the flange) stands at `tool`, no two alike but for whole
+/// turns, each in the turn within its limits that is nearest to `reference`; those within the limits where there are
+/// any. They are searched for from a fixed set of joints and from `reference`, so that a far one may be missed but the
+/// answer never varies. Of arms with more than six joints, some of the many.
+std::vector<JointVector> joints_reaching(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference);
+
+/// Joints that the arm ends with when its tool moves from where it is at `from` straight to `tool`, turning evenly.
+/// Nothing where it cannot follow, or passes so near to a singularity that joints would leap.
+std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector& from, const Eigen::Isometry3d& tool);
 
 /// Where a target's joints come from.
 enum class JointsFrom {
@@ -20,7 +31,7 @@ enum class JointsFrom {
   undetermined,  ///< several are possible
   nowhere        ///< none was found
 };
-std::string_view word_of(JointsFrom from);
+std::string_view to_string(JointsFrom from);
 
 struct Configurations {
   JointsFrom from = JointsFrom::nowhere;

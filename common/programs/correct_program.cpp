@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 
+#include "errors/check.hpp"
 #include "kinematics/units.hpp"
-#include "programs/amounts.hpp"
-#include "programs/concerns.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/replace.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal {
 namespace {
@@ -44,14 +44,14 @@ class Corrector {
   CorrectedTarget correct(const Target& target) {
     const CommandModel& model = model_for(target);
     CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
-    if (!corrected.is_left() && corrected.from != JointsFrom::undetermined) {
+    if (!corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined) {
       finder_.arrive(corrected.nominal);
     } else if (target.is_pose()) {
       finder_.arrive(std::nullopt);
     } else {
       finder_.arrive(joints_of(target));
     }
-    corrected.texts = texts_of(target, corrected);
+    corrected.texts = cell_texts(target, corrected);
     return corrected;
   }
 
@@ -70,7 +70,7 @@ class Corrector {
 
   CorrectedTarget refused(const Target& target) const {
     CorrectedTarget corrected;
-    corrected.outcome = Correctedness::left;
+    corrected.outcome = CorrectionOutcome::uncorrected;
     corrected.remarks.push_back(unknown(target) + "; this line was not corrected");
     return corrected;
   }
@@ -90,13 +90,14 @@ class Corrector {
     const Configurations found = configurations(target, model.nominal.chain);
     if (found.joints.empty()) return {};
     note_motion(found.joints.front());
-    std::vector<CorrectedTarget> ways;
-    for (const JointVector& joints : found.joints) ways.push_back(corrected_at(target, model, stop_at(target, joints)));
-    CorrectedTarget corrected = std::move(ways.front());
+    std::vector<CorrectedTarget> alternatives;
+    for (const JointVector& joints : found.joints)
+      alternatives.push_back(correct_target(target, model, stop_at(target, joints)));
+    CorrectedTarget corrected = std::move(alternatives.front());
     corrected.from = found.from;
-    for (std::size_t i = 1; i < ways.size(); ++i) {
-      if (agree(corrected, ways[i])) continue;
-      leave_undetermined(model.nominal.chain, ways, i, corrected);
+    for (std::size_t i = 1; i < alternatives.size(); ++i) {
+      if (agree(corrected, alternatives[i])) continue;
+      leave_undetermined(model.nominal.chain, alternatives, i, corrected);
       break;
     }
     return corrected;
@@ -116,15 +117,15 @@ class Corrector {
     return difference.head<3>().norm() <= kTolerance_m && difference.tail<3>().norm() <= kTolerance_rad;
   }
 
-  static void leave_undetermined(const Chain& arm, const std::vector<CorrectedTarget>& ways, std::size_t other,
+  static void leave_undetermined(const Chain& arm, const std::vector<CorrectedTarget>& alternatives, std::size_t other,
                                  CorrectedTarget& corrected) {
-    const PoseError difference = pose_error(corrected.command_tool, ways[other].command_tool);
+    const PoseError difference = pose_error(corrected.command_tool, alternatives[other].command_tool);
     corrected.remarks = {"the arm's configuration is not known (" +
-                         difference_of(arm, corrected.nominal, ways[other].nominal) +
+                         difference_of(arm, corrected.nominal, alternatives[other].nominal) +
                          "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
-                         " mm: " + moved_text(corrected) + " or " + moved_text(ways[other]) +
+                         " mm: " + moved_text(corrected) + " or " + moved_text(alternatives[other]) +
                          "; this line was not corrected; a joint move before it or --near tells"};
-    corrected.outcome = Correctedness::left;
+    corrected.outcome = CorrectionOutcome::uncorrected;
   }
 
   /// Takes the signs of the motion to here.
@@ -172,15 +173,15 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
   Corrector corrector(model, circumstances);
-  for (std::string& sentence : concerns(result.program, model, circumstances.tool_given)) {
+  for (std::string& sentence : warnings_of(result.program, model, circumstances.tool_given)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
-  result.warnings.insert(result.warnings.end(), result.program.left.begin(), result.program.left.end());
+  result.warnings.insert(result.warnings.end(), result.program.uncorrected.begin(), result.program.uncorrected.end());
   result.targets.resize(result.program.targets.size());
   for (const std::size_t i : visits(result.program)) {
     const Target& target = result.program.targets[i];
     result.targets[i] = corrector.correct(target);
-    for (std::string& sentence : concerns(target, result.targets[i], model)) {
+    for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }
@@ -189,6 +190,29 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                               : one.place.column < other.place.column;
   });
   result.text = replaced(text, result.program, result.targets);
+  return result;
+}
+
+std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets) {
+  std::map<std::size_t, std::pair<std::size_t, const std::string*>> changes;  // by first byte: size and new text
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    std::vector<Cell> cells = program.targets[i].is_pose() ? program.targets[i].position : program.targets[i].joints;
+    cells.insert(cells.end(), program.targets[i].orientation.begin(), program.targets[i].orientation.end());
+    for (std::size_t cell = 0; cell < targets[i].texts.size(); ++cell) {
+      const std::string& changed = targets[i].texts[cell];
+      if (!changed.empty()) changes[cells[cell].begin] = {cells[cell].size, &changed};
+    }
+  }
+  std::string result;
+  result.reserve(text.size() + 4 * changes.size());
+  std::size_t kept_from = 0;
+  for (const auto& [begin, change] : changes) {
+    DEMECAL_CHECK(begin >= kept_from, "numbers overlap at byte " << begin);
+    result += text.substr(kept_from, begin - kept_from);
+    result += *change.second;
+    kept_from = begin + change.first;
+  }
+  result += text.substr(kept_from);
   return result;
 }
 

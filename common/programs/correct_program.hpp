@@ -1,10 +1,12 @@
 // The correction of a program: every target is sent to where the real robot then reaches what was meant.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "languages/program.hpp"
 #include "programs/command_model.hpp"
-#include "programs/program.hpp"
 #include "programs/target_correction.hpp"
 
 namespace demecal {
@@ -40,5 +42,15 @@ struct CorrectedProgram {
 /// inverse, a configuration that the program states and the arm does not have.
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances);
+
+/// `text` with the cells of the program's targets replaced by their new texts; every other byte as it was.
+std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets);
+
+/// A sentence for each thing that is not as it should be; none where all is well.
+std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected, const CommandModel& model);
+
+/// The same of the program, as read, as a whole, such as a tool that was identified far from where it is described.
+/// `tool_given`: the model's tool is one that the user names.
+std::vector<std::string> warnings_of(const Program& program, const CommandModel& model, bool tool_given = false);
 
 }  // namespace demecal

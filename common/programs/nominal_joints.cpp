@@ -11,8 +11,8 @@ namespace demecal {
 namespace {
 
 constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
-constexpr double kNear = 1.0;       ///< rad or m: a solution this near to the last one is taken without looking further
-constexpr double kRounding = 1e-6;  ///< rad, of signs and quadrants
+constexpr double kNear = 1.0;  ///< rad or m: a solution this near to the last one is taken without looking further
+constexpr double kSignRounding = 1e-6;  ///< rad, of signs and quadrants
 
 /// The `index`-th number of van der Corput's sequence, in (0, 1) for index >= 1.
 double radical_inverse(int index, int base) {
@@ -34,15 +34,15 @@ double hinted(const ArmHint& hint, std::size_t joint, double reference) {
   return reference;
 }
 
-struct Candidate {
+struct JointSolution {
   JointVector q;
   int contradicting = 0;
   bool outside = false;
   double distance = 0.0;
 };
 
-Candidate candidate(const Chain& arm, JointVector q, const ArmHint& hint, const JointVector& reference) {
-  Candidate made;
+JointSolution candidate(const Chain& arm, JointVector q, const ArmHint& hint, const JointVector& reference) {
+  JointSolution made;
   q = in_hinted_turns(arm, q, hint, reference);
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     made.outside = made.outside || beyond_limits(arm.joints[static_cast<std::size_t>(i)], q[i]) > 0.0;
@@ -53,7 +53,7 @@ Candidate candidate(const Chain& arm, JointVector q, const ArmHint& hint, const 
   return made;
 }
 
-bool better(const Candidate& one, const Candidate& other) {
+bool better(const JointSolution& one, const JointSolution& other) {
   if (one.outside != other.outside) return other.outside;
   if (one.contradicting != other.contradicting) return one.contradicting < other.contradicting;
   return one.distance < other.distance - 1e-6;
@@ -110,11 +110,11 @@ int contradictions(const ArmHint& hint, const JointVector& joints) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(joints.size()); ++i) {
     const double angle = joints[static_cast<Eigen::Index>(i)];
     if (i < hint.negative.size() && hint.negative[i]) {
-      count += (*hint.negative[i] ? angle > kRounding : angle < -kRounding) ? 1 : 0;
+      count += (*hint.negative[i] ? angle > kSignRounding : angle < -kSignRounding) ? 1 : 0;
     }
     if (i < hint.quadrants.size() && hint.quadrants[i]) {
       const double lower = *hint.quadrants[i] * std::numbers::pi / 2.0;
-      count += angle < lower - kRounding || angle > lower + std::numbers::pi / 2.0 + kRounding ? 1 : 0;
+      count += angle < lower - kSignRounding || angle > lower + std::numbers::pi / 2.0 + kSignRounding ? 1 : 0;
     }
   }
   return count;
@@ -124,11 +124,11 @@ std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometr
                                           const JointVector& reference) {
   const PoseFunction model = nominal_pose(arm);
   const JointVector& near = hint.near.size() == arm.size() ? hint.near : reference;
-  std::optional<Candidate> best;
+  std::optional<JointSolution> best;
   for (int index = 0; index <= kSearchStarts; ++index) {
     const InverseSolution solution = inverse(model, tool, index == 0 ? near : search_start(arm, index));
     if (solution.status != InverseStatus::converged) continue;
-    Candidate found = candidate(arm, solution.q, hint, near);
+    JointSolution found = candidate(arm, solution.q, hint, near);
     if (!best || better(found, *best)) best = std::move(found);
     if (best->contradicting == 0 && !best->outside && best->distance < kNear) break;
   }
@@ -148,7 +148,7 @@ std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector
   for (int index = 0; index <= kSearchStarts; ++index) {
     const InverseSolution solution = inverse(model, target, index == 0 ? reference : search_start(arm, index));
     if (solution.status != InverseStatus::converged) continue;
-    const Candidate found = candidate(arm, solution.q, {}, reference);
+    const JointSolution found = candidate(arm, solution.q, {}, reference);
     if (!found.outside) return found.q;
   }
   return std::nullopt;

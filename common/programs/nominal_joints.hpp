@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "kinematics/inverse.hpp"
-#include "programs/program.hpp"
+#include "languages/program.hpp"
 
 namespace demecal {
 

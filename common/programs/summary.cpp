@@ -1,13 +1,12 @@
 #include "programs/summary.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "data/text.hpp"
+#include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
-#include "programs/read_program.hpp"
-#include "programs/target_figures.hpp"
 
 namespace demecal {
 namespace {
@@ -30,8 +29,8 @@ std::string heading(const TargetFigures& figures) {
 
 std::string block(const Target& target, const CorrectedTarget& corrected, const Chain& arm, std::string& last_heading) {
   std::string text = fmt::format("  line {}{}", target.place.line, target.name.empty() ? "" : ": " + target.name);
-  if (corrected.is_left()) return text + ": left as it is\n";
-  const TargetFigures figures = figures_of(target, corrected, arm);
+  if (corrected.is_uncorrected()) return text + ": left as it is\n";
+  const TargetFigures figures = target_figures(target, corrected, arm);
   text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg", figures.moved_mm, figures.turned_deg);
   if (corrected.error95_m)
     text += fmt::format(", then within {:.3f} mm of the target (95 %)", millimetres(*corrected.error95_m));
@@ -49,12 +48,12 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
             {"line", target.place.line},
             {"column", target.place.column},
             {"kind", target.is_pose() ? "pose" : "joints"},
-            {"corrected_by_model", !corrected.is_left()},
-            {"joints_from", word_of(corrected.from)},
+            {"corrected_by_model", !corrected.is_uncorrected()},
+            {"joints_from", to_string(corrected.from)},
             {"frame", target.frames.frame.empty() ? "base" : target.frames.frame},
             {"tool", target.frames.tool ? target.frames.tool_name : "of the model"}};
-  if (corrected.is_left()) return json;
-  const TargetFigures figures = figures_of(target, corrected, arm);
+  if (corrected.is_uncorrected()) return json;
+  const TargetFigures figures = target_figures(target, corrected, arm);
   json["units"] = figures.units;
   json["nominal"] = figures.nominal;
   json["corrected"] = figures.corrected;
@@ -68,11 +67,39 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
 
 }  // namespace
 
+TargetFigures target_figures(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
+  TargetFigures figures;
+  const auto add = [&](const std::string& name, const std::string& unit, double nominal, double command) {
+    figures.names.push_back(name);
+    figures.units.push_back(unit);
+    figures.nominal.push_back(nominal);
+    figures.corrected.push_back(command);
+    figures.difference.push_back(command - nominal);
+  };
+  for (int joint = 0; joint < arm.size() && !target.is_pose(); ++joint) {
+    const bool revolute = is_revolute(arm, joint);
+    const UnitConversion to_border = revolute ? degrees : millimetres;
+    add("q" + std::to_string(joint + 1), revolute ? "deg" : "mm", to_border(corrected.nominal[joint]),
+        to_border(corrected.command[joint]));
+  }
+  const Eigen::Isometry3d frame_from_base = target.frames.base_from_frame.inverse();
+  const Eigen::Vector3d nominal_m = frame_from_base * corrected.nominal_tool.translation();
+  const Eigen::Vector3d command_m = frame_from_base * corrected.command_tool.translation();
+  for (int axis = 0; axis < 3 && target.is_pose(); ++axis) {
+    add(std::string(1, static_cast<char>('x' + axis)), "mm", millimetres(nominal_m[axis]),
+        millimetres(command_m[axis]));
+  }
+  const PoseError moved = pose_error(corrected.nominal_tool, corrected.command_tool);
+  figures.moved_mm = millimetres(moved.head<3>().norm());
+  figures.turned_deg = degrees(moved.tail<3>().norm());
+  return figures;
+}
+
 MovedFigures moved_figures(const CorrectedProgram& corrected) {
   MovedFigures figures;
   for (const CorrectedTarget& target : corrected.targets) {
-    if (target.is_left()) {
-      ++figures.left;
+    if (target.is_uncorrected()) {
+      ++figures.uncorrected;
       continue;
     }
     const double moved_mm = 1e3 * (target.command_tool.translation() - target.nominal_tool.translation()).norm();
@@ -92,7 +119,7 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
   const MovedFigures figures = moved_figures(corrected);
   text += fmt::format("{} targets corrected; the tool is moved by {:.4f} mm in the mean, {:.4f} mm at most",
                       figures.targets, figures.mean_mm, figures.max_mm);
-  const std::size_t left = static_cast<std::size_t>(figures.left) + corrected.program.left.size();
+  const std::size_t left = static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size();
   if (left > 0) text += fmt::format("; {} left as they are", left);
   return text + '\n';
 }
@@ -100,10 +127,10 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
 std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
   const MovedFigures figures = moved_figures(corrected);
   Json json{{"program", corrected.program.file},
-            {"language", word_of(corrected.program.language)},
+            {"language", corrected.program.language},
             {"targets", Json::array()},
             {"moved_mm", {{"mean", figures.mean_mm}, {"max", figures.max_mm}}},
-            {"left", static_cast<std::size_t>(figures.left) + corrected.program.left.size()},
+            {"left", static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size()},
             {"warnings", Json::array()}};
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
     json["targets"].push_back(entry(corrected.program.targets[i], corrected.targets[i], arm));

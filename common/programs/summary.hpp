@@ -2,14 +2,25 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "programs/correct_program.hpp"
 
 namespace demecal {
 
+struct TargetFigures {
+  std::vector<std::string> names, units;               ///< q1 .., or x, y, z
+  std::vector<double> nominal, corrected, difference;  ///< in these units
+  double moved_mm = 0.0;                               ///< distance that the nominal robot's tool point is moved
+  double turned_deg = 0.0;                             ///< angle that its tool is turned
+};
+
+/// Of a target that was corrected.
+TargetFigures target_figures(const Target& target, const CorrectedTarget& corrected, const Chain& arm);
+
 /// Mean and largest distance, mm, that corrections move the nominal robot's tool point, over the targets corrected.
 struct MovedFigures {
-  int targets = 0, left = 0;  ///< corrected (where nothing had to change, too), and left as they are
+  int targets = 0, uncorrected = 0;  ///< corrected (where nothing had to change, too), and left as they are
   double mean_mm = 0.0, max_mm = 0.0;
 };
 MovedFigures moved_figures(const CorrectedProgram& corrected);

@@ -1,14 +1,14 @@
 #include "programs/target_correction.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
-#include "programs/amounts.hpp"
-#include "programs/determined_part.hpp"
-#include "programs/nearby_command.hpp"
+#include "languages/orientation.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/orientation.hpp"
+#include "programs/partial_correction.hpp"
 
 namespace demecal {
 namespace {
@@ -16,18 +16,6 @@ namespace {
 constexpr double kExact = 1e-9;                ///< m
 constexpr double kPositionWorthSaying = 5e-5;  ///< m
 constexpr double kTurnWorthSaying = 3.5e-4;    ///< rad: 0.02 deg
-
-std::vector<double> inside(const std::vector<Cell>& cells) {
-  std::vector<double> values;
-  for (const Cell& cell : cells) values.push_back(cell.inside());
-  return values;
-}
-
-/// The tool's axes on the flange, as the program has them.
-Eigen::Matrix3d tool_axes(const Target& target) {
-  if (!target.frames.tool) return Eigen::Matrix3d::Identity();
-  return target.frames.tool->linear();
-}
 
 /// "z of the flange", or the direction's numbers where it is near to no axis.
 std::string axis_name(const Eigen::Vector3d& direction, const Eigen::Matrix3d& flange) {
@@ -43,7 +31,7 @@ std::string axis_name(const Eigen::Vector3d& direction, const Eigen::Matrix3d& f
 
 std::string left_sentence(const std::string& what, const DeterminedPart& part, const std::string& deviation,
                           const Eigen::Matrix3d& flange) {
-  return what + axis_name(part.left, flange) + " is not determined by the calibration (standard deviation " +
+  return what + axis_name(part.omitted, flange) + " is not determined by the calibration (standard deviation " +
          deviation + "): left as programmed";
 }
 
@@ -86,13 +74,13 @@ void settle_position(const Target& target, const CommandModel& model, const Eige
     joints = *solved;
     const Eigen::Vector3d error = goal_m - model.robot.predict(corrected.stop.with_joints(joints), "").translation();
     const bool first = repetition == 0;
-    if (first || error.norm() <= corrected.left_m) {
+    if (first || error.norm() <= corrected.residual_m) {
       corrected.command = joints;
       corrected.command_tool = tool;
-      corrected.left_m = error.norm();
+      corrected.residual_m = error.norm();
     }
     if (error.norm() < kExact) {
-      corrected.outcome = Correctedness::corrected;
+      corrected.outcome = CorrectionOutcome::corrected;
       return;
     }
     tool.translation() += error;
@@ -101,23 +89,23 @@ void settle_position(const Target& target, const CommandModel& model, const Eige
 
 }  // namespace
 
-bool keeps_orientation(const Target& target) {
-  return target.form == OrientationForm::columns || target.form == OrientationForm::unknown;
+std::string fixed_text(double value, int decimals) {
+  std::array<char, 400> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  return {buffer.data(), end.ptr};
 }
 
-Eigen::Vector3d stated_point(const Target& target) {
-  return target.frames.base_from_frame *
-         Eigen::Vector3d(target.position[0].inside(), target.position[1].inside(), target.position[2].inside());
+std::string joint_amount(const Joint& joint, double value) {
+  if (!is_revolute(joint)) return fixed_text(millimetres(value), 3) + " mm";
+  return fixed_text(degrees(value), 4) + " deg";
 }
 
-Eigen::Isometry3d stated_tool_pose(const Target& target) {
-  Eigen::Isometry3d tool(target.frames.base_from_frame.linear() *
-                         rotation_from(target.form, inside(target.orientation)) * tool_axes(target).transpose());
-  tool.translation() = stated_point(target);
-  return tool;
+std::string joint_label(int joint) {
+  return "joint " + std::to_string(joint + 1);
 }
 
-CorrectedTarget corrected_at(const Target& target, const CommandModel& model, const Stop& stop) {
+CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop) {
   CorrectedTarget corrected;
   corrected.stop = stop;
   corrected.nominal = stop.joints;
@@ -125,9 +113,10 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
   const Eigen::Isometry3d goal = corrected.goal = goal_of(target, model, corrected);
   const InverseSolution solution = nearby_command(model.robot, goal, stop);
   corrected.inverse = corrected.command = solution.q;
-  corrected.outcome = solution.status == InverseStatus::converged ? Correctedness::corrected : Correctedness::nearest;
-  corrected.left_m = solution.position_residual_m;
-  corrected.left_rad = solution.orientation_residual_rad;
+  corrected.outcome =
+      solution.status == InverseStatus::converged ? CorrectionOutcome::corrected : CorrectionOutcome::nearest;
+  corrected.residual_m = solution.position_residual_m;
+  corrected.residual_rad = solution.orientation_residual_rad;
   corrected.command_tool = model.nominal_tool(corrected.command);
   if (model.posterior && model.interval)
     corrected.error95_m = real_radius95_m(*model.interval, *model.posterior, model.robot, stop);
@@ -135,13 +124,13 @@ CorrectedTarget corrected_at(const Target& target, const CommandModel& model, co
   return corrected;
 }
 
-std::vector<std::string> texts_of(const Target& target, const CorrectedTarget& corrected) {
+std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget& corrected) {
   std::vector<std::string> texts;
-  const bool changed = !corrected.is_left() && corrected.command != corrected.nominal;
+  const bool changed = !corrected.is_uncorrected() && corrected.command != corrected.nominal;
   const auto add = [&](const Cell& cell, double value) {
     texts.push_back(changed ? rewritten(cell, value).value_or("") : "");
   };
-  if (corrected.is_left()) return texts;
+  if (corrected.is_uncorrected()) return texts;
   for (std::size_t i = 0; i < target.joints.size(); ++i) {
     add(target.joints[i], corrected.command[static_cast<Eigen::Index>(i)]);
   }

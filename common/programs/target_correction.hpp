@@ -1,56 +1,58 @@
-// The correction of one target whose joints are known.
+// The correction of one target whose joints are known; amounts as sentences about targets write them.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
+#include "languages/program.hpp"
 #include "programs/command_model.hpp"
 #include "programs/configuration.hpp"
-#include "programs/program.hpp"
 
 namespace demecal {
 
-enum class Correctedness {
-  corrected,  ///< or in no need of it
-  nearest,    ///< the model has no exact inverse here; what could be corrected is
-  left,       ///< as it is, since its frame, tool or configuration is not known; the remarks say why
-  no_joints   ///< the nominal robot cannot reach the pose; it is left as it is
+/// With so many decimals.
+std::string fixed_text(double value, int decimals);
+/// A joint's value or a change of it, from rad or m: "12.3456 deg", "7.890 mm".
+std::string joint_amount(const Joint& joint, double value);
+/// "joint 3", from 0.
+std::string joint_label(int joint);
+
+enum class CorrectionOutcome {
+  corrected,    ///< or in no need of it
+  nearest,      ///< the model has no exact inverse here; what could be corrected is
+  uncorrected,  ///< left as it is, since its frame, tool or configuration is not known; the remarks say why
+  no_joints     ///< the nominal robot cannot reach the pose; it is left as it is
 };
 
 struct CorrectedTarget {
-  Correctedness outcome = Correctedness::no_joints;
+  CorrectionOutcome outcome = CorrectionOutcome::no_joints;
   JointsFrom from = JointsFrom::nowhere;
   Stop stop{JointVector()};      ///< the nominal joints and the circumstances they were corrected for
   JointVector nominal, command;  ///< joints, rad or m: as the program means, and as it is to be sent
   JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
   Eigen::Isometry3d goal;  ///< of the model's tool: the nominal pose, as far as the correction to it is determined
-  double left_m = 0.0, left_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
+  double residual_m = 0.0, residual_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
   std::optional<double>
       error95_m{};  ///< holds the real tool point about the goal 95 % of the time, without what is left
   std::vector<std::string> remarks{};  ///< what a user should know of how it was corrected
   std::vector<std::string> notes{};    ///< orientations that are left as programmed: no worse than before, no warning
   std::vector<std::string> texts{};    ///< of the cells, joints or position and then orientation; empty: kept
 
-  bool is_left() const { return outcome == Correctedness::left || outcome == Correctedness::no_joints; }
+  bool is_uncorrected() const {
+    return outcome == CorrectionOutcome::uncorrected || outcome == CorrectionOutcome::no_joints;
+  }
 };
 
 /// Sends the target, whose nominal joints and circumstances are `stop`, to where model(command) = nominal: as far as
 /// the model's posterior determines the correction (see determined_part()), and without large joint motions near
 /// singular joints (see nearby_command()). A direction of position that is left is a remark, one of orientation a note.
 /// `texts` stay empty.
-CorrectedTarget corrected_at(const Target& target, const CommandModel& model, const Stop& stop);
+CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop);
 
 /// The texts of a corrected target's cells.
-std::vector<std::string> texts_of(const Target& target, const CorrectedTarget& corrected);
-
-/// Whether the file's orientation is kept as it is.
-bool keeps_orientation(const Target& target);
-
-/// Where a pose target, as written, has the tool point: base frame, axes of the flange. Its orientation must be known.
-Eigen::Isometry3d stated_tool_pose(const Target& target);
-/// Its tool point alone, base frame.
-Eigen::Vector3d stated_point(const Target& target);
+std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget& corrected);
 
 }  // namespace demecal

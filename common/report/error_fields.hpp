@@ -1,7 +1,7 @@
 // Errors, poses and findings as JSON objects: what reports, evaluations and comparisons share.
 #pragma once
 
-#include "report/json_fields.hpp"
+#include "report/json.hpp"
 #include "report/report.hpp"
 
 namespace demecal {

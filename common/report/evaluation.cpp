@@ -12,7 +12,7 @@ namespace demecal {
 namespace {
 
 /// A circumstance that an effect may need, and whether a pose has it.
-struct Circumstance {
+struct PoseCircumstance {
   const char* name;
   const char* words;    ///< what a pose without it has not
   const char* instead;  ///< what the model takes there
@@ -20,7 +20,7 @@ struct Circumstance {
   bool (*has)(const MeasuredPose&);
 };
 
-constexpr Circumstance kCircumstances[] = {
+constexpr PoseCircumstance kCircumstances[] = {
     {"approach", "approach direction", "no side", &Needs::approach,
      [](const MeasuredPose& pose) { return pose.approach.has_value(); }},
     {"payload", "payload", "an empty hand", &Needs::payload,
@@ -30,7 +30,8 @@ constexpr Circumstance kCircumstances[] = {
     {"time", "time", "the effect's reference", &Needs::time,
      [](const MeasuredPose& pose) { return pose.time_s.has_value(); }}};
 
-UnappliedEffect unapplied(const Effect& effect, const Circumstance& lacking, std::size_t without, std::size_t poses) {
+UnappliedEffect unapplied(const Effect& effect, const PoseCircumstance& lacking, std::size_t without,
+                          std::size_t poses) {
   UnappliedEffect one{effect.kind, std::nullopt, lacking.name, without, {}};
   if (effect.joint >= 0) one.joint = static_cast<std::uint64_t>(effect.joint) + 1;
   one.sentence = fmt::format(
@@ -108,7 +109,7 @@ PredictionEntry prediction_entry(const PredictionInterval& interval) {
           .noise_mm = if_finite(millimetres(interval.noise_m)),
           .distance_noise_mm = if_finite(millimetres(interval.distance_noise_m)),
           .model_error_mm = if_finite(millimetres(interval.model_error_m)),
-          .told_by = interval.fitted ? "calibration" : "validation",
+          .pose_set = interval.fitted ? "calibration" : "validation",
           .poses = interval.poses,
           .gross_errors = interval.gross_errors,
           .remark = origin_of(interval)};
@@ -148,7 +149,7 @@ std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, cons
   std::vector<UnappliedEffect> all;
   for (const Effect& effect : robot.effects) {
     const Needs needs = law_of(effect).needs(effect, data.robot);
-    for (const Circumstance& one : kCircumstances) {
+    for (const PoseCircumstance& one : kCircumstances) {
       if (!(needs.*one.needed)) continue;
       const auto without = static_cast<std::size_t>(
           std::ranges::count_if(data.poses, [&one](const MeasuredPose& pose) { return !one.has(pose); }));
@@ -159,14 +160,14 @@ std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, cons
 }
 
 std::string to_json(const Evaluation& evaluation) {
-  return dumped(json_of(evaluation), -1);
+  return to_text(json_of(evaluation), -1);
 }
 
 std::string to_json(const Comparison& comparison, int indent) {
   nlohmann::ordered_json json{{"demecal_comparison", 1}};
   JsonWriter write(json);
   fields(write, comparison);
-  return dumped(json, indent);
+  return to_text(json, indent);
 }
 
 }  // namespace demecal

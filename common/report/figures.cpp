@@ -1,18 +1,21 @@
 #include "report/figures.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numbers>
 
 #include "effects/catalogue.hpp"
-#include "report/wording.hpp"
+#include "effects/effect.hpp"
 
 namespace demecal {
 namespace {
 
 bool has_mean(const ErrorBySet& errors) {
   return std::ranges::any_of(kPoseSets,
-                             [&](const PoseSetOfReport& set) { return (errors.*set.errors).mean_mm.has_value(); });
+                             [&](const ReportPoseSet& set) { return (errors.*set.errors).mean_mm.has_value(); });
 }
 
 /// What the stage of everything declared adds to the fit.
@@ -28,6 +31,61 @@ std::optional<double> largest_error(const EffectEntry& effect) {
     if (error) largest = std::max(largest.value_or(0.0), *error);
   }
   return largest;
+}
+
+/// Settings that tell effects of one kind and joint apart.
+constexpr std::array<const char*, 3> kTelling{"ratio", "order", "from"};
+
+/// The form, where it is not the one that a kind without words for it has.
+std::string unusual_form(const EffectEntry& effect) {
+  const EffectLaw* const law = find_law(effect.kind);
+  const std::vector<std::string> forms = law == nullptr ? std::vector<std::string>{} : law->forms();
+  return !forms.empty() && forms.front() == effect.form ? "" : effect.form;
+}
+
+std::optional<double> value_of(const std::vector<NamedNumber>& numbers, const std::string& wanted) {
+  const auto found = std::ranges::find(numbers, wanted, &NamedNumber::name);
+  return found == numbers.end() ? std::nullopt : found->value;
+}
+
+/// Significant digits, but never an exponent for what has up to six digits before the point.
+std::string digits(double value, int significant) {
+  const double size = std::abs(value);
+  const bool whole = size >= std::pow(10.0, significant - 1) && size < 1e6;
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, significant);
+}
+
+/// `value` in thousandths or millionths of the unit whose name follows the prefix.
+std::string small_part(double value, const std::string& unit, int significant) {
+  const bool tiny = value != 0.0 && std::abs(value) < 1e-5;
+  return digits(value * (tiny ? 1e6 : 1e3), significant) + (tiny ? " µ" : " m") + unit;
+}
+
+/// What stands after the "1" of "1/K"; empty for a plain share.
+std::string per(const std::string& unit) {
+  return unit.size() > 1 ? unit.substr(1) : "";
+}
+
+std::string with_digits(double value, const std::string& unit, int significant) {
+  if (!std::isfinite(value)) return "–";
+  if (unit.starts_with("rad") || unit == "m" || unit.starts_with("m/")) return small_part(value, unit, significant);
+  if (unit == "1" || unit.starts_with("1/")) return digits(1e6 * value, significant) + " ppm" + per(unit);
+  return digits(value, significant) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string kind_words(const std::string& kind) {
+  return rarity(kind) < causes().size() ? std::string(cause_of(kind).words) : kind;
+}
+
+/// " of joints 2, 3 and 4".
+std::string joints_words(const std::vector<std::uint64_t>& joints) {
+  if (joints.empty()) return {};
+  std::string text = joints.size() == 1 ? " of joint " : " of joints ";
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const bool last = i + 1 == joints.size();
+    text += (i == 0 ? "" : last ? " and " : ", ") + std::to_string(joints[i]);
+  }
+  return text;
 }
 
 }  // namespace
@@ -48,24 +106,24 @@ const Stage* find_stage(const std::vector<Stage>& stages, const std::string& key
   return found == stages.end() ? nullptr : &*found;
 }
 
-std::vector<PoseSetOfReport> measured_sets(const std::vector<Stage>& stages) {
-  std::vector<PoseSetOfReport> sets(kPoseSets.begin(), kPoseSets.end());
-  std::erase_if(sets, [&](const PoseSetOfReport& set) {
+std::vector<ReportPoseSet> measured_sets(const std::vector<Stage>& stages) {
+  std::vector<ReportPoseSet> sets(kPoseSets.begin(), kPoseSets.end());
+  std::erase_if(sets, [&](const ReportPoseSet& set) {
     return std::ranges::none_of(stages, [&](const Stage& stage) { return stage.on(set).mean_mm.has_value(); });
   });
   return sets;
 }
 
-std::optional<Judgement> judgement(const std::vector<Stage>& stages) {
+std::optional<Improvement> improvement(const std::vector<Stage>& stages) {
   if (stages.size() < 2) return std::nullopt;
   const Stage* const registered = find_stage(stages, "registered");
   const Stage& before = registered != nullptr ? *registered : stages.front();
   const Stage& after = stages.back();
   if (&before == &after) return std::nullopt;
   for (std::size_t i = kPoseSets.size(); i-- > 0;) {
-    const PoseSetOfReport& set = kPoseSets[i];
+    const ReportPoseSet& set = kPoseSets[i];
     if (before.on(set).mean_mm && after.on(set).mean_mm)
-      return Judgement{set, before.title, after.title, before.on(set), after.on(set)};
+      return Improvement{set, before.title, after.title, before.on(set), after.on(set)};
   }
   return std::nullopt;
 }
@@ -81,12 +139,155 @@ std::map<std::uint64_t, std::vector<Harmonic>> harmonics_of(const std::vector<Ef
   return joints;
 }
 
-std::string harmonics_words(const std::vector<Harmonic>& harmonics) {
+std::string harmonics_text(const std::vector<Harmonic>& harmonics) {
   const Harmonic& largest = *std::ranges::max_element(harmonics, {}, &Harmonic::amplitude);
   const std::string size = amount(largest.amplitude, largest.unit);
   if (harmonics.size() == 1) return fmt::format("1 harmonic, {:g} cycles per turn, {}", largest.cycles, size);
   return fmt::format("{} harmonics, {:g} to {:g} cycles per turn, largest {} at {:g}", harmonics.size(),
                      harmonics.front().cycles, harmonics.back().cycles, size, largest.cycles);
+}
+
+std::optional<double> EffectEntry::parameter(const std::string& wanted) const {
+  return value_of(parameters, wanted);
+}
+
+std::optional<double> EffectEntry::standard_error(const std::string& wanted) const {
+  return value_of(standard_errors, wanted);
+}
+
+std::string EffectEntry::distinction() const {
+  std::string text = unusual_form(*this);
+  for (const char* const setting : kTelling) {
+    const std::optional<double> value = parameter(setting);
+    if (value) text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", setting, *value);
+  }
+  return text;
+}
+
+std::string EffectEntry::name() const {
+  const std::string which = distinction();
+  return kind + (which.empty() ? "" : " (" + which + ")") + (joint ? fmt::format(", joint {}", *joint) : "");
+}
+
+std::string EffectEntry::size() const {
+  return amplitude ? amount(*amplitude, unit) : "";
+}
+
+bool Report::added_any() const {
+  return std::ranges::any_of(rounds, &RoundEntry::added);
+}
+
+std::string amount(double value, const std::string& unit) {
+  return with_digits(value, unit, 3);
+}
+
+std::string limit_amount(double value, const std::string& unit) {
+  constexpr double kArcsecondsPerRadian = 648000.0 / std::numbers::pi;
+  const double angle_arcsec = kArcsecondsPerRadian * value;
+  if (unit == "rad" && std::isfinite(value) && std::abs(angle_arcsec) < 3600.0)
+    return digits(angle_arcsec, 2) + " arcsec";
+  return with_digits(value, unit, 2);
+}
+
+std::string probability(std::optional<double> p) {
+  return p && std::isfinite(*p) ? fmt::format("{:.2g}", *p) : "–";
+}
+
+std::string class_text(const std::vector<ClassMember>& members) {
+  std::string text;
+  const auto elsewhere = [&members](const ClassMember& member) { return member.joint != members.front().joint; };
+  if (!members.empty() && members.front().joint && std::ranges::none_of(members, elsewhere)) {
+    for (const ClassMember& member : members) text += (text.empty() ? "" : " or ") + kind_words(member.kind);
+    return text + joints_words({*members.front().joint});
+  }
+  for (std::size_t i = 0; i < members.size();) {
+    std::vector<std::uint64_t> joints;
+    const std::string& kind = members[i].kind;
+    for (; i < members.size() && members[i].kind == kind; ++i) {
+      if (members[i].joint) joints.push_back(*members[i].joint);
+    }
+    text += (text.empty() ? "" : " or ") + kind_words(kind) + joints_words(joints);
+  }
+  return text;
+}
+
+std::string class_sentence(const std::vector<ClassMember>& members) {
+  if (members.empty()) return {};
+  std::string text = class_text(members) + ": these poses cannot tell.";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string stop_sentence(const std::string& stopped) {
+  if (stopped.empty() || stopped == "not_run") return {};
+  if (stopped == "no_structure") return "The loop stopped because the error that is left shows no more structure.";
+  if (stopped == "no_gain") return "The loop stopped because no further effect improved the validation poses.";
+  if (stopped == "max_effects") return "The loop stopped at the largest number of effects it was allowed to add.";
+  if (stopped == "decoy") {
+    return "The loop stopped because a control, which cannot be true, explained the error better than every effect.";
+  }
+  return "The loop stopped: " + stopped + ".";
+}
+
+std::string statistics_sentences(const Report& report) {
+  std::string text;
+  const auto add = [&text](const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; };
+  if (report.lack_of_fit_p) {
+    add(fmt::format("Before the loop the error's excess over the repeats' own scatter had p = {}.",
+                    probability(report.lack_of_fit_p)));
+  }
+  if (report.explained_share) {
+    add(fmt::format("Of the mean square error beyond that scatter the effects explain {:.1f} %.",
+                    100.0 * *report.explained_share));
+  }
+  if (report.structure_left_p) {
+    constexpr double kDetected = 0.05;
+    const char* const sentence =
+        *report.structure_left_p > kDetected
+            ? "No remaining dependence on joints, load, approach, temperature or time was detected (p = {})."
+            : "What is left still depends on joints, load, approach, temperature or time (p = {}).";
+    add(fmt::format(fmt::runtime(sentence), probability(report.structure_left_p)));
+  }
+  return text;
+}
+
+std::string noise_sentence(const NoiseEntry& noise) {
+  const std::string independent = fmt::format("{:.3f} mm an axis", noise.independent_mm.value_or(0.0));
+  if (!noise.estimated)
+    return independent + ", taken to be independent from pose to pose: what poses share was not estimated";
+  std::vector<std::string> parts;
+  if (noise.joint_repeatability_mrad > 0.0)
+    parts.push_back(fmt::format("joints repeat to {:.3f} mrad", *noise.joint_repeatability_mrad));
+  if (noise.shared_by_repeats_mm > 0.0)
+    parts.push_back(fmt::format("repeats of a pose share {:.3f} mm", *noise.shared_by_repeats_mm));
+  if (noise.shared_in_order_mm > 0.0) {
+    parts.push_back(
+        fmt::format("poses measured one after another share {:.3f} mm (correlation {:.2f}): errors of "
+                    "poses measured between others look smaller than they are",
+                    *noise.shared_in_order_mm, noise.correlation_in_order.value_or(0.0)));
+  }
+  if (parts.empty()) return independent + ", independent from pose to pose";
+  return fmt::format("{}, independent; {}", independent, fmt::join(parts, "; "));
+}
+
+std::string decoys_sentence(const std::vector<DecoyEntry>& decoys) {
+  constexpr double kRare = 0.05;
+  if (decoys.empty()) return {};
+  std::string winners;
+  for (const DecoyEntry& decoy : decoys) {
+    if (decoy.won) winners += (winners.empty() ? "" : "; ") + decoy.name;
+  }
+  if (!winners.empty()) return "WON by what cannot be true: " + winners;
+  const DecoyEntry& rarest =
+      *std::ranges::min_element(decoys, {}, [](const DecoyEntry& decoy) { return decoy.p_left.value_or(1.0); });
+  if (rarest.p_left.value_or(1.0) <= kRare) {
+    return fmt::format(
+        "{}, which cannot exist, explains more than noise should (p = {:.3f}): the noise is not what it "
+        "was taken for, and none of the effects is sure",
+        rarest.name, *rarest.p_left);
+  }
+  const DecoyEntry& best = *std::ranges::max_element(decoys, {}, &DecoyEntry::best_gain_nats);
+  return fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name);
 }
 
 }  // namespace demecal

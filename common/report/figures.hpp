@@ -1,4 +1,4 @@
-// What page and terminal make of a report's figures: the error stage by stage, what to judge by, harmonics by joint.
+// What page and terminal both make of a report: stages, what to judge by, amounts, and the sentences they share.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 namespace demecal {
 
 /// A set of poses by its name, its errors and their number.
-struct PoseSetOfReport {
+struct ReportPoseSet {
   const char* name;
   SetErrors ErrorBySet::*errors;
   std::uint64_t Report::Poses::*poses;
 };
-inline constexpr std::array<PoseSetOfReport, 3> kPoseSets{
+inline constexpr std::array<ReportPoseSet, 3> kPoseSets{
     {{"calibration", &ErrorBySet::calibration, &Report::Poses::calibration},
      {"validation", &ErrorBySet::validation, &Report::Poses::validation},
      {"accept", &ErrorBySet::accept, &Report::Poses::accept}}};
@@ -28,7 +28,7 @@ struct Stage {
   std::string title;  ///< for people
   const ErrorBySet* errors = nullptr;
 
-  const SetErrors& on(const PoseSetOfReport& set) const { return errors->*set.errors; }
+  const SetErrors& on(const ReportPoseSet& set) const { return errors->*set.errors; }
 };
 
 /// Those that have figures, in the order of the calibration. The stage of the closed loop is left out where the loop
@@ -37,18 +37,18 @@ std::vector<Stage> error_stages(const Report& report);
 /// Null where it is none of them.
 const Stage* find_stage(const std::vector<Stage>& stages, const std::string& key);
 /// The sets that any stage has a mean on.
-std::vector<PoseSetOfReport> measured_sets(const std::vector<Stage>& stages);
+std::vector<ReportPoseSet> measured_sets(const std::vector<Stage>& stages);
 
 /// The figures a calibration is judged by: those of accept poses; without these of validation poses, and so on.
-struct Judgement {
-  PoseSetOfReport set{};
+struct Improvement {
+  ReportPoseSet set{};
   std::string from, to;  ///< titles of the stages
   SetErrors before;      ///< the robot with its base fitted and nothing else, or the first stage there is
   SetErrors after;       ///< the last stage
 };
 
 /// Nothing where no set has a mean before and after.
-std::optional<Judgement> judgement(const std::vector<Stage>& stages);
+std::optional<Improvement> improvement(const std::vector<Stage>& stages);
 
 struct Harmonic {
   double cycles = 0.0;                     ///< a turn
@@ -62,6 +62,35 @@ struct Harmonic {
 std::map<std::uint64_t, std::vector<Harmonic>> harmonics_of(const std::vector<EffectEntry>& effects);
 
 /// "9 harmonics, 11 to 31 cycles per turn, largest 0.21 mrad at 15"; of at least one.
-std::string harmonics_words(const std::vector<Harmonic>& harmonics);
+std::string harmonics_text(const std::vector<Harmonic>& harmonics);
+
+/// `value` of an SI unit as it stands in a coefficient's label, with three digits and a unit of fitting size:
+/// (0.000412, "rad") is "0.412 mrad", (2e-7, "rad/Nm") "0.2 µrad/Nm", (1.3e-5, "1/K") "13 ppm/K". A dash where it is
+/// not finite.
+std::string amount(double value, const std::string& unit);
+
+/// The same with two digits, and small angles in arc seconds: "8 arcsec".
+std::string limit_amount(double value, const std::string& unit);
+
+/// A probability of a permutation test: "0.001", "0.24"; a dash where there is none.
+std::string probability(std::optional<double> p);
+
+/// "link geometry of joints 2 and 3 or instrument scale", "backlash or friction hysteresis of joint 2".
+std::string class_text(const std::vector<ClassMember>& members);
+
+/// "Link geometry of joint 2 or instrument scale: these poses cannot tell."; empty for an empty class.
+std::string class_sentence(const std::vector<ClassMember>& members);
+
+/// Why the loop stopped, from the report's word, in one sentence; empty where it did not run.
+std::string stop_sentence(const std::string& stopped);
+
+/// How measurements scatter, each by itself and together: "0.050 mm an axis, independent; joints repeat to 0.120 mrad".
+std::string noise_sentence(const NoiseEntry& noise);
+
+/// Whether a decoy won, or explains more than noise should; empty without decoys.
+std::string decoys_sentence(const std::vector<DecoyEntry>& decoys);
+
+/// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
+std::string statistics_sentences(const Report& report);
 
 }  // namespace demecal

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "data/csv.hpp"
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal {

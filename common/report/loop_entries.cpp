@@ -1,11 +1,11 @@
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "effects/catalogue.hpp"
 #include "kinematics/units.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {
@@ -60,20 +60,21 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
                    .p_structure = if_finite(round.p_structure),
                    .p_family = if_finite(round.p_family),
                    .permutations = count_of(round.permutations),
-                   .fall_nats = if_finite(round.gain_nats),
+                   .gain_nats = if_finite(round.gain_nats),
                    .confirmed = if_finite(round.confirmed),
                    .confirmed_lower = if_finite(round.confirmed_lower),
                    .sign_stability = if_finite(round.sign_stability),
                    .interval = intervals(round, robot),
                    .validation_before_mm = if_finite(round.validation_before_mm),
                    .validation_after_mm = if_finite(round.validation_after_mm),
-                   .further = {}};
+                   .next_measurement = {}};
   for (const Rival& rival : round.rivals) {
     entry.rivals.push_back({effect_entry(rival.effect, robot), if_finite(rival.cosine), if_finite(rival.nats_behind)});
   }
   entry.members = effect_class(entry.effect, entry.rivals);
   entry.class_sentence = class_sentence(entry.members);
-  if (const auto& next = round.next_measurement) entry.further = FurtherEntry{next->sentence, count_of(next->poses)};
+  if (const auto& next = round.next_measurement)
+    entry.next_measurement = NextMeasurementEntry{next->sentence, count_of(next->poses)};
   return entry;
 }
 
@@ -142,7 +143,7 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   for (const Round& round : loop.rounds) report.rounds.push_back(round_entry(round, described));
   for (const Effect& effect : loop.dropped) report.dropped.push_back(effect_entry(effect, described));
   for (const NotFound& missing : loop.not_found) report.not_found.push_back(not_found_entry(missing, described));
-  for (const UntestableKind& each : loop.untestable) report.unseen.push_back({each.kind, each.reason});
+  for (const UntestableKind& each : loop.untestable) report.untestable.push_back({each.kind, each.reason});
   for (const Decoy& decoy : loop.decoys)
     report.decoys.push_back({decoy.name, if_finite(decoy.best_gain_nats), if_finite(decoy.p_left), decoy.won});
   report.stopped = to_string(loop.stopped);

@@ -8,7 +8,6 @@
 #include "expression/text.hpp"
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
-#include "report/loop_entries.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal {

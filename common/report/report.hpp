@@ -64,7 +64,7 @@ struct PoseErrorEntry {
 /// What the radii of single poses come from.
 struct PredictionEntry {
   std::optional<double> quantile, noise_mm, distance_noise_mm, model_error_mm;
-  std::string told_by;  ///< the set of poses
+  std::string pose_set;  ///< the set of poses
   std::uint64_t poses = 0, gross_errors = 0;
   std::string remark;
 };
@@ -87,7 +87,7 @@ struct EffectEntry {
   std::optional<double> parameter(const std::string& wanted) const;
   std::optional<double> standard_error(const std::string& wanted) const;
   /// "ratio 24": form and settings that tell it from others of its kind and joint; empty where there are none.
-  std::string telling() const;
+  std::string distinction() const;
   /// "gear_harmonic (ratio 24), joint 2".
   std::string name() const;
   /// "0.412 mrad"; empty where it has no values.
@@ -109,7 +109,7 @@ struct NamedInterval {
   std::optional<double> lower, upper;
 };
 
-struct FurtherEntry {
+struct NextMeasurementEntry {
   std::string sentence;
   std::uint64_t poses = 0;
 };
@@ -126,10 +126,10 @@ struct RoundEntry {
   std::vector<RivalEntry> rivals;
   std::optional<double> p_structure, p_family;
   std::uint64_t permutations = 0;
-  std::optional<double> fall_nats, confirmed, confirmed_lower, sign_stability;
+  std::optional<double> gain_nats, confirmed, confirmed_lower, sign_stability;
   std::vector<NamedInterval> interval;
   std::optional<double> validation_before_mm, validation_after_mm;
-  std::optional<FurtherEntry> further;
+  std::optional<NextMeasurementEntry> next_measurement;
 
   bool added() const { return verdict == "added"; }
 };
@@ -144,13 +144,13 @@ struct NotFoundEntry {
   bool testable() const { return sentence.empty(); }
 };
 
-struct UnseenEntry {
+struct UntestableEntry {
   std::string kind, reason;
 };
 
 struct DecoyEntry {
   std::string name;
-  std::optional<double> best_fall_nats, p_left;
+  std::optional<double> best_gain_nats, p_left;
   bool won = false;
 };
 
@@ -229,7 +229,7 @@ struct Report {
   std::vector<RoundEntry> rounds;
   std::vector<EffectEntry> dropped;  ///< added, and taken back
   std::vector<NotFoundEntry> not_found;
-  std::vector<UnseenEntry> unseen;
+  std::vector<UntestableEntry> untestable;
   std::vector<DecoyEntry> decoys;
   std::string stopped = "not_run";
   std::optional<double> lack_of_fit_p, explained_share, structure_left_p;

@@ -60,7 +60,7 @@ void fields(auto& visit, Like<ExcludedPose> auto& pose) {
 
 void fields(auto& visit, Like<PredictionEntry> auto& prediction) {
   visit("quantile", prediction.quantile, "noise_mm", prediction.noise_mm, "distance_noise_mm",
-        prediction.distance_noise_mm, "model_error_mm", prediction.model_error_mm, "told_by", prediction.told_by,
+        prediction.distance_noise_mm, "model_error_mm", prediction.model_error_mm, "told_by", prediction.pose_set,
         "poses", prediction.poses, "gross_errors", prediction.gross_errors, "remark", prediction.remark);
 }
 
@@ -91,18 +91,18 @@ void fields(auto& visit, Like<ClassMember> auto& member) {
   visit("kind", member.kind, "joint", member.joint);
 }
 
-void fields(auto& visit, Like<FurtherEntry> auto& further) {
-  visit("sentence", further.sentence, "poses", further.poses);
+void fields(auto& visit, Like<NextMeasurementEntry> auto& next) {
+  visit("sentence", next.sentence, "poses", next.poses);
 }
 
 void fields(auto& visit, Like<RoundEntry> auto& round) {
   visit("round", round.round, "group", round.group, "verdict", round.verdict, "effect", round.effect, "diagnosis",
         round.diagnosis, "formula", round.formula, "reason", round.reason, "implausible", round.implausible, "class",
         round.members, "class_sentence", round.class_sentence, "rivals", round.rivals, "p_structure", round.p_structure,
-        "p_family", round.p_family, "permutations", round.permutations, "fall_nats", round.fall_nats, "confirmed",
+        "p_family", round.p_family, "permutations", round.permutations, "fall_nats", round.gain_nats, "confirmed",
         round.confirmed, "confirmed_lower", round.confirmed_lower, "sign_stability", round.sign_stability, "interval",
         round.interval, "validation_before_mm", round.validation_before_mm, "validation_after_mm",
-        round.validation_after_mm, "further", round.further);
+        round.validation_after_mm, "further", round.next_measurement);
 }
 
 void fields(auto& visit, Like<NotFoundEntry> auto& missing) {
@@ -110,12 +110,12 @@ void fields(auto& visit, Like<NotFoundEntry> auto& missing) {
   visit("smallest_detectable", missing.smallest_detectable, "unit", missing.unit, "sentence", missing.sentence);
 }
 
-void fields(auto& visit, Like<UnseenEntry> auto& unseen) {
-  visit("kind", unseen.kind, "reason", unseen.reason);
+void fields(auto& visit, Like<UntestableEntry> auto& kind) {
+  visit("kind", kind.kind, "reason", kind.reason);
 }
 
 void fields(auto& visit, Like<DecoyEntry> auto& decoy) {
-  visit("name", decoy.name, "best_fall_nats", decoy.best_fall_nats, "p_left", decoy.p_left, "won", decoy.won);
+  visit("name", decoy.name, "best_fall_nats", decoy.best_gain_nats, "p_left", decoy.p_left, "won", decoy.won);
 }
 
 void fields(auto& visit, Like<NoiseEntry> auto& noise) {
@@ -161,7 +161,7 @@ void fields(auto& visit, Like<RuntimeEntry> auto& runtime) {
 }
 
 void loop_fields(auto& visit, Like<Report> auto& report) {
-  visit("rounds", report.rounds, "dropped", report.dropped, "not_found", report.not_found, "unseen", report.unseen,
+  visit("rounds", report.rounds, "dropped", report.dropped, "not_found", report.not_found, "unseen", report.untestable,
         "decoys", report.decoys, "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p, "explained_share",
         report.explained_share, "structure_left_p", report.structure_left_p, "noise", report.noise, "candidates",
         report.candidates, "permutations", report.permutations);
@@ -197,7 +197,7 @@ std::string to_json(const Report& report) {
   nlohmann::ordered_json json{{"demecal_report", kReportVersion}};
   JsonWriter write(json);
   fields(write, report);
-  return dumped(json, 2);
+  return to_text(json, 2);
 }
 
 Report read_report(const std::string& text, const std::string& file) {

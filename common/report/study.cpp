@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "data/csv.hpp"
-#include "data/number.hpp"
-#include "report/json_fields.hpp"
+#include "data/text.hpp"
+#include "report/json.hpp"
 
 namespace demecal {
 namespace {
@@ -145,7 +145,7 @@ std::string to_json(const Study& study, int indent) {
   json["islands"] = study.islands;
   json["blocks"] = Json::array();
   for (const BuildingBlock& block : study.blocks) json["blocks"].push_back(block_json(block));
-  return dumped(json, indent);
+  return to_text(json, indent);
 }
 
 }  // namespace demecal

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"

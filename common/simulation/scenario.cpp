@@ -1,6 +1,6 @@
 #include "simulation/scenario.hpp"
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal {

@@ -109,11 +109,11 @@ void Grid::choose_detail() {
 }
 
 std::string Grid::heading() const {
-  std::string block = right("", deme_columns_) + " " + left("", detail_.bar);
-  for (const FigureColumn& figure : detail_.figures) block += " " + right(figure.heading, figure.columns);
-  std::string text = left("", kLabel);
+  std::string block = right_aligned("", deme_columns_) + " " + left_aligned("", detail_.bar);
+  for (const FigureColumn& figure : detail_.figures) block += " " + right_aligned(figure.heading, figure.columns);
+  std::string text = left_aligned("", kLabel);
   for (std::size_t i = 0; i < blocks(detail_); ++i) text += std::string(i == 0 ? 1 : kGap, ' ') + block;
-  return painted(text, Ink::faint, options_.colours);
+  return styled(text, TextStyle::faint, options_.colours);
 }
 
 double Grid::best_of(std::uint32_t joint) const {
@@ -155,19 +155,20 @@ std::string Grid::cell(IslandKey key) const {
   const Progress island = has_begun ? found->second : Progress{};
   const double share = static_cast<double>(island.generation) / run_.data.parameters.number_generations;
   const BarParts bar = bar_parts(share, detail_.bar);
-  const Ink ink = run_.has_finished(island) ? Ink::good : Ink::bar;
-  std::string text = painted(right(std::to_string(key.deme + 1), deme_columns_), Ink::faint, options_.colours) + " " +
-                     painted(bar.full, ink, options_.colours) + painted(bar.empty, Ink::faint, options_.colours);
+  const TextStyle ink = run_.has_finished(island) ? TextStyle::good : TextStyle::bar;
+  std::string text =
+      styled(right_aligned(std::to_string(key.deme + 1), deme_columns_), TextStyle::faint, options_.colours) + " " +
+      styled(bar.full, ink, options_.colours) + styled(bar.empty, TextStyle::faint, options_.colours);
   for (const FigureColumn& column : detail_.figures) {
-    const std::string shown = right(has_begun ? figure(island, column.figure) : "·", column.columns);
+    const std::string shown = right_aligned(has_begun ? figure(island, column.figure) : "·", column.columns);
     const bool leads = column.figure == Figure::best && has_begun && island.figures.best == best_of(key.joint);
-    text += " " + painted(shown, leads ? Ink::strong : Ink::plain, options_.colours);
+    text += " " + styled(shown, leads ? TextStyle::strong : TextStyle::plain, options_.colours);
   }
   return text;
 }
 
 std::string Grid::row(std::uint32_t joint, std::uint32_t first_deme) const {
-  std::string text = left(first_deme == 0 ? fmt::format("joint{:>2}", joint + 1) : "", kLabel);
+  std::string text = left_aligned(first_deme == 0 ? fmt::format("joint{:>2}", joint + 1) : "", kLabel);
   const std::size_t end = std::min(demes(), first_deme + blocks(detail_));
   for (std::size_t deme = first_deme; deme < end; ++deme) {
     text += std::string(deme == first_deme ? 1 : kGap, ' ') + cell({joint, static_cast<std::uint32_t>(deme)});

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "effects/catalogue.hpp"
-#include "report/wording.hpp"
-#include "terminal/loop_text.hpp"
+#include "report/figures.hpp"
+#include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {
@@ -39,7 +39,7 @@ std::vector<Searched> by_kind(const std::vector<NotFoundEntry>& not_found) {
 
 std::string place(const NotFoundEntry& missing) {
   const std::string where = missing.effect.joint ? fmt::format("joint {}", *missing.effect.joint) : "whole arm";
-  const std::string which = missing.effect.telling();
+  const std::string which = missing.effect.distinction();
   return which.empty() ? where : where + ", " + which;
 }
 
@@ -103,7 +103,7 @@ std::string untestable_line(const Report& report) {
 /// One paragraph of the kinds that these data cannot show, by reason.
 std::string unseen_line(const Report& report) {
   TextByText reasons;  // and kinds
-  for (const UnseenEntry& unseen : report.unseen) {
+  for (const UntestableEntry& unseen : report.untestable) {
     std::string& kinds = text_under(reasons, unseen.reason);
     kinds += (kinds.empty() ? "" : ", ") + unseen.kind;
   }

@@ -1,4 +1,4 @@
-#include "terminal/loop_text.hpp"
+#include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "effects/catalogue.hpp"
 #include "report/figures.hpp"
-#include "report/wording.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {
@@ -39,8 +38,8 @@ std::string mm(std::optional<double> value) {
 
 std::string columns(const std::string& number, const std::string& name, const std::string& size, const std::string& p,
                     const std::string& before, const std::string& after) {
-  std::string line =
-      right(number, 5) + "  " + left(name, kMostNameLetters) + right(size, 13) + right(p, 9) + right(before, 12);
+  std::string line = right_aligned(number, 5) + "  " + left_aligned(name, kMostNameLetters) + right_aligned(size, 13) +
+                     right_aligned(p, 9) + right_aligned(before, 12);
   return line + (after.empty() ? "" : " -> " + after) + "\n";
 }
 
@@ -79,18 +78,18 @@ std::string rivals_line(const RoundEntry& round) {
 }
 
 std::string further_line(const RoundEntry& round) {
-  if (!round.further) return {};
-  return wrapped(std::string(kIndent, ' ') + "measure next:", round.further->sentence, kIndent + 2);
+  if (!round.next_measurement) return {};
+  return wrapped(std::string(kIndent, ' ') + "measure next:", round.next_measurement->sentence, kIndent + 2);
 }
 
 std::string effect_lines(const RoundEntry& round, bool diagnosed) {
   const EffectEntry& effect = round.effect;
   const std::string margin(kIndent - 1, ' ');
-  const std::string class_name = class_words(round.members);
+  const std::string class_name = class_text(round.members);
   const std::string name = round.members.empty() ? effect.name()
                            : class_name.size() <= kMostNameLetters
                                ? class_name
-                               : class_words({round.members.front()}) + " or another";
+                               : class_text({round.members.front()}) + " or another";
   std::string text = columns(std::to_string(round.round), name, effect.size(), probability(round.p_family),
                              mm(round.validation_before_mm), mm(round.validation_after_mm));
   if (!round.members.empty()) {
@@ -117,7 +116,7 @@ std::string harmonics_lines(const Rounds& rounds) {
                              together ? mm(rounds.back()->validation_after_mm) : "");
   for (const auto& [joint, harmonics] : harmonics_of(effects)) {
     text +=
-        wrapped(fmt::format("{}joint {}:", std::string(kIndent, ' '), joint), harmonics_words(harmonics), kIndent + 2);
+        wrapped(fmt::format("{}joint {}:", std::string(kIndent, ' '), joint), harmonics_text(harmonics), kIndent + 2);
   }
   if (doubtful > 0) {
     text +=

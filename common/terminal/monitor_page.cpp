@@ -1,17 +1,79 @@
 #include "terminal/monitor_page.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
 #include "terminal/island_grid.hpp"
-#include "terminal/page_tables.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {
 namespace {
+
+using Lines = std::vector<std::string>;
+
+/// Keeps the heading and the last rows, and says how many are missing.
+Lines shortened(Lines lines, const TableOptions& options) {
+  if (options.rows == 0 || lines.size() <= options.rows + 1) return lines;
+  const std::size_t missing = lines.size() - 1 - options.rows;
+  lines.erase(lines.begin() + 1, lines.begin() + 1 + static_cast<std::ptrdiff_t>(missing));
+  lines.front() += styled(fmt::format("  ({} more)", missing), TextStyle::faint, options.colours);
+  return lines;
+}
+
+std::string presence_of(const WatchedWorker& worker) {
+  switch (worker.presence) {
+    case WatchedWorker::Presence::left:
+      return "left";
+    case WatchedWorker::Presence::lost:
+      return "lost";
+    case WatchedWorker::Presence::here:
+      break;
+  }
+  return percent(worker.status.waited_share);
+}
+
+/// How many islands of the run the worker was the last to tell of.
+std::ptrdiff_t islands_of(const WatchedWorker& worker, const WatchedRun* run) {
+  if (run == nullptr) return 0;
+  return std::ranges::count_if(run->islands,
+                               [&](const auto& island) { return island.second.worker == worker.status.worker; });
+}
+
+/// The cells of a worker's line, as texts.
+struct WorkerCells {
+  std::string tag, host, process, slots, islands, speed, waited;
+};
+
+std::string worker_line(const WorkerCells& cells, std::size_t columns) {
+  constexpr std::size_t kTag = 5, kProcess = 10, kFigureRoom = 31, kFewestForProcess = 64;
+  const std::size_t process_room = columns < kFewestForProcess ? 0 : kProcess;
+  const std::size_t host_room = std::min<std::size_t>(columns - kTag - process_room - kFigureRoom, 40);
+  return left_aligned(cells.tag, kTag) + left_aligned(cells.host, host_room) +
+         (process_room == 0 ? "" : right_aligned(cells.process, process_room)) + right_aligned(cells.slots, 7) +
+         right_aligned(cells.islands, 9) + right_aligned(cells.speed, 8) + right_aligned(cells.waited, 7);
+}
+
+std::string in_mm(double value_m) {
+  return std::isfinite(value_m) ? fmt::format("{:.3f}", 1e3 * value_m) : "–";
+}
+
+std::string round_line(const LoopNews& round, std::size_t columns) {
+  const bool is_added = round.verdict == LoopNews::Verdict::added;
+  const std::string figures =
+      is_added ? in_mm(round.validation_before_m) + " -> " + in_mm(round.validation_after_m) : to_string(round.verdict);
+  const std::string label = round.label.empty() ? "nothing" : round.label;
+  const std::size_t room = columns - 5 - 20;
+  const std::size_t label_room = std::min<std::size_t>(room, 42);
+  std::string line = right_aligned(std::to_string(round.round), 3) + "  " + left_aligned(label, label_room) +
+                     right_aligned(figures, 20);
+  if (columns > display_width(line) + 20 && !round.text.empty()) {
+    line += "  " + truncated(round.text, columns - display_width(line) - 2);
+  }
+  return line;
+}
 
 using Lines = std::vector<std::string>;
 
@@ -20,9 +82,9 @@ constexpr std::size_t kFewestGridLines = 4;
 
 /// `first` at the left end, `last` at the right end where both fit.
 std::string both_ends(const std::string& first, const std::string& last, std::size_t columns) {
-  if (last.empty()) return cut(first, columns);
-  const std::size_t taken = columns_of(first) + columns_of(last) + 2;
-  return taken > columns ? cut(first, columns) : first + std::string(columns + 2 - taken, ' ') + last;
+  if (last.empty()) return truncated(first, columns);
+  const std::size_t taken = display_width(first) + display_width(last) + 2;
+  return taken > columns ? truncated(first, columns) : first + std::string(columns + 2 - taken, ' ') + last;
 }
 
 class Page {
@@ -43,7 +105,7 @@ class Page {
   std::string time_left() const;
   Lines progress() const;
   Lines below() const;
-  std::string paint(const std::string& text, Ink ink) const { return painted(text, ink, options_.colours); }
+  std::string paint(const std::string& text, TextStyle ink) const { return styled(text, ink, options_.colours); }
 
   const Watched& watched_;
   const PageOptions& options_;
@@ -87,12 +149,13 @@ Lines Page::progress() const {
   double taken = 0.0;
   for (const auto& [key, island] : run_->islands) taken += static_cast<double>(island.migrants_taken);
   const std::string end = fmt::format(" {:>4}", percent(share_done(*run_)));
-  const BarParts parts = bar_parts(share_done(*run_), columns_ - columns_of(end));
+  const BarParts parts = bar_parts(share_done(*run_), columns_ - display_width(end));
   std::string counts = short_count(static_cast<double>(run_->evaluations)) + " evaluations";
   const double speed = is_evolving() ? evaluations_per_s(watched_, *run_, options_.now_s) : 0.0;
   if (speed > 0.0) counts += ", " + short_count(speed) + "/s";
   counts += ", " + short_count(taken) + " migrants taken";
-  return {paint(parts.full, Ink::bar) + paint(parts.empty, Ink::faint) + end, both_ends(counts, time_left(), columns_)};
+  return {paint(parts.full, TextStyle::bar) + paint(parts.empty, TextStyle::faint) + end,
+          both_ends(counts, time_left(), columns_)};
 }
 
 /// What stands under the islands.
@@ -101,7 +164,7 @@ Lines Page::below() const {
   Lines lines;
   for (const Lines& table : {worker_lines(watched_, options_.now_s, {columns_, is_short ? 6U : 0U, options_.colours}),
                              round_lines(calibration_, {columns_, is_short ? 6U : 0U, options_.colours}),
-                             happening_lines(watched_, options_.now_s, {columns_, 3, options_.colours})}) {
+                             event_lines(watched_, options_.now_s, {columns_, 3, options_.colours})}) {
     if (table.empty()) continue;
     lines.emplace_back();
     lines.insert(lines.end(), table.begin(), table.end());
@@ -114,9 +177,9 @@ Lines Page::below() const {
 
 Lines Page::lines() const {
   if (!watched_.has_seen_anything()) {
-    return {cut("demecal monitor  nobody is calibrating in " + options_.place + " yet", columns_)};
+    return {truncated("demecal monitor  nobody is calibrating in " + options_.place + " yet", columns_)};
   }
-  Lines lines{paint(title(), Ink::strong)};
+  Lines lines{paint(title(), TextStyle::strong)};
   for (const std::string& line : progress()) lines.push_back(line);
   const Lines under = below();
   if (run_ != nullptr && run_->has_data()) {
@@ -134,6 +197,55 @@ Lines Page::lines() const {
 }
 
 }  // namespace
+
+std::vector<std::string> worker_lines(const Watched& watched, double now_s, const TableOptions& options) {
+  const auto workers = watched.workers();
+  if (workers.empty()) return {};
+  const WorkerCells heading{"", "worker's host", "process", "slots", "islands", "eval/s", "wait"};
+  Lines lines{styled(worker_line(heading, options.columns), TextStyle::faint, options.colours)};
+  for (std::size_t i = 0; i < workers.size(); ++i) {
+    const WatchedWorker& worker = *workers[i];
+    const WorkerStatus& status = worker.status;
+    const WatchedRun* run = watched.run();
+    const bool is_here = worker.presence == WatchedWorker::Presence::here;
+    const double speed = run != nullptr && is_here ? evaluations_per_s(watched, *run, worker, now_s) : 0.0;
+    const std::string line = worker_line(
+        {fmt::format("w{}", i + 1), status.host, std::to_string(status.process), std::to_string(status.slots),
+         std::to_string(islands_of(worker, run)), speed > 0.0 ? short_count(speed) : "–", presence_of(worker)},
+        options.columns);
+    const TextStyle ink = is_here                                            ? TextStyle::plain
+                          : worker.presence == WatchedWorker::Presence::lost ? TextStyle::bad
+                                                                             : TextStyle::faint;
+    lines.push_back(styled(line, ink, options.colours));
+  }
+  return shortened(std::move(lines), options);
+}
+
+std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options) {
+  if (calibration == nullptr || calibration->rounds.empty()) return {};
+  const auto added = std::ranges::count_if(
+      calibration->rounds, [](const auto& round) { return round.second.verdict == LoopNews::Verdict::added; });
+  const std::string heading =
+      fmt::format("{} effect{} found; mean error on validation poses, mm", added, added == 1 ? "" : "s");
+  Lines lines{styled(truncated(heading, options.columns), TextStyle::faint, options.colours)};
+  for (const auto& [number, round] : calibration->rounds) {
+    const TextStyle ink = round.verdict == LoopNews::Verdict::added ? TextStyle::good : TextStyle::faint;
+    lines.push_back(styled(round_line(round, options.columns), ink, options.colours));
+  }
+  return shortened(std::move(lines), options);
+}
+
+std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options) {
+  const auto& notices = watched.notices();
+  if (notices.empty()) return {};
+  const std::size_t count = notices.size();
+  Lines lines;
+  for (std::size_t i = options.rows != 0 && count > options.rows ? count - options.rows : 0; i < count; ++i) {
+    const std::string text = short_time(now_s - notices[i].time_s) + " ago: " + notices[i].text;
+    lines.push_back(styled(truncated(text, options.columns), TextStyle::faint, options.colours));
+  }
+  return lines;
+}
 
 std::vector<std::string> monitor_page(const Watched& watched, const PageOptions& options) {
   return Page(watched, options).lines();

@@ -20,4 +20,16 @@ struct PageOptions {
 /// the islands, the workers, what the closed loop found, and what happened last. One sentence where nothing was seen.
 std::vector<std::string> monitor_page(const Watched& watched, const PageOptions& options);
 
+struct TableOptions {
+  std::size_t columns = 100;
+  std::size_t rows = 0;  ///< at most, the last ones; 0: all
+  bool colours = false;
+};
+
+/// Each of these: lines without ends, a heading first, none wider than the columns; no line where there is nothing.
+std::vector<std::string> worker_lines(const Watched& watched, double now_s, const TableOptions& options);
+/// `calibration` may be null.
+std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options);
+std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options);
+
 }  // namespace demecal

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "report/figures.hpp"
-#include "terminal/loop_text.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {
@@ -15,9 +14,9 @@ namespace {
 constexpr std::size_t kStageColumns = 42, kSetColumns = 38;  // of what heads a line of figures
 
 std::string figures_line(const std::string& head, std::size_t columns, const SetErrors& errors) {
-  std::string line = "  " + left(head, columns);
+  std::string line = "  " + left_aligned(head, columns);
   for (const std::optional<double>& figure : {errors.mean_mm, errors.rms_mm, errors.p95_mm, errors.max_mm})
-    line += right(figure ? fmt::format("{:.3f}", *figure) : "–", 9);
+    line += right_aligned(figure ? fmt::format("{:.3f}", *figure) : "–", 9);
   return line + "\n";
 }
 
@@ -42,7 +41,7 @@ std::string last_fit(const Report& report) {
 /// How far single poses are predicted to err, and how many accept poses did not keep to it.
 std::string intervals(const std::vector<PoseErrorEntry>& poses, const std::optional<PredictionEntry>& prediction) {
   const IntervalCoverage accept = coverage_of(poses);
-  if (!prediction || (accept.poses == 0 && prediction->told_by != "calibration")) return {};
+  if (!prediction || (accept.poses == 0 && prediction->pose_set != "calibration")) return {};
   const std::string within =
       accept.poses == 0 ? "radii that hold 95 % of errors stand in report.json"
                         : fmt::format(
@@ -55,7 +54,7 @@ std::string intervals(const std::vector<PoseErrorEntry>& poses, const std::optio
 std::string stages(const Report& report) {
   const std::vector<Stage> all = error_stages(report);
   std::string text;
-  for (const PoseSetOfReport& set : kPoseSets) {
+  for (const ReportPoseSet& set : kPoseSets) {
     if (!(report.before.*set.errors).mean_mm) continue;
     text += heading(fmt::format("{} poses, tool error in mm", set.name), kStageColumns);
     for (const Stage& stage : all) text += figures_line("  " + stage.title, kStageColumns, stage.on(set));
@@ -68,9 +67,9 @@ std::string joints(const Report& report) {
       fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
   const auto rad = [](const std::optional<double>& error) { return error ? fmt::format("{:.3e}", *error) : "–"; };
   for (const JointEntry& joint : report.joints) {
-    const std::string figures = "  " + left(std::to_string(joint.joint), 8) +
-                                right(rad(joint.mean_abs_error_rad.before), 16) +
-                                right(rad(joint.mean_abs_error_rad.after), 16) + "  ";
+    const std::string figures = "  " + left_aligned(std::to_string(joint.joint), 8) +
+                                right_aligned(rad(joint.mean_abs_error_rad.before), 16) +
+                                right_aligned(rad(joint.mean_abs_error_rad.after), 16) + "  ";
     text += wrapped(figures, joint.kept ? "corrected" : "neutral: " + joint.note, figures.size() + 1);
   }
   return text;
@@ -148,7 +147,7 @@ std::string to_terminal(const Report& report) {
 
 std::string to_terminal(const Evaluation& evaluation) {
   std::string text = heading("tool error in mm", kSetColumns);
-  for (const PoseSetOfReport& set : kPoseSets) {
+  for (const ReportPoseSet& set : kPoseSets) {
     const SetErrors& errors = evaluation.error_mm.*set.errors;
     if (errors.mean_mm) text += figures_line(std::string("  ") + set.name, kSetColumns, errors);
   }

@@ -1,10 +1,11 @@
-// The report as tables for a terminal.
+// What a terminal shows of reports, the closed loop, studies and comparisons.
 #pragma once
 
 #include <string>
 
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
+#include "report/study.hpp"
 
 namespace demecal {
 
@@ -18,5 +19,24 @@ std::string to_terminal(const Evaluation& evaluation);
 /// What the check of the data found: a sentence a line, the gravest first, at most 100 columns wide; empty where
 /// nothing was found.
 std::string to_terminal(const DataCheckEntry& check);
+
+/// One line per effect added with its size, p and the validation error before and after (many gear harmonics take one
+/// line per joint), what it may be taken for, what to measure next, what was tried last, why the loop stopped, and
+/// what was not found. At most kTerminalColumns wide; empty where the loop did not run.
+std::string loop_to_terminal(const Report& report);
+
+/// The part of it that says what the loop could not find or not see, how measurements scatter together, and how the
+/// controls fared: a few kinds that people ask for first have a line each, "no backlash: joint 2 below 8 arcsec", or
+/// between which limits where several places were searched.
+std::string limits_to_terminal(const Report& report);
+
+/// A line for every cell, with medians over its seeds and how sure they are, in words below.
+std::string study_table(const Study& study);
+
+/// The first `most` blocks, a line each; a sentence where there are none.
+std::string blocks_table(const Study& study, std::size_t most);
+
+/// A line per method: validation and accept error, numbers identified, time. At most 100 columns wide.
+std::string comparison_table(const Comparison& comparison);
 
 }  // namespace demecal

@@ -1,4 +1,4 @@
-#include "terminal/tables.hpp"
+#include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
 
@@ -37,11 +37,11 @@ std::string short_name(const std::string& key) {
 std::string aligned(const std::vector<Line>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const Line& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], columns_of(line[i]));
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], display_width(line[i]));
   }
   std::string text;
   for (const Line& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) text += "  " + right(line[i], widths[i]);
+    for (std::size_t i = 0; i < line.size(); ++i) text += "  " + right_aligned(line[i], widths[i]);
     text += "\n";
   }
   return text;
@@ -134,11 +134,11 @@ std::string blocks_table(const Study& study, std::size_t most) {
   std::vector<Line> lines{{"block", "joints", "islands", "individuals", "rank"}};
   for (const BuildingBlock& block : study.blocks) {
     if (lines.size() > most) break;
-    lines.push_back({left(block_text(block.form), kWidestForm), std::to_string(block.joints),
+    lines.push_back({left_aligned(block_text(block.form), kWidestForm), std::to_string(block.joints),
                      std::to_string(block.islands), std::to_string(block.individuals),
                      fmt::format("{:.2f}", block.rank_share)});
   }
-  lines.front().front() = left("block", kWidestForm);
+  lines.front().front() = left_aligned("block", kWidestForm);
   return fmt::format(
              "Blocks that the best formulas of each length share across joints ({} islands, c a constant):\n\n{}",
              study.islands, aligned(lines)) +

@@ -16,7 +16,7 @@ bool begins_letter(char byte) {
 }
 
 std::string blanks_beside(const std::string& text, std::size_t columns) {
-  const std::size_t taken = columns_of(text);
+  const std::size_t taken = display_width(text);
   return std::string(columns > taken ? columns - taken : 0, ' ');
 }
 
@@ -28,26 +28,26 @@ std::string repeated(const char* letter, std::size_t times) {
 
 }  // namespace
 
-std::size_t columns_of(const std::string& text) {
+std::size_t display_width(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, begins_letter));
 }
 
-std::string cut(std::string text, std::size_t columns) {
-  if (columns_of(text) <= columns) return text;
-  while (columns_of(text) > columns - 3) {
+std::string truncated(std::string text, std::size_t columns) {
+  if (display_width(text) <= columns) return text;
+  while (display_width(text) > columns - 3) {
     while (!begins_letter(text.back())) text.pop_back();
     text.pop_back();
   }
   return text + "...";
 }
 
-std::string left(const std::string& text, std::size_t columns) {
-  const std::string shown = cut(text, columns);
+std::string left_aligned(const std::string& text, std::size_t columns) {
+  const std::string shown = truncated(text, columns);
   return shown + blanks_beside(shown, columns);
 }
 
-std::string right(const std::string& text, std::size_t columns) {
-  const std::string shown = cut(text, columns);
+std::string right_aligned(const std::string& text, std::size_t columns) {
+  const std::string shown = truncated(text, columns);
   return blanks_beside(shown, columns) + shown;
 }
 
@@ -55,8 +55,8 @@ std::string wrapped(const std::string& first, const std::string& text, std::size
   std::string all, line = first;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    word = cut(word, kTerminalColumns - indent - 1);
-    if (columns_of(line) + 1 + columns_of(word) > kTerminalColumns) {
+    word = truncated(word, kTerminalColumns - indent - 1);
+    if (display_width(line) + 1 + display_width(word) > kTerminalColumns) {
       all += std::exchange(line, std::string(indent - 1, ' ')) + "\n";
     }
     line += " " + word;

@@ -9,26 +9,26 @@ namespace demecal {
 inline constexpr std::size_t kTerminalColumns = 100;
 
 /// How many letters of UTF-8 text stand side by side.
-std::size_t columns_of(const std::string& text);
+std::size_t display_width(const std::string& text);
 
 /// `text` with an ellipsis for what does not fit.
-std::string cut(std::string text, std::size_t columns);
+std::string truncated(std::string text, std::size_t columns);
 
 /// `text` cut to `columns` and filled up with blanks after it; or before it.
-std::string left(const std::string& text, std::size_t columns);
-std::string right(const std::string& text, std::size_t columns);
+std::string left_aligned(const std::string& text, std::size_t columns);
+std::string right_aligned(const std::string& text, std::size_t columns);
 
 /// `first` and the words of `text` after it, in lines of at most kTerminalColumns that begin with `indent` (at least
 /// 1) blanks but for the first.
 std::string wrapped(const std::string& first, const std::string& text, std::size_t indent);
 
 /// Colours of terminal text, or none.
-enum class Ink { plain, strong, faint, good, bad, bar };
+enum class TextStyle { plain, strong, faint, good, bad, bar };
 
 /// `text` between the escape codes of an ink, or as it stands where `colours` is false.
-inline std::string painted(const std::string& text, Ink ink, bool colours) {
+inline std::string styled(const std::string& text, TextStyle ink, bool colours) {
   constexpr const char* kCodes[] = {"", "\033[1m", "\033[2m", "\033[32m", "\033[31m", "\033[36m"};
-  if (!colours || ink == Ink::plain || text.empty()) return text;
+  if (!colours || ink == TextStyle::plain || text.empty()) return text;
   return kCodes[static_cast<std::size_t>(ink)] + text + "\033[0m";
 }
 

@@ -121,7 +121,7 @@ inline CalibratedCell calibrated_cell(RandomStream& stream, int kind) {
   if (!cell.fitted) return cell;
   const Calibration calibration{.robot = fit.robot, .estimates = fit.estimates, .joints = {}, .unseen = {}};
   const CorrectedRobot found = without_base(fit.robot, cell.nominal.chain);
-  cell.model = with_certainty(commands_of(cell.nominal, found), found, posterior_of(data, declared, calibration),
+  cell.model = with_posterior(commands_of(cell.nominal, found), found, posterior_of(data, declared, calibration),
                               measured_ranges(data, calibration), true);
   const bool off_axis = cell.nominal.chain.tool_m.head<2>().norm() > 0.03;
   cell.ordinary = many && (orientation || off_axis);

@@ -3,15 +3,15 @@
 
 #include <sstream>
 
-#include "../programs/written_program.hpp"
 #include "calibrated_cell.hpp"
-#include "programs/branches.hpp"
+#include "languages/written_program.hpp"
+#include "programs/configuration.hpp"
 
 namespace demecal {
 
 /// A program, and for each of its targets, in the order of the text, the joints that its controller would take.
 struct MeantProgram {
-  Language language = Language::csv;
+  WrittenIn language = WrittenIn::csv;
   std::string text;
   std::vector<JointVector> joints;
   JointVector near{};             ///< that the user gives; empty: none
@@ -41,7 +41,7 @@ inline std::string ur_pose(const Eigen::Isometry3d& pose) {
 /// Writes one motion after another.
 class ProgramWriter {
  public:
-  ProgramWriter(Language language, const CalibratedCell& cell) : cell_(cell) {
+  ProgramWriter(WrittenIn language, const CalibratedCell& cell) : cell_(cell) {
     meant.language = language;
     meant.tool = Eigen::Isometry3d(Eigen::Translation3d(cell.nominal.chain.tool_m));
     meant.frame.setIdentity();
@@ -54,28 +54,28 @@ class ProgramWriter {
 
   void open() {
     switch (meant.language) {
-      case Language::val2:
+      case WrittenIn::val2:
         text_ << ".PROGRAM t\n";
         if (meant.states_tool) text_ << " TOOL t1\n";
         text_ << ".END\n.LOCATIONS\n";
         if (meant.states_tool) text_ << "t1 " << val2_pose(meant.tool) << "\n";
         break;
-      case Language::krl:
+      case WrittenIn::krl:
         text_ << "DEF t()\n";
         if (meant.states_tool) text_ << "$TOOL={" << krl_pose(meant.tool) << "}\n";
         if (meant.states_frame) text_ << "$BASE={" << krl_pose(meant.frame) << "}\n";
         break;
-      case Language::rapid:
+      case WrittenIn::rapid:
         text_ << "MODULE m\n PERS tooldata t1:=[TRUE,[" << rapid_pose(meant.tool)
               << "],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
         text_ << " PERS wobjdata w1:=[FALSE,TRUE,\"\",[" << rapid_pose(meant.frame) << "],[[0,0,0],[1,0,0,0]]];\n";
         text_ << " PROC main()\n";
         break;
-      case Language::urscript:
+      case WrittenIn::urscript:
         text_ << "def t():\n";
         if (meant.states_tool) text_ << " set_tcp(" << ur_pose(meant.tool) << ")\n";
         break;
-      case Language::csv:
+      case WrittenIn::csv:
         break;
     }
   }
@@ -84,21 +84,21 @@ class ProgramWriter {
     const std::vector<double> angles = in_degrees(joints);
     const std::string number = std::to_string(meant.joints.size() + 1);
     switch (meant.language) {
-      case Language::val2:
+      case WrittenIn::val2:
         text_ << "#p[" << number << "] " << listed(angles, kDecimals, " ") << '\n';
         break;
-      case Language::csv:
+      case WrittenIn::csv:
         csv_header("q", joints.size());
         text_ << listed(angles, kDecimals) << '\n';
         break;
-      case Language::krl:
+      case WrittenIn::krl:
         text_ << "PTP {" << named({"A1", "A2", "A3", "A4", "A5", "A6"}, angles, kDecimals) << "}\n";
         break;
-      case Language::rapid:
+      case WrittenIn::rapid:
         text_ << "  MoveAbsJ [[" << listed(angles, kDecimals) << "],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,"
               << tool_name() << ";\n";
         break;
-      case Language::urscript:
+      case WrittenIn::urscript:
         text_ << " movej([" << listed({joints.data(), 6}, kDecimals) << "], a=1)\n";
         break;
     }
@@ -109,23 +109,23 @@ class ProgramWriter {
   void pose_move(const JointVector& joints, bool line) {
     const Eigen::Isometry3d pose = written_pose(joints);
     switch (meant.language) {
-      case Language::val2:
+      case WrittenIn::val2:
         text_ << "p[" << meant.joints.size() + 1 << "] " << val2_pose(pose) << '\n';
         break;
-      case Language::csv:
+      case WrittenIn::csv:
         csv_header("x", 0);
         text_ << listed(in_mm(pose), kDecimals) << ", " << listed(wxyz(pose), kDecimals) << '\n';
         break;
-      case Language::krl:
+      case WrittenIn::krl:
         text_ << (line ? "LIN" : "PTP") << " {E6POS: " << krl_pose(pose) << ",S 2,T " << turns(joints) << "}\n";
         break;
-      case Language::rapid:
+      case WrittenIn::rapid:
         text_ << (line ? "  MoveL [" : "  MoveJ [") << rapid_pose(pose) << ","
               << "[" + configuration(joints) + "]"
               << ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine," << tool_name() << (meant.states_frame ? "\\WObj:=w1" : "")
               << ";\n";
         break;
-      case Language::urscript:
+      case WrittenIn::urscript:
         text_ << (line ? " movel(" : " movej(") << ur_pose(pose) << ", a=1)\n";
         break;
     }
@@ -133,10 +133,10 @@ class ProgramWriter {
   }
 
   MeantProgram finished() {
-    if (meant.language == Language::val2) text_ << ".END\n";
-    if (meant.language == Language::krl) text_ << "END\n";
-    if (meant.language == Language::rapid) text_ << " ENDPROC\nENDMODULE\n";
-    if (meant.language == Language::urscript) text_ << "end\n";
+    if (meant.language == WrittenIn::val2) text_ << ".END\n";
+    if (meant.language == WrittenIn::krl) text_ << "END\n";
+    if (meant.language == WrittenIn::rapid) text_ << " ENDPROC\nENDMODULE\n";
+    if (meant.language == WrittenIn::urscript) text_ << "end\n";
     meant.text = text_.str();
     return meant;
   }

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
+#include "languages/orientation.hpp"
 #include "meant_program.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/orientation.hpp"
 #include "programs/target_correction.hpp"
 
 namespace demecal {
@@ -111,14 +111,15 @@ std::optional<JointVector> reached(const CalibratedCell& cell, const MeantProgra
 }
 
 MeantProgram random_program(RandomStream& stream, const CalibratedCell& cell, int kind) {
-  const Language languages[] = {Language::val2, Language::csv, Language::krl, Language::rapid, Language::urscript};
-  const Language language = languages[kind == 2 ? stream.index(2) : stream.index(5)];
+  const WrittenIn languages[] = {WrittenIn::val2, WrittenIn::csv, WrittenIn::krl, WrittenIn::rapid,
+                                 WrittenIn::urscript};
+  const WrittenIn language = languages[kind == 2 ? stream.index(2) : stream.index(5)];
   ProgramWriter writer(language, cell);
   const bool of_joints = kind == 2 || stream.chance(0.3);
   const bool extends = stream.chance(0.1), singular = stream.chance(0.05);
   const double half_range = extends ? 2.0 : 0.5;
-  const bool conf = language == Language::krl || language == Language::rapid;
-  writer.meant.states_tool = stream.chance(0.5) && language != Language::csv;
+  const bool conf = language == WrittenIn::krl || language == WrittenIn::rapid;
+  writer.meant.states_tool = stream.chance(0.5) && language != WrittenIn::csv;
   writer.meant.states_frame = stream.chance(0.5) && conf;
   if (writer.meant.states_tool) {
     if (stream.chance(0.5)) writer.meant.tool.translation() = random_change(stream, 3, 0.2);
@@ -128,7 +129,7 @@ MeantProgram random_program(RandomStream& stream, const CalibratedCell& cell, in
   writer.open();
   std::optional<JointVector> present;
   bool far_start = false;
-  const bool starts_known = !of_joints && language != Language::csv && stream.chance(0.6);
+  const bool starts_known = !of_joints && language != WrittenIn::csv && stream.chance(0.6);
   if (starts_known) {
     const bool far = stream.chance(0.5);
     far_start = far;
@@ -155,7 +156,7 @@ MeantProgram random_program(RandomStream& stream, const CalibratedCell& cell, in
       const std::vector<JointVector> all = joints_reaching(arm, tool, wanted);
       wanted = all[stream.index(all.size())];
     }
-    const bool by_line = line && language == Language::urscript && (i > 0 || starts_known);
+    const bool by_line = line && language == WrittenIn::urscript && (i > 0 || starts_known);
     const auto joints = reached(cell, writer.meant, present, wanted, by_line, conf);
     if (!joints || (*joints).cwiseAbs().maxCoeff() > 2.96) break;
     if ((*joints - cell.middle).cwiseAbs().maxCoeff() > 0.55) writer.meant.ordinary = false;

@@ -4,10 +4,10 @@
 
 #include <ostream>
 
-#include "config/load_data_set.hpp"
-#include "config/load_job.hpp"
-#include "config/load_robot.hpp"
-#include "config/load_scenario.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 

@@ -9,17 +9,16 @@
 #include <optional>
 #include <regex>
 
-#include "config/load_data_set.hpp"
-#include "config/load_job.hpp"
-#include "config/load_matrices.hpp"
-#include "config/load_preparation.hpp"
-#include "config/load_robot.hpp"
-#include "config/load_scenario.hpp"
-#include "config/model_text.hpp"
-#include "config/read_yaml.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
+#include "config/model_file.hpp"
+#include "config/preparation_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "config/study_grid.hpp"
 #include "effects/random_effects.hpp"
 #include "formats_document.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

@@ -2,15 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/load_data_set.hpp"
-#include "config/load_job.hpp"
-#include "config/load_robot.hpp"
-#include "config/load_scenario.hpp"
-#include "config/read_declared.hpp"
-#include "config/sha256.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -192,7 +191,7 @@ TEST(LoadJob, RefusesSeedsThatAreNoFormulasOrHaveNoPlace) {
 
 TEST(LoadJob, DeclaresByTheSameWordsFromACommandLine) {
   const std::vector<std::string> words{"tool", "joint_corrections"};
-  const DeclaredModel declared = declared_of(words);
+  const DeclaredModel declared = declared_model(words);
   EXPECT_TRUE(declared.tool && declared.joint_corrections);
   EXPECT_FALSE(declared.registration || declared.joint_offset || declared.geometry);
   EXPECT_THAT(declared_words(), ElementsAre("registration", "tool", "joint_offset", "geometry", "joint_corrections"));

@@ -1,16 +1,15 @@
 // Matrices of text load as the arm they describe, and faults in them are named by line.
-#include "config/load_matrices.hpp"
+#include "config/robot_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/files.hpp"
-#include "config/load_robot.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
 #include "symbolic/calculus.hpp"
 #include "temporary_folder.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "effects/random_effects.hpp"
 #include "fitting/fit.hpp"
 #include "temporary_folder.hpp"

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <ostream>
 
-#include "config/load_data_set.hpp"
-#include "config/load_preparation.hpp"
-#include "config/load_robot.hpp"
-#include "config/write_data_set.hpp"
-#include "data/number.hpp"
+#include "config/data_set_file.hpp"
+#include "config/preparation_file.hpp"
+#include "config/robot_file.hpp"
+#include "data/text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "preparation/results.hpp"

@@ -1,9 +1,8 @@
 // Proposed poses come in the names and units of the data set that they are to join.
-#include "config/proposed_poses.hpp"
+#include "config/data_set_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "config/load_data_set.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"

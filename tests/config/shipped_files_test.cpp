@@ -4,12 +4,11 @@
 
 #include <fstream>
 
-#include "config/load_data_set.hpp"
-#include "config/load_job.hpp"
-#include "config/load_robot.hpp"
-#include "config/load_scenario.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "config/study_grid.hpp"
-#include "config/write_data_set.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "temporary_folder.hpp"
 

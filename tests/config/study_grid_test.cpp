@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/load_job.hpp"
+#include "config/job_file.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 

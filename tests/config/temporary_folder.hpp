@@ -7,8 +7,8 @@
 #include <string>
 
 #include "../errors/complaint.hpp"
-#include "config/files.hpp"
 #include "errors/check.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 

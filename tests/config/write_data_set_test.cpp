@@ -1,13 +1,12 @@
 // What is written loads back to the same values.
-#include "config/write_data_set.hpp"
+#include "config/data_set_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "config/load_data_set.hpp"
-#include "config/load_robot.hpp"
+#include "config/robot_file.hpp"
 #include "random/random_stream.hpp"
 #include "temporary_folder.hpp"
 

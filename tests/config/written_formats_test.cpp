@@ -8,18 +8,16 @@
 #include <regex>
 #include <sstream>
 
-#include "config/load_data_set.hpp"
-#include "config/load_preparation.hpp"
-#include "config/proposed_poses.hpp"
-#include "config/write_data_set.hpp"
+#include "config/data_set_file.hpp"
+#include "config/preparation_file.hpp"
 #include "data/csv.hpp"
 #include "formats_document.hpp"
 #include "full_report.hpp"
+#include "languages/named_languages.hpp"
 #include "monitor/events.hpp"
 #include "monitor/made_up_run.hpp"
 #include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
-#include "programs/read_program.hpp"
 #include "programs/summary.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
@@ -187,9 +185,9 @@ TEST(WrittenFormats, FalseTargetsOutsideProgramsHaveTheColumnsOfThePage) {
 /// The summary of a program of one target, corrected by an arm that is off by little.
 std::string summary_of(const std::string& program, const Robot& nominal, const CommandModel& model,
                        const JointVector& near) {
-  CorrectedProgram corrected =
-      correct_program(program, read_csv_targets(program, "program.csv", nominal.chain), model, {.near = near});
-  EXPECT_FALSE(corrected.targets.at(0).is_left()) << program;
+  CorrectedProgram corrected = correct_program(
+      program, read_program(WrittenIn::csv, program, "program.csv", nominal.chain), model, {.near = near});
+  EXPECT_FALSE(corrected.targets.at(0).is_uncorrected()) << program;
   corrected.targets.front().error95_m = 1e-4;
   corrected.warnings.push_back({kWholeProgram, "", "a warning"});
   return summary_json(corrected, nominal.chain);
@@ -262,7 +260,8 @@ TEST(WrittenFormats, ProgramsAreReadFromTheColumnsOfThePage) {
       "name,q1_deg,q2_mm,s1,s2,payload_kg,temperature_celsius,time_s\nP1,1,2,1,-1,3,21,5\n",
       "pose_id,q1_rad,q2_m\nP1,1,0.2\n", "id,x_mm,y_mm,z_mm,qw,qx,qy,qz\nP1,1,2,3,1,0,0,0\n", "x_m,y_m,z_m\n1,2,3\n"};
   std::vector<Target> targets;
-  for (const std::string& table : tables) targets.push_back(read_csv_targets(table, "p.csv", arm).targets.at(0));
+  for (const std::string& table : tables)
+    targets.push_back(read_program(WrittenIn::csv, table, "p.csv", arm).targets.at(0));
   EXPECT_TRUE(targets[0].approach && targets[0].payload_kg && targets[0].temperature_celsius && targets[0].time_s);
   for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(targets[i].name, "P1");
   for (const std::size_t i : {0u, 1u}) EXPECT_EQ(targets[i].joints.size(), 2u);

@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
-#include "config/files.hpp"
 #include "coordinator/event_log.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/watched.hpp"
 #include "scheduling/in_memory_run.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {

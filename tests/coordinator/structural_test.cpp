@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "terminal/report_text.hpp"

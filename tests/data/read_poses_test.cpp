@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/pose_rules.hpp"
 #include "kinematics/units.hpp"
 #include "small_arm.hpp"
 

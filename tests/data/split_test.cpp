@@ -1,13 +1,11 @@
 // Dividing poses into sets at random, and choosing them by set.
-#include "data/split.hpp"
+#include "data/data_set.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
 #include <set>
-
-#include "data/data_set.hpp"
 
 namespace demecal {
 namespace {

@@ -205,6 +205,12 @@ TEST(Documents, ArchitectureNamesFilesThatAreThereAndEveryRoom) {
   }
 }
 
+TEST(Documents, ShowTheProgramThatATestBuilds) {
+  const std::string program = text_of_file(kRoot / "tests/consumer/consumer.cpp");
+  const std::string shown = program.substr(program.find('\n') + 1);
+  EXPECT_NE(text_of_file(kRoot / "README.md").find(shown), std::string::npos);
+}
+
 TEST(ShownCommands, AreTheLinesOfShellBlocksWithoutComments) {
   const std::string text = "`demecal report DIR`\n```sh\ndemecal report DIR  # again\n```\n```\nan output\n```\n";
   const std::vector<ShownCommand> shown = shown_commands("a.md", text);

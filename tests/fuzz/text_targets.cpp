@@ -2,14 +2,15 @@
 #include <sstream>
 
 #include "../protocol/small_run.hpp"
-#include "scheduling/run_journal.hpp"
-#include "scheduling/run_state.hpp"
 #include "data/csv.hpp"
 #include "errors/input_error.hpp"
 #include "expression/shared_function.hpp"
+#include "expression/text.hpp"
 #include "expression/tree.hpp"
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
+#include "scheduling/run_journal.hpp"
+#include "scheduling/run_state.hpp"
 #include "symbolic/calculus.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/printing.hpp"

@@ -8,7 +8,7 @@
 #include "html/page.hpp"
 #include "made_up_loop.hpp"
 #include "page_reading.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {
@@ -109,7 +109,7 @@ TEST(LoopPage, ShowsWhatWasNotFoundNotSeenAndNotTrue) {
               ElementsAre(ElementsAre("backlash of joint 2 by shuffled approach signs", "1.2", "did not win"),
                           ElementsAre("a gear ratio no gear has", "-0.5", "did not win")));
   const std::string words = words_of(page);
-  EXPECT_THAT(words, HasSubstr("Round 1, backlash, joint 2: " + report.rounds[0].further->sentence));
+  EXPECT_THAT(words, HasSubstr("Round 1, backlash, joint 2: " + report.rounds[0].next_measurement->sentence));
   EXPECT_THAT(words, HasSubstr("gear_harmonic (ratio 77), joint 5"));
   EXPECT_THAT(words, HasSubstr("1\u202F312 effects were tried in every round against 999 draws of the noise"));
   EXPECT_THAT(words, HasSubstr("6 were added"));

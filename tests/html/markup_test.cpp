@@ -52,11 +52,11 @@ TEST(GroupedNumber, ReadsBackWithoutItsSpaces) {
   RandomStream random{412};
   for (int trial = 0; trial < 200; ++trial) {
     const auto value = static_cast<std::uint64_t>(std::pow(10.0, random.real(0.0, 18.0)));
-    EXPECT_EQ(with_all_replaced(grouped(value), "\u202F", ""), std::to_string(value));
+    EXPECT_EQ(with_all_replaced(grouped_digits(value), "\u202F", ""), std::to_string(value));
   }
-  EXPECT_EQ(grouped(1234567), "1\u202F234\u202F567");
-  EXPECT_EQ(grouped(999), "999");
-  EXPECT_EQ(grouped(1000), "1\u202F000");
+  EXPECT_EQ(grouped_digits(1234567), "1\u202F234\u202F567");
+  EXPECT_EQ(grouped_digits(999), "999");
+  EXPECT_EQ(grouped_digits(1000), "1\u202F000");
 }
 
 TEST(Change, IsSignedAndRelativeToWhatWas) {

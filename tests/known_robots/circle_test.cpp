@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "config/load_scenario.hpp"
+#include "config/scenario_file.hpp"
 #include "effects/measurement.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "workflows/lacking_puma.hpp"

@@ -78,7 +78,7 @@ Violations check_libraries(const Source& source, const Map& map) {
 
 Violations check_owners(const Source& source) {
   static const std::map<std::string, std::string> owners = {
-      {"yaml-cpp", "config"}, {"fastrtps", "dds"}, {"fastcdr", "tests"}, {"demecal_idl", "tests"}};
+      {"yaml-cpp", "yaml"}, {"fastrtps", "dds"}, {"fastcdr", "tests"}, {"demecal_idl", "tests"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;

@@ -35,8 +35,8 @@ std::set<std::string> reachable_rooms(const Map& map, const Room& start);
 /// Every library that `start` may include: its own and the public ones of the rooms it reaches.
 std::set<std::string> reachable_libraries(const Map& map, const Room& start);
 
-/// True for a room that opens no file, starts no thread and reads no clock: all but config, and those through which
-/// workers are reached and scheduled.
+/// True for a room that opens no file, starts no thread and reads no clock: all but yaml, config, and those through
+/// which workers are reached and scheduled.
 bool is_pure(const std::string& room);
 
 }  // namespace demecal::map

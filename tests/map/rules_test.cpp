@@ -83,7 +83,7 @@ TEST(OwnerRule, KeepsEachLibraryInItsRoom) {
     EXPECT_THAT(check_owners(including("worker/main.cpp", what)), SizeIs(1)) << what;
     EXPECT_THAT(check_owners(including("tests/report/html_test.cpp", what)), IsEmpty()) << what;
   }
-  EXPECT_THAT(check_owners(including("common/config/job.cpp", "<yaml-cpp/yaml.h>")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/yaml/read.cpp", "<yaml-cpp/yaml.h>")), IsEmpty());
   EXPECT_THAT(check_owners(including("common/dds/types.cpp", "<fastdds/dds/topic/TypeSupport.hpp>")), IsEmpty());
   EXPECT_THAT(check_owners(including("common/dds/types.cpp", "\"calibrationPubSubTypes.h\"")), SizeIs(1));
 }

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
 #include "kinematics/units.hpp"
+#include "languages/named_languages.hpp"
 #include "preparation/prepared.hpp"
-#include "programs/read_program.hpp"
 #include "random_measurements.hpp"
 
 namespace demecal {
@@ -84,7 +84,7 @@ inline MeasuredArm measured_arm(RandomStream& stream, std::size_t poses, double 
 }
 
 inline PointFile point_file(const std::string& text, const Chain& chain, const std::string& file) {
-  return {text, read_val2(text, file, chain)};
+  return {text, read_program(WrittenIn::val2, text, file, chain)};
 }
 
 /// What loading the files of this arm gives: one set, and a local frame of three exact points.

@@ -130,7 +130,7 @@ TEST(FalseTargets, AreNominalLessErrorInTheScaleAndRoundingOfTheFile) {
   const std::vector<WrittenFile> files = false_targets(raw, prepared, FrameKind::three_points);
   ASSERT_THAT(files, SizeIs(1));
   EXPECT_EQ(files[0].name, "corrected.v2");
-  const Program written = read_val2(files[0].text, "corrected.v2", arm.robot.chain);
+  const Program written = read_program(WrittenIn::val2, files[0].text, "corrected.v2", arm.robot.chain);
   const Program before = raw.sets[0].poses->program;
   ASSERT_EQ(written.targets.size(), 8u);
   for (std::size_t p = 0; p < 8; ++p) {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "preparation/readings.hpp"
 #include "random_measurements.hpp"

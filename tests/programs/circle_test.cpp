@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "corrected_arm.hpp"
+#include "languages/orientation.hpp"
+#include "languages/written_program.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/orientation.hpp"
-#include "written_program.hpp"
 
 namespace demecal {
 namespace {
@@ -66,7 +66,7 @@ std::vector<JointVector> random_targets(RandomStream& stream, const Chain& arm, 
   return targets;
 }
 
-Circle circle_of(RandomStream& stream, const CommandModel& model, Language language, bool of_poses, int decimals) {
+Circle circle_of(RandomStream& stream, const CommandModel& model, WrittenIn language, bool of_poses, int decimals) {
   std::vector<JointVector> meant = random_targets(stream, model.nominal.chain, of_poses);
   const auto line = [&](int index) {
     const JointVector& joints = meant[static_cast<std::size_t>(index - 1)];
@@ -78,7 +78,7 @@ Circle circle_of(RandomStream& stream, const CommandModel& model, Language langu
   const Run before = run_on(model, program, meant);
   const CorrectedProgram corrected = correct_program(text, std::move(program), model, {.near = meant.front()});
   for (std::size_t i = 0; i < meant.size(); ++i) {
-    EXPECT_EQ(corrected.targets[i].outcome, Correctedness::corrected);
+    EXPECT_EQ(corrected.targets[i].outcome, CorrectionOutcome::corrected);
     EXPECT_LT((meant[i] - corrected.targets[i].nominal).norm(), 1e-2);
     meant[i] = corrected.targets[i].nominal;  // the file's rounding
   }
@@ -89,8 +89,8 @@ TEST(CorrectedProgram, OfJointsHitsTheNominalPoints) {
   RandomStream stream{7201};
   for (int repetition = 0; repetition < 4; ++repetition) {
     const CommandModel model = erring_model(stream, elbow_arm(stream));
-    for (const Language language : kLanguages) {
-      SCOPED_TRACE(word_of(language));
+    for (const WrittenIn language : kLanguages) {
+      SCOPED_TRACE(to_string(language));
       const Circle exact = circle_of(stream, model, language, false, 10);
       EXPECT_GT(exact.before.position_m, 1e-4);
       EXPECT_LT(exact.after.position_m, 1e-6);
@@ -104,8 +104,8 @@ TEST(CorrectedProgram, OfJointsIsNoWorseThanItsRounding) {
   constexpr double kReach = 1.7, kHalfOfTheLastDegree = 0.5e-4 * 3.14159 / 180.0;
   for (int repetition = 0; repetition < 4; ++repetition) {
     const CommandModel model = erring_model(stream, elbow_arm(stream));
-    for (const Language language : kLanguages) {
-      SCOPED_TRACE(word_of(language));
+    for (const WrittenIn language : kLanguages) {
+      SCOPED_TRACE(to_string(language));
       EXPECT_LT(circle_of(stream, model, language, false, 4).after.position_m,
                 6 * kReach * kHalfOfTheLastDegree + 1e-6);
     }
@@ -116,12 +116,12 @@ TEST(CorrectedProgram, OfPosesHitsThePoses) {
   RandomStream stream{7203};
   for (int repetition = 0; repetition < 4; ++repetition) {
     const CommandModel model = erring_model(stream, elbow_arm(stream));
-    for (const Language language : kLanguages) {
-      SCOPED_TRACE(word_of(language));
+    for (const WrittenIn language : kLanguages) {
+      SCOPED_TRACE(to_string(language));
       const Circle circle = circle_of(stream, model, language, true, 10);
       EXPECT_GT(circle.before.position_m, 1e-4);
       EXPECT_LT(circle.after.position_m, 1e-6);
-      if (language != Language::val2) {
+      if (language != WrittenIn::val2) {
         EXPECT_LT(circle.after.orientation_rad, 1e-6);
       }
     }
@@ -133,9 +133,9 @@ TEST(CorrectedProgram, DoesNotDependOnWhereTheInstrumentStands) {
   const Robot nominal = elbow_arm(stream);
   CorrectedRobot identified = random_robot(stream, nominal.chain, 1e-3, 2e-3);
   const std::string text = written(
-      Language::val2, false, 3,
-      [&](int index) { return joints_line(Language::val2, regular_joints(stream, nominal.chain), index, 6); }, "\n");
-  const Program program = read_val2(text, "p", nominal.chain);
+      WrittenIn::val2, false, 3,
+      [&](int index) { return joints_line(WrittenIn::val2, regular_joints(stream, nominal.chain), index, 6); }, "\n");
+  const Program program = read_program(WrittenIn::val2, text, "p", nominal.chain);
   const std::string here = correct_program(text, program, unbounded_model(nominal, identified), {}).text;
   identified.sensor_from_base = random_pose(stream);
   identified.effects = {{.kind = "registration", .values = {0.01, 0.0, 0.0, 0.0, 0.02, 0.0}},
@@ -177,8 +177,8 @@ TEST(CorrectedProgram, OfAnotherToolIsNotCorrectedForTheToolMeasured) {
   identified.corrections.assign(6, {});
   identified.tools[""].translation() += Eigen::Vector3d(0.008, 0.0, 0.0);
   const std::vector<double> none(6, std::numeric_limits<double>::infinity());
-  const std::string text = joints_line(Language::urscript, regular_joints(stream, nominal.chain), 1, 6);
-  const Program program = read_urscript(text, "p", nominal.chain);
+  const std::string text = joints_line(WrittenIn::urscript, regular_joints(stream, nominal.chain), 1, 6);
+  const Program program = read_program(WrittenIn::urscript, text, "p", nominal.chain);
   const Eigen::Vector3d other{0.0, 0.0, 0.3};
   EXPECT_NE(correct_program(text, program, command_model(nominal, identified, none), {}).text, text);
   EXPECT_EQ(correct_program(text, program, command_model(nominal, identified, none, other), {}).text, text);

@@ -4,8 +4,8 @@
 
 #include "corrected_arm.hpp"
 #include "kinematics/units.hpp"
-#include "programs/branches.hpp"
-#include "written_program.hpp"
+#include "languages/written_program.hpp"
+#include "programs/configuration.hpp"
 
 namespace demecal {
 namespace {
@@ -22,10 +22,11 @@ struct Configured {
   }();
 
   std::string line(const JointVector& joints) const {
-    return pose_line(Language::urscript, model.nominal_tool(joints), joints, 1, 9) + "\n";
+    return pose_line(WrittenIn::urscript, model.nominal_tool(joints), joints, 1, 9) + "\n";
   }
   CorrectedProgram correct(const std::string& text, const JointVector& near = {}) const {
-    return correct_program(text, read_urscript(text, "p.script", model.nominal.chain), model, {.near = near});
+    return correct_program(text, read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain), model,
+                           {.near = near});
   }
 };
 
@@ -43,7 +44,7 @@ TEST(Configuration, ThatNothingTellsLeavesTheLineAndStatesBothCorrections) {
 TEST(Configuration, ComesFromTheJointsBeforeOrFromTheUser) {
   const Configured of;
   const JointVector before = of.meant + JointVector::Constant(6, 0.05);
-  const CorrectedProgram moved = of.correct(joints_line(Language::urscript, before, 1, 9) + '\n' + of.line(of.meant));
+  const CorrectedProgram moved = of.correct(joints_line(WrittenIn::urscript, before, 1, 9) + '\n' + of.line(of.meant));
   EXPECT_EQ(moved.targets[1].from, JointsFrom::line);
   EXPECT_LT((moved.targets[1].nominal - of.meant).norm(), 1e-6);
   const CorrectedProgram named = of.correct(of.line(of.meant), before);
@@ -61,7 +62,7 @@ TEST(Configuration, IsKeptAlongAStraightLineHoweverNearAnotherIs) {
     const auto end = joints_after_line(of.model.nominal.chain, from, of.model.nominal_tool(to));
     if (!end || (*end - to).norm() > 1e-6) continue;
     ++followed;
-    const CorrectedProgram corrected = of.correct(joints_line(Language::urscript, from, 1, 9) + '\n' + of.line(to));
+    const CorrectedProgram corrected = of.correct(joints_line(WrittenIn::urscript, from, 1, 9) + '\n' + of.line(to));
     EXPECT_LT((corrected.targets[1].nominal - to).norm(), 1e-5);
   }
   EXPECT_GT(followed, 15);
@@ -86,10 +87,11 @@ TEST(SingularWrist, KeepsItsJoints) {
     const CommandModel model = erring_model(stream, elbow_arm(stream));
     JointVector joints(6);
     joints << 0.4, -0.7, 0.5, 0.0, stream.real(-1e-3, 1e-3), 0.0;
-    const std::string text = joints_line(Language::urscript, joints, 1, 9);
-    const CorrectedProgram corrected = correct_program(text, read_urscript(text, "p", model.nominal.chain), model, {});
+    const std::string text = joints_line(WrittenIn::urscript, joints, 1, 9);
+    const CorrectedProgram corrected =
+        correct_program(text, read_program(WrittenIn::urscript, text, "p", model.nominal.chain), model, {});
     EXPECT_LT((corrected.targets[0].command - joints).cwiseAbs().maxCoeff(), radians(3.0));
-    EXPECT_LT(corrected.targets[0].left_m, 1e-5);
+    EXPECT_LT(corrected.targets[0].residual_m, 1e-5);
   }
 }
 

@@ -5,8 +5,8 @@
 #include "corrected_arm.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
+#include "languages/written_program.hpp"
 #include "programs/target_correction.hpp"
-#include "written_program.hpp"
 
 namespace demecal {
 namespace {
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 const std::string kExternal = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 const std::string kRobtarget = "[[100,200,300],[1,0,0,0],[0,0,0,0]," + kExternal + "]";
 
-Target only_target(Language language, const std::string& text) {
+Target only_target(WrittenIn language, const std::string& text) {
   const Program program = read_program(language, text, "p", wrist_arm());
   EXPECT_EQ(program.targets.size(), 1u) << text;
   return program.targets.empty() ? Target{} : program.targets.front();
@@ -29,14 +29,14 @@ void expect_point(const Target& target, const Eigen::Vector3d& in_base_m) {
 TEST(KrlFrames, AreThoseThatHoldWhereTheMotionStands) {
   const std::string lin = "LIN {X 10,Y 0,Z 0,A 0,B 0,C 0}\n";
   const Target target =
-      only_target(Language::krl, "$TOOL={X 1,Y 2,Z 3,A 90,B 0,C 0}\n$BASE={X 500,Y 0,Z 0,A 90,B 0,C 0}\n" + lin);
+      only_target(WrittenIn::krl, "$TOOL={X 1,Y 2,Z 3,A 90,B 0,C 0}\n$BASE={X 500,Y 0,Z 0,A 90,B 0,C 0}\n" + lin);
   EXPECT_TRUE(target.frames.tool->translation().isApprox(Eigen::Vector3d(0.001, 0.002, 0.003), 1e-12));
   expect_point(target, {0.5, 0.01, 0.0});
-  expect_point(only_target(Language::krl, "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=BASE_DATA[2]\n" + lin),
+  expect_point(only_target(WrittenIn::krl, "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=BASE_DATA[2]\n" + lin),
                {0.015, 0.0, 0.0});
-  expect_point(only_target(Language::krl, "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#BASE,2)\n" + lin),
+  expect_point(only_target(WrittenIn::krl, "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#BASE,2)\n" + lin),
                {0.015, 0.0, 0.0});
-  expect_point(only_target(Language::krl, "$BASE=$NULLFRAME\n" + lin), {0.01, 0.0, 0.0});
+  expect_point(only_target(WrittenIn::krl, "$BASE=$NULLFRAME\n" + lin), {0.01, 0.0, 0.0});
   EXPECT_EQ(target.motion, Motion::line);
 }
 
@@ -44,23 +44,23 @@ TEST(KrlFrames, ThatAreComputedAreUnknown) {
   const std::string lin = "LIN {X 10,Y 0,Z 0,A 0,B 0,C 0}\n";
   for (const char* statement : {"$BASE=my_base\n", "$BASE=BASE_DATA[3]\n", "BAS(#BASE,n)\n", "$BASE.X=5\n",
                                 "$BASE=$WORLD:shift\n", "$BASE={X x1,Y 0,Z 0,A 0,B 0,C 0}\n", "FDAT_ACT=somewhere\n"}) {
-    EXPECT_NE(only_target(Language::krl, statement + lin).frames.unknown_frame, "") << statement;
+    EXPECT_NE(only_target(WrittenIn::krl, statement + lin).frames.unknown_frame, "") << statement;
   }
-  EXPECT_NE(only_target(Language::krl, "BAS(#TOOL,4)\n" + lin).frames.unknown_tool, "");
+  EXPECT_NE(only_target(WrittenIn::krl, "BAS(#TOOL,4)\n" + lin).frames.unknown_tool, "");
 }
 
 TEST(KrlFrames, OfPointsAreThoseOfTheMotionsThatNameThem) {
   const std::string point = "DECL E6POS XP1={X 10,Y 0,Z 0,A 0,B 0,C 0,S 2,T 2}\n";
   const std::string data = "DECL FDAT FP1={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \"}\n";
   const std::string base = "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
-  const Target listed = only_target(Language::krl, base + point + data);
+  const Target listed = only_target(WrittenIn::krl, base + point + data);
   expect_point(listed, {0.015, 0.0, 0.0});
   EXPECT_THAT(listed.frames.unknown_tool, HasSubstr("TOOL_DATA[1] is not given"));
-  const Target moved = only_target(Language::krl, point + "$BASE={X 7,Y 0,Z 0,A 0,B 0,C 0}\nPTP XP1\nLIN XP1\n");
+  const Target moved = only_target(WrittenIn::krl, point + "$BASE={X 7,Y 0,Z 0,A 0,B 0,C 0}\nPTP XP1\nLIN XP1\n");
   expect_point(moved, {0.017, 0.0, 0.0});
   EXPECT_EQ(moved.motion, Motion::joints);
   EXPECT_THAT(
-      only_target(Language::krl, point + "PTP XP1\n$BASE={X 7,Y 0,Z 0,A 0,B 0,C 0}\nLIN XP1\n").frames.unknown_frame,
+      only_target(WrittenIn::krl, point + "PTP XP1\n$BASE={X 7,Y 0,Z 0,A 0,B 0,C 0}\nLIN XP1\n").frames.unknown_frame,
       HasSubstr("different frames"));
 }
 
@@ -69,54 +69,58 @@ TEST(RapidFrames, AreThoseThatMotionsName) {
   const std::string object =
       "PERS wobjdata table:=[FALSE,TRUE,\"\",[[500,0,0],[0.70710678,0,0,0.70710678]],[[0,0,10],[1,0,0,0]]];\n";
   const std::string point = "CONST robtarget p:=" + kRobtarget + ";\n";
-  const Target named = only_target(Language::rapid, tool + object + point + "MoveL p,v100,fine,grip\\WObj:=table;\n");
+  const Target named = only_target(WrittenIn::rapid, tool + object + point + "MoveL p,v100,fine,grip\\WObj:=table;\n");
   EXPECT_DOUBLE_EQ(named.frames.tool->translation().z(), 0.15);
   EXPECT_LT((stated_point(named) - Eigen::Vector3d(0.3, 0.1, 0.31)).norm(), 1e-7);
   EXPECT_EQ(named.motion, Motion::line);
-  const Target held = only_target(Language::rapid, tool + "MoveJ " + kRobtarget + ",v100,fine,grip;\n");
+  const Target held = only_target(WrittenIn::rapid, tool + "MoveJ " + kRobtarget + ",v100,fine,grip;\n");
   EXPECT_DOUBLE_EQ(held.frames.tool->translation().z(), 0.15);
   EXPECT_EQ(held.motion, Motion::joints);
-  EXPECT_TRUE(only_target(Language::rapid, point + "MoveJ p,v9,fine,tool0;\n")
+  EXPECT_TRUE(only_target(WrittenIn::rapid, point + "MoveJ p,v9,fine,tool0;\n")
                   .frames.tool->isApprox(Eigen::Isometry3d::Identity()));
 }
 
 TEST(RapidFrames, ThatAreComputedOrUnknownAreSaid) {
   const std::string point = "CONST robtarget p:=" + kRobtarget + ";\n";
   const std::string object = "wobjdata w:=[FALSE,TRUE,\"\",[[500,0,0],[1,0,0,0]],[[0,0,10],[1,0,0,0]]];\n";
-  const auto frame = [&](const std::string& text) { return only_target(Language::rapid, text).frames.unknown_frame; };
+  const auto frame = [&](const std::string& text) { return only_target(WrittenIn::rapid, text).frames.unknown_frame; };
   EXPECT_THAT(frame(point + "MoveL p,v1,fine,tool0\\WObj:=elsewhere;\n"), HasSubstr("is not given as numbers"));
   EXPECT_THAT(frame("VAR wobjdata w;\n" + point + "MoveL p,v1,fine,tool0\\WObj:=w;\n"), HasSubstr("is computed"));
   EXPECT_THAT(frame("PERS " + object + point + "w.uframe.trans.x:=3;\nMoveL p,v1,fine,tool0\\WObj:=w;\n"),
               HasSubstr("is computed"));
   EXPECT_THAT(frame("PERS " + object + point + "MoveL p,v1,fine,tool0\\WObj:=w;\nMoveL p,v1,fine,tool0;\n"),
               HasSubstr("different frames"));
-  EXPECT_THAT(only_target(Language::rapid, point + "MoveL p,v1,fine,gripper;\n").frames.unknown_tool,
+  EXPECT_THAT(only_target(WrittenIn::rapid, point + "MoveL p,v1,fine,gripper;\n").frames.unknown_tool,
               HasSubstr("tool gripper is not given"));
 }
 
 TEST(UrScriptFrames, AreTheToolsOfSetTcp) {
-  const Target first = only_target(Language::urscript, "set_tcp(p[0,0,0.2,0,0,0])\nmovel(p[0.1,0.2,0.3,0,0,0])\n");
+  const Target first = only_target(WrittenIn::urscript, "set_tcp(p[0,0,0.2,0,0,0])\nmovel(p[0.1,0.2,0.3,0,0,0])\n");
   EXPECT_DOUBLE_EQ(first.frames.tool->translation().z(), 0.2);
   const std::string named = "t=p[0,0,0.3,0,0,0]\np1=p[0.1,0.2,0.3,0,0,0]\nset_tcp(t)\nmovel(p1)\n";
-  const Target second = only_target(Language::urscript, named);
+  const Target second = only_target(WrittenIn::urscript, named);
   EXPECT_DOUBLE_EQ(second.frames.tool->translation().z(), 0.3);
-  EXPECT_THAT(only_target(Language::urscript, "set_tcp(get_tool())\nmovel(p[0.1,0.2,0.3,0,0,0])\n").frames.unknown_tool,
-              HasSubstr("is computed"));
-  EXPECT_THAT(only_target(Language::urscript, named + "set_tcp(p[0,0,0,0,0,0])\nmovel(p1)\n").frames.unknown_tool,
+  EXPECT_THAT(
+      only_target(WrittenIn::urscript, "set_tcp(get_tool())\nmovel(p[0.1,0.2,0.3,0,0,0])\n").frames.unknown_tool,
+      HasSubstr("is computed"));
+  EXPECT_THAT(only_target(WrittenIn::urscript, named + "set_tcp(p[0,0,0,0,0,0])\nmovel(p1)\n").frames.unknown_tool,
               HasSubstr("different tools"));
 }
 
 TEST(Val2Frames, AreThoseOfToolAndBase) {
   const std::string points = ".END\n.LOCATIONS\np 1 0 0 0 1 0 0 0 1 10 20 30\nt 1 0 0 0 1 0 0 0 1 0 0 150\n.END\n";
-  const Target tool = only_target(Language::val2, ".PROGRAM a\n 10 TOOL t\n" + points);
+  const Target tool = only_target(WrittenIn::val2, ".PROGRAM a\n 10 TOOL t\n" + points);
   EXPECT_EQ(tool.name, "p");
   EXPECT_DOUBLE_EQ(tool.frames.tool->translation().z(), 0.15);
-  const Program based = read_val2(".PROGRAM a\n BASE 100,,-50\n" + points, "p", wrist_arm());
+  const Program based = read_program(WrittenIn::val2, ".PROGRAM a\n BASE 100,,-50\n" + points, "p", wrist_arm());
   ASSERT_EQ(based.targets.size(), 2u);
   EXPECT_LT((stated_point(based.targets[0]) - Eigen::Vector3d(-0.09, 0.02, 0.08)).norm(), 1e-12);
-  EXPECT_THAT(read_val2(".PROGRAM a\n TOOL u\n" + points, "p", wrist_arm()).targets[0].frames.unknown_tool,
-              HasSubstr("computed"));
-  EXPECT_THAT(read_val2(".PROGRAM a\n BASE dx,0,0\n" + points, "p", wrist_arm()).targets[0].frames.unknown_frame,
+  EXPECT_THAT(
+      read_program(WrittenIn::val2, ".PROGRAM a\n TOOL u\n" + points, "p", wrist_arm()).targets[0].frames.unknown_tool,
+      HasSubstr("computed"));
+  EXPECT_THAT(read_program(WrittenIn::val2, ".PROGRAM a\n BASE dx,0,0\n" + points, "p", wrist_arm())
+                  .targets[0]
+                  .frames.unknown_frame,
               HasSubstr("computed"));
 }
 
@@ -126,9 +130,10 @@ TEST(UnknownFrames, LeaveTheirLinesAndSaySo) {
   const std::string text =
       "$BASE=my_base\nPTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n"
       "LIN {X 500,Y 200,Z 300,A 0,B 90,C 0,S 2,T 2}\n";
-  const CorrectedProgram corrected = correct_program(text, read_krl(text, "p", model.nominal.chain), model, {});
-  EXPECT_EQ(corrected.targets[0].outcome, Correctedness::corrected);
-  EXPECT_EQ(corrected.targets[1].outcome, Correctedness::left);
+  const CorrectedProgram corrected =
+      correct_program(text, read_program(WrittenIn::krl, text, "p", model.nominal.chain), model, {});
+  EXPECT_EQ(corrected.targets[0].outcome, CorrectionOutcome::corrected);
+  EXPECT_EQ(corrected.targets[1].outcome, CorrectionOutcome::uncorrected);
   EXPECT_EQ(corrected.text.substr(corrected.text.find("LIN")), text.substr(text.find("LIN")));
   ASSERT_FALSE(corrected.warnings.empty());
   EXPECT_THAT(corrected.warnings.back().sentence,
@@ -141,8 +146,9 @@ TEST(GivenTool, StandsInForOneThatTheFileDoesNotGiveAndGivesWayToOneThatItStates
   const Circumstances given{.tool_given = true};
   const std::string move = "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\nLIN {X 500,Y 200,Z 300,A 0,B 90,C 0}\n";
   const auto first_warning = [&](const std::string& text) {
-    const CorrectedProgram corrected = correct_program(text, read_krl(text, "p", model.nominal.chain), model, given);
-    EXPECT_EQ(corrected.targets[0].outcome, Correctedness::corrected);
+    const CorrectedProgram corrected =
+        correct_program(text, read_program(WrittenIn::krl, text, "p", model.nominal.chain), model, given);
+    EXPECT_EQ(corrected.targets[0].outcome, CorrectionOutcome::corrected);
     return corrected.warnings.empty() ? "" : corrected.warnings[0].sentence;
   };
   EXPECT_THAT(first_warning("BAS(#TOOL,3)\n" + move), HasSubstr("stands in for one"));

@@ -3,18 +3,18 @@
 
 #include "corrected_arm.hpp"
 #include "kinematics/angles.hpp"
-#include "written_program.hpp"
+#include "languages/written_program.hpp"
 
 namespace demecal {
 namespace {
 
 struct Case {
-  Language language;
+  WrittenIn language;
   bool of_poses;
   std::string text;
 };
 
-std::string random_program(RandomStream& stream, const CommandModel& model, Language language, bool of_poses,
+std::string random_program(RandomStream& stream, const CommandModel& model, WrittenIn language, bool of_poses,
                            JointVector& first) {
   const int decimals = static_cast<int>(3 + stream.index(10));
   const auto line = [&](int index) {
@@ -33,9 +33,9 @@ void on_random_programs(std::uint64_t seed, int repetitions, const Model& make_m
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const Robot nominal = elbow_arm(stream);
     const CommandModel model = make_model(stream, nominal);
-    for (const Language language : kLanguages) {
+    for (const WrittenIn language : kLanguages) {
       for (const bool of_poses : {false, true}) {
-        SCOPED_TRACE(std::string(word_of(language)) + (of_poses ? " of poses" : " of joints"));
+        SCOPED_TRACE(to_string(language) + (of_poses ? " of poses" : " of joints"));
         JointVector first;
         const std::string text = random_program(stream, model, language, of_poses, first);
         check(model, text, language, first);
@@ -47,7 +47,7 @@ void on_random_programs(std::uint64_t seed, int repetitions, const Model& make_m
 TEST(NeutralModel, ChangesNoByte) {
   on_random_programs(
       7101, 6, neutral_model,
-      [](const CommandModel& model, const std::string& text, Language language, const JointVector& near) {
+      [](const CommandModel& model, const std::string& text, WrittenIn language, const JointVector& near) {
         Program program = read_program(language, text, "p", model.nominal.chain);
         ASSERT_EQ(program.targets.size(), 4u);
         const CorrectedProgram corrected = correct_program(text, std::move(program), model, {.near = near});
@@ -58,7 +58,7 @@ TEST(NeutralModel, ChangesNoByte) {
 TEST(AnyModel, ChangesOnlyTheNumbersOfTargets) {
   on_random_programs(
       7102, 3, erring_model,
-      [](const CommandModel& model, const std::string& text, Language language, const JointVector& near) {
+      [](const CommandModel& model, const std::string& text, WrittenIn language, const JointVector& near) {
         const Program before = read_program(language, text, "p", model.nominal.chain);
         const CorrectedProgram corrected = correct_program(text, before, model, {.near = near});
         EXPECT_NE(corrected.text, text);
@@ -70,7 +70,7 @@ TEST(AnyModel, ChangesOnlyTheNumbersOfTargets) {
 TEST(CorrectedTwice, ChangesTheSameCellsTheSameWayEveryTime) {
   on_random_programs(
       7103, 1, erring_model,
-      [](const CommandModel& model, const std::string& text, Language language, const JointVector& near) {
+      [](const CommandModel& model, const std::string& text, WrittenIn language, const JointVector& near) {
         const Program program = read_program(language, text, "p", model.nominal.chain);
         EXPECT_EQ(correct_program(text, program, model, {.near = near}).text,
                   correct_program(text, program, model, {.near = near}).text);

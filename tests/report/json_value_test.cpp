@@ -1,5 +1,5 @@
 // JSON that lacks keys is read; JSON of the wrong kind is refused by name.
-#include "report/json_value.hpp"
+#include "report/json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(JsonValue, ReadsEveryKind) {
   const JsonValue json = read(R"({"a": {"b": [1, 2.5]}, "c": "text", "d": true, "e": 18446744073709551615})");
   EXPECT_THAT(json["a"]["b"].numbers(), ElementsAre(1.0, 2.5));
   EXPECT_EQ(json["c"].text(), "text");
-  EXPECT_EQ(json["d"].truth(), true);
+  EXPECT_EQ(json["d"].boolean(), true);
   EXPECT_EQ(json["e"].count(), 18446744073709551615u);
   EXPECT_EQ(json.members().size(), 4u);
   EXPECT_EQ(json.members()[2].first, "d");
@@ -45,7 +45,7 @@ TEST(JsonValue, IsMissingWhereKeysAreAbsentOrNull) {
     EXPECT_FALSE(missing.exists());
     EXPECT_EQ(missing.number(), std::nullopt);
     EXPECT_EQ(missing.count(), std::nullopt);
-    EXPECT_EQ(missing.truth(), std::nullopt);
+    EXPECT_EQ(missing.boolean(), std::nullopt);
     EXPECT_EQ(missing.text(), "");
     EXPECT_THAT(missing.elements(), IsEmpty());
     EXPECT_THAT(missing.members(), IsEmpty());
@@ -59,7 +59,7 @@ TEST(JsonValue, NamesPathAndValueOfTheWrongKind) {
   EXPECT_THAT(complaint([&] { text.elements(); }), HasSubstr("a[0].b must be a list"));
   EXPECT_THAT(complaint([&] { text["c"]; }), HasSubstr("a[0].b must be an object"));
   EXPECT_THAT(complaint([&] { text.members(); }), HasSubstr("a[0].b must be an object"));
-  EXPECT_THAT(complaint([&] { text.truth(); }), HasSubstr("a[0].b must be true or false"));
+  EXPECT_THAT(complaint([&] { text.boolean(); }), HasSubstr("a[0].b must be true or false"));
   EXPECT_THAT(complaint([&] { json["n"].count(); }), HasSubstr("n must be a whole number"));
   EXPECT_THAT(complaint([&] { json["n"].text(); }), HasSubstr("n must be a text"));
   EXPECT_THAT(complaint([] { read("[1]")["a"]; }), HasSubstr("the whole document must be an object"));

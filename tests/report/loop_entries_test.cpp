@@ -1,5 +1,5 @@
 // An effect keeps its place and its numbers on the way through JSON, and people read sizes they can picture.
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "made_up_loop.hpp"
-#include "report/json_fields.hpp"
-#include "report/wording.hpp"
+#include "report/figures.hpp"
+#include "report/json.hpp"
 
 namespace demecal {
 namespace {
@@ -156,15 +156,15 @@ std::vector<ClassMember> class_of(const char* kind, std::optional<std::uint64_t>
 
 TEST(EffectClass, HasTheMoreCommonCauseFirstWhicheverTheModelHolds) {
   const auto scale = class_of("sensor_scale", std::nullopt, {rival("geometry", 3, 0.99), rival("geometry", 2, 0.985)});
-  EXPECT_EQ(class_words(scale), "link geometry of joints 2 and 3 or instrument scale");
+  EXPECT_EQ(class_text(scale), "link geometry of joints 2 and 3 or instrument scale");
   const auto links = class_of("geometry", 2, {rival("sensor_scale", std::nullopt, 0.99), rival("geometry", 3, 0.985)});
-  EXPECT_EQ(class_words(links), class_words(scale));
+  EXPECT_EQ(class_text(links), class_text(scale));
   EXPECT_EQ(class_sentence(links), "Link geometry of joints 2 and 3 or instrument scale: these poses cannot tell.");
 }
 
 TEST(EffectClass, SaysAJointThatAllShareOnce) {
   const auto members = class_of("hysteresis", 2, {rival("backlash", 2, 1.0), rival("backlash", 2, 0.99)});
-  EXPECT_EQ(class_words(members), "backlash or friction hysteresis of joint 2");
+  EXPECT_EQ(class_text(members), "backlash or friction hysteresis of joint 2");
   EXPECT_EQ(members.size(), 2u);
 }
 

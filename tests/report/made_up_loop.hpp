@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "made_up_report.hpp"
-#include "report/loop_entries.hpp"
+#include "report/make_report.hpp"
 
 namespace demecal {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "data/csv.hpp"
-#include "data/number.hpp"
+#include "data/text.hpp"
 #include "made_up_study.hpp"
 
 namespace demecal {

@@ -173,9 +173,7 @@ class DisturbedRun : public RunObserver {
     std::filesystem::resize_file(path, size - std::min<std::uintmax_t>(size, random_.index(3000)));
   }
 
-  void tell(const std::string& what) {
-    happened_.told += what + '\n';
-  }
+  void tell(const std::string& what) { happened_.told += what + '\n'; }
 
   CalibrationData data_;
   std::string folder_;

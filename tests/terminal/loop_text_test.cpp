@@ -1,5 +1,5 @@
 // What a terminal shows of the closed loop.
-#include "terminal/loop_text.hpp"
+#include "terminal/report_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,6 @@
 #include "made_up_loop.hpp"
 #include "page_reading.hpp"
 #include "screen_reading.hpp"
-#include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {
@@ -192,12 +191,12 @@ TEST(LoopTerminal, IsAtMostAHundredColumnsWide) {
 TEST(TerminalText, FillsUpAndCutsToItsColumns) {
   for (const std::string text : {"", "a", "grün", "ein sehr langes Wort µµµµµ"}) {
     for (const std::size_t columns : {6u, 9u, 40u}) {
-      EXPECT_EQ(columns_of(left(text, columns)), columns);
-      EXPECT_EQ(columns_of(right(text, columns)), columns);
+      EXPECT_EQ(display_width(left_aligned(text, columns)), columns);
+      EXPECT_EQ(display_width(right_aligned(text, columns)), columns);
     }
   }
-  EXPECT_EQ(right("ü", 3), "  ü");
-  EXPECT_EQ(cut("äöüäöü", 5), "äö...");
+  EXPECT_EQ(right_aligned("ü", 3), "  ü");
+  EXPECT_EQ(truncated("äöüäöü", 5), "äö...");
 }
 
 }  // namespace

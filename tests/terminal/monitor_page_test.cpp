@@ -46,7 +46,7 @@ TEST(MonitorPage, IsNeverWiderThanTheTerminal) {
     const Watched watched = watched_after(made_up_messages(made_up_data(6, demes)));
     for (std::size_t columns = 40; columns <= 240; columns += 7) {
       for (const std::string& line : monitor_page(watched, page_of(columns))) {
-        EXPECT_LE(columns_of(line), columns) << line;
+        EXPECT_LE(display_width(line), columns) << line;
       }
     }
   }

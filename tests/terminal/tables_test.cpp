@@ -1,5 +1,5 @@
 // The tables of studies and comparisons say what was run, and fit a terminal.
-#include "terminal/tables.hpp"
+#include "terminal/report_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

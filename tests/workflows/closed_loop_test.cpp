@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "workflows/lacking_puma.hpp"
 

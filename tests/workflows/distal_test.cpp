@@ -1,7 +1,7 @@
 // A calibration by distal learning, from measured poses to a model.
 #include <gtest/gtest.h>
 
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "workflows/lacking_puma.hpp"
 

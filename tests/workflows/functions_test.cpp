@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../config/temporary_folder.hpp"
-#include "config/model_text.hpp"
+#include "config/model_file.hpp"
 #include "expression/text.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "workflows/lacking_puma.hpp"

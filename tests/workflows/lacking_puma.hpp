@@ -1,7 +1,7 @@
 // The demo's PUMA measured more often: smooth joint errors, and backlash that no job declares.
 #pragma once
 
-#include "config/load_scenario.hpp"
+#include "config/scenario_file.hpp"
 #include "effects/measurement.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "simulation/simulated_robot.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "../config/temporary_folder.hpp"
-#include "config/load_job.hpp"
-#include "config/model_text.hpp"
+#include "config/job_file.hpp"
+#include "config/model_file.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "workflows/lacking_puma.hpp"
 

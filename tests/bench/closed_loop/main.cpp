@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "config/load_robot.hpp"
+#include "config/robot_file.hpp"
 #include "output.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "data/split.hpp"
+#include "data/data_set.hpp"
 #include "kinematics/units.hpp"
 #include "random/random_stream.hpp"
 #include "simulation/simulated_robot.hpp"

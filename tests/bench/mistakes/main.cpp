@@ -14,8 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "config/load_data_set.hpp"
-#include "config/write_data_set.hpp"
+#include "config/data_set_file.hpp"
 #include "mistaken_case.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 #include "measured_arm.hpp"
 
-#include "data/split.hpp"
+#include "data/data_set.hpp"
 #include "kinematics/units.hpp"
 #include "simulation/simulated_robot.hpp"
 

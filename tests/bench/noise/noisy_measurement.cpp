@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "closed_loop/scene.hpp"
-#include "data/split.hpp"
+#include "data/data_set.hpp"
 #include "joint_courses.hpp"
 #include "kinematics/units.hpp"
 #include "measurement_noise.hpp"

@@ -9,13 +9,13 @@
 #include "bad_poses.hpp"
 #include "closed_loop/draw_truth.hpp"
 #include "closed_loop/truth.hpp"
-#include "workflows/diagnose.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/searches.hpp"
 #include "effects/measurement.hpp"
 #include "engine/thread_seconds.hpp"
 #include "errors/input_error.hpp"
 #include "noisy_measurement.hpp"
+#include "workflows/diagnose.hpp"
 
 namespace demecal::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/calibration.hpp"
-#include "config/load_data_set.hpp"
-#include "config/load_job.hpp"
+#include "config/data_set_file.hpp"
+#include "config/job_file.hpp"
 #include "effects/measurement.hpp"
 #include "evolution/island.hpp"
 #include "fitting/median.hpp"

@@ -1,0 +1,40 @@
+// Data set files: what was measured, on which robot, in which columns.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "data/columns.hpp"
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "yaml/yaml_node.hpp"
+
+namespace demecal {
+
+/// The poses and the robot of a DATASET.yaml; the files it names are taken relative to it. Where neither a set column
+/// nor `split` divides the poses, 30 % of them validate, drawn with seed 1. Throws InputError with file, line, value
+/// and rule at the first fault in any of the three files.
+DataSet load_data_set(const std::filesystem::path& path);
+
+/// What stands under `columns`.
+ColumnMap read_column_map(const YamlNode& node);
+
+/// What stands under `units`; nothing is assumed where the key is missing (null).
+AssumedUnits read_units(const YamlNode* node);
+
+/// Writes ROBOT.yaml; `purpose` becomes its first, commented line. Throws InputError where the file cannot be written.
+void write_robot(const Robot& robot, const std::filesystem::path& path, const std::string& purpose);
+
+/// Writes dataset.yaml, poses.csv and robot.yaml into the folder, which is made if need be, and returns the path of
+/// dataset.yaml. All poses must have the same quantities measured. `purpose` as above.
+std::filesystem::path write_data_set(const DataSet& data, const std::filesystem::path& folder,
+                                     const std::string& purpose);
+
+/// The CSV of `stops`: their ids "N1" onwards, the commanded joints in the names and units of the columns of the data
+/// set file, the side each joint is to be approached from, and the payload where one was recorded. Angles and lengths
+/// are rounded to what a controller takes.
+std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const DataSet& data,
+                               const std::vector<Stop>& stops);
+
+}  // namespace demecal

@@ -1,0 +1,231 @@
+#include "config/model_file.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "calibration/shared_functions.hpp"
+#include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "errors/input_error.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/units.hpp"
+#include "yaml/yaml_node.hpp"
+#include "yaml/yaml_text.hpp"
+
+namespace demecal {
+namespace {
+
+std::string rigid_text(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond turn(pose.linear());
+  const double quaternion[] = {turn.w(), turn.x(), turn.y(), turn.z()};
+  return "{position_mm: " + yaml_mm(pose.translation()) + ", quaternion_wxyz: " + yaml_numbers(quaternion) + "}";
+}
+
+std::string estimate_text(const ParameterEstimate& estimate) {
+  const auto border = [&](double value) {
+    return estimate.id.is_angle() ? degrees_text(value) : millimetres_text(value);
+  };
+  return "{name: " + yaml_text(estimate.id.name()) + ", nominal: " + border(estimate.nominal) +
+         ", value: " + border(estimate.value) + ", standard_error: " + border(estimate.standard_error) + "}";
+}
+
+std::string link_text(const Joint& joint) {
+  return "{theta_offset_deg: " + degrees_text(joint.theta_rad) + ", d_mm: " + millimetres_text(joint.d_m) +
+         ", a_mm: " + millimetres_text(joint.a_m) + ", alpha_deg: " + degrees_text(joint.alpha_rad) +
+         ", beta_deg: " + degrees_text(joint.beta_rad) + "}";
+}
+
+std::string functions_text(const CalibratedModel& model) {
+  if (!model.functions) return {};
+  std::ostringstream text;
+  text << "shared_functions:" << (model.functions->empty() ? " []\n" : "\n");
+  for (std::size_t i = 0; i < model.functions->size(); ++i) {
+    text << "  - {definition: " << yaml_text(definition_text((*model.functions)[i], i)) << ", joints: [";
+    const std::vector<int> joints = joints_calling(model.robot, *model.functions, i);
+    for (std::size_t k = 0; k < joints.size(); ++k) text << (k == 0 ? "" : ", ") << joints[k] + 1;
+    text << "]}\n";
+  }
+  return text.str();
+}
+
+std::string correction_text(const JointSummary& summary, const JointCorrection& correction,
+                            const KnownFunctions& functions) {
+  std::ostringstream text;
+  text << "  - joint: " << summary.joint + 1 << '\n';
+  if (!summary.kept) {
+    text << "    expression: theta-theta\n";
+    if (!summary.note.empty()) text << "    note: " << yaml_text(summary.note) << '\n';
+    return text.str();
+  }
+  const double range[] = {correction.range_rad().lower, correction.range_rad().upper};
+  text << "    expression: " << yaml_text(to_string(correction.formula())) << '\n';
+  if (const FoldedFormula calling = folded_correction(correction, functions); !calling.calls.empty())
+    text << "    with_functions: " << yaml_text(to_string(calling)) << '\n';
+  text << "    range_rad: " << yaml_numbers(range) << '\n';
+  if (correction.branch().wraps)
+    text << "    branch_centre_rad: " << number_text(correction.branch().centre_rad) << '\n';
+  if (std::isfinite(summary.bound_rad)) text << "    bound_rad: " << number_text(summary.bound_rad) << '\n';
+  text << "    discontinuities_rad: " << yaml_numbers(summary.discontinuities_rad) << '\n';
+  return text.str();
+}
+
+Eigen::Isometry3d read_rigid(const YamlNode& node) {
+  node.with_keys({"position_mm", "quaternion_wxyz"});
+  const YamlNode& turn = node.at("quaternion_wxyz");
+  const std::vector<double> q = turn.numbers();
+  if (q.size() != 4) turn.fail("", "must have 4 numbers");
+  const Eigen::Quaterniond quaternion(q[0], q[1], q[2], q[3]);
+  if (std::abs(quaternion.norm() - 1.0) > 1e-6) turn.fail("", "must be a unit quaternion");
+  Eigen::Isometry3d pose(quaternion.normalized());
+  pose.translation() = metres(1.0) * node.at("position_mm").vector3();
+  return pose;
+}
+
+void read_link(const YamlNode& node, Joint& joint) {
+  node.with_keys({"theta_offset_deg", "d_mm", "a_mm", "alpha_deg", "beta_deg"});
+  joint.theta_rad = radians(node.at("theta_offset_deg").number());
+  joint.d_m = metres(node.at("d_mm").number());
+  joint.a_m = metres(node.at("a_mm").number());
+  joint.alpha_rad = radians(node.at("alpha_deg").number());
+  joint.beta_rad = radians(node.at("beta_deg").number());
+}
+
+Tree read_formula(const YamlNode& node, std::span<const SharedFunction> functions = {}) {
+  try {
+    return parse(node.text(), theta_only(), functions);
+  } catch (const InputError& error) {
+    node.fail(error.what());
+  }
+}
+
+/// For people: that it is what the expression says is all that is asked of it.
+void check_calls(const YamlNode& node, const Tree& formula, const CalibratedModel& model) {
+  if (!model.functions) node.fail("calls functions that the model does not define");
+  if (depth(formula) > kDeepestFolded) node.fail("stands for a formula that is too deep for calls");
+  if (in_order(read_formula(node, *model.functions)) != in_order(formula))
+    node.fail("is not the formula that `expression` is");
+}
+
+KnownFunctions read_functions(const YamlNode* node) {
+  if (node == nullptr) return std::nullopt;
+  std::vector<SharedFunction> functions;
+  for (const YamlNode& entry : node->list()) {
+    entry.with_keys({"definition", "joints"});
+    const YamlNode& definition = entry.at("definition");
+    if (functions.size() == kMostSharedFunctions) entry.fail("", "is one function too many");
+    try {
+      functions.push_back(parse_definition(definition.text(), functions.size()));
+    } catch (const InputError& error) {
+      definition.fail(error.what());
+    }
+  }
+  return functions;
+}
+
+/// Estimates are for people: nothing but their keys is looked at.
+void check_estimates(const YamlNode* list) {
+  if (list == nullptr) return;
+  for (const YamlNode& entry : list->list()) entry.with_keys({"name", "nominal", "value", "standard_error"});
+}
+
+/// Reads one entry of `corrections` into summary and correction.
+JointCorrection read_correction(const YamlNode& node, const CalibratedModel& model, JointSummary& summary) {
+  node.with_keys({"joint", "expression", "with_functions", "range_rad", "branch_centre_rad", "bound_rad",
+                  "discontinuities_rad", "note"});
+  if (const YamlNode* note = node.find("note")) summary.note = note->text();
+  const Tree formula = read_formula(node.at("expression"));
+  summary.kept = formula != neutral_tree();
+  if (const YamlNode* calls = node.find("with_functions")) check_calls(*calls, formula, model);
+  if (!summary.kept) return {};
+  if (const YamlNode* bound = node.find("bound_rad")) summary.bound_rad = bound->non_negative();
+  if (const YamlNode* jumps = node.find("discontinuities_rad")) summary.discontinuities_rad = jumps->numbers();
+  AngleBranch branch;
+  if (const YamlNode* centre = node.find("branch_centre_rad")) branch = {true, centre->number()};
+  const auto [lower, upper] = node.at("range_rad").range();
+  return {formula, branch, {lower, upper}};
+}
+
+void read_corrections(const YamlNode& node, CalibratedModel& model) {
+  const int joints = model.robot.chain.size();
+  model.robot.corrections.assign(static_cast<std::size_t>(joints), {});
+  model.joints.resize(static_cast<std::size_t>(joints));
+  for (int joint = 0; joint < joints; ++joint) model.joints[static_cast<std::size_t>(joint)].joint = joint;
+  for (const YamlNode& entry : node.list()) {
+    const auto joint = static_cast<std::size_t>(entry.at("joint").whole_number(1, joints) - 1);
+    model.robot.corrections[joint] = read_correction(entry, model, model.joints[joint]);
+  }
+}
+
+}  // namespace
+
+std::string model_text(const CalibratedModel& model) {
+  std::ostringstream text;
+  text << "# Where the real robot goes: sensor_from_base * chain(q + g(q)) * tool, and what the effects move besides; "
+          "g is in\n"
+       << "# rad of theta in rad, coefficients of effects are in SI units\n"
+       << "demecal_model: 1\njob: " << yaml_text(model.job) << "\nversion: " << yaml_text(model.version)
+       << "\nmethod: " << to_string(model.method) << "\nseed: " << model.seed
+       << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256) << "}\n";
+  text << "robot:\n" << robot_text(model.nominal, 2);
+  text << "declared: " << yaml_list(model.declared.words()) << '\n';
+  text << "base: " << rigid_text(model.robot.sensor_from_base) << "\ntools:\n";
+  for (const auto& [target, tool] : model.robot.tools) {
+    text << "  - {" << (target.empty() ? "" : "target: " + yaml_text(target) + ", ") << "pose: " << rigid_text(tool)
+         << "}\n";
+  }
+  text << "links:\n";
+  for (const Joint& joint : model.robot.chain.joints) text << "  - " << link_text(joint) << '\n';
+  if (!model.estimates.empty()) text << "estimates:\n";
+  for (const ParameterEstimate& estimate : model.estimates) {
+    if (estimate.id.kind == ParameterId::Kind::effect) continue;  // effects say their own below
+    text << "  - " << estimate_text(estimate) << '\n';
+  }
+  text << effects_text(model.robot.effects, model.nominal) << functions_text(model) << "corrections:\n";
+  for (const JointSummary& summary : model.joints) {
+    const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
+    text << correction_text(summary, correction, model.functions);
+  }
+  text << posterior_text(model) << prediction_text(model);
+  return text.str();
+}
+
+CalibratedModel load_model(const std::filesystem::path& path) {
+  const YamlNode file = read_yaml(path).with_version("model", 1);
+  file.with_keys({"demecal_model", "job", "version", "method", "seed", "data", "robot", "declared", "base", "tools",
+                  "links", "estimates", "effects", "shared_functions", "corrections", "measured_ranges", "posterior",
+                  "prediction_interval"});
+  CalibratedModel model;
+  model.job = file.at("job").text();
+  model.version = file.at("version").text();
+  model.method = file.at("method").one_of<Method>({{"direct", Method::direct},
+                                                   {"distal", Method::distal},
+                                                   {"diagnose", Method::diagnose},
+                                                   {"structural", Method::structural}});
+  model.seed = file.at("seed").seed();
+  const YamlNode& data = file.at("data").with_keys({"name", "sha256"});
+  model.data_name = data.at("name").text();
+  model.data_sha256 = data.at("sha256").text();
+  model.nominal = read_robot(file.at("robot"));
+  model.declared = read_declared(file.at("declared"));
+  model.robot.chain = model.nominal.chain;
+  const std::vector<YamlNode>& links = file.at("links").list(model.nominal.chain.joints.size());
+  for (std::size_t i = 0; i < links.size(); ++i) read_link(links[i], model.robot.chain.joints[i]);
+  model.robot.sensor_from_base = read_rigid(file.at("base"));
+  for (const YamlNode& tool : file.at("tools").list()) {
+    tool.with_keys({"target", "pose"});
+    const YamlNode* target = tool.find("target");
+    model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
+  }
+  check_estimates(file.find("estimates"));
+  model.functions = read_functions(file.find("shared_functions"));
+  read_corrections(file.at("corrections"), model);
+  model.robot.effects = read_effects(file.at("effects"), model.nominal);
+  model.robot.described = model.nominal;
+  read_posterior(file, model);
+  read_prediction(file, model);
+  return model;
+}
+
+}  // namespace demecal

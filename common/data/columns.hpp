@@ -1,0 +1,77 @@
+// The columns of a table: which hold which quantities, in which units, and their values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/csv.hpp"
+#include "data/text.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal {
+
+/// A column's name and where the user wrote it.
+struct ColumnName {
+  std::string name;
+  InputError::Where where;
+};
+
+struct ColumnMap {
+  InputError::Where where;              ///< of the whole map
+  std::vector<ColumnName> joints;       ///< one per joint
+  std::vector<ColumnName> position;     ///< x, y, z, or none
+  std::vector<ColumnName> orientation;  ///< w, x, y, z of a unit quaternion, or none
+  std::vector<ColumnName> distances;
+  std::vector<ColumnName> approach;  ///< one per joint, or none
+  std::optional<ColumnName> payload, temperature, time, set, pose, target;
+
+  /// All columns named, in the order above.
+  std::vector<ColumnName> all() const;
+};
+
+enum class Quantity { angle, length, mass, temperature, time };
+
+/// A unit in which users may give a quantity.
+struct ColumnUnit {
+  std::string_view name;  ///< as names end in it, without the underscore: "deg"
+  Quantity quantity;
+  UnitConversion to_inside;  ///< to SI and radians; temperatures stay in celsius
+};
+
+/// The unit of that name, among: deg rad mm m kg celsius s. Nothing for any other.
+std::optional<ColumnUnit> find_unit(std::string_view name);
+
+/// What `units:` says of columns whose names carry no unit.
+struct AssumedUnits {
+  std::optional<ColumnUnit> angle;
+  std::optional<ColumnUnit> length;
+};
+
+/// The unit of a column that holds `quantity`: that in which its name ends, else the assumed one. Masses, temperatures
+/// and times have one unit each and need none in the name. Throws InputError where an angle or length has no unit, or
+/// where the name ends in a unit of something else or one that is not supported.
+ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUnits& assumed);
+
+/// A column found in a table.
+class TableColumn {
+ public:
+  /// Throws InputError naming the nearest column where the table has none of this name.
+  TableColumn(const CsvTable& table, const ColumnName& name, UnitConversion to_inside = nullptr);
+  /// The same for a quantity, with its unit.
+  TableColumn(const CsvTable& table, const ColumnName& name, Quantity quantity, const AssumedUnits& units);
+
+  const std::string& text(const CsvRow& row) const { return row.fields[index_]; }
+  /// The row's number, converted. Throws InputError where the field writes none.
+  double number(const CsvRow& row) const;
+  [[noreturn]] void fail(const CsvRow& row, const std::string& rule) const;
+
+ private:
+  std::string file_;
+  std::string name_;
+  std::size_t index_;
+  UnitConversion to_inside_;
+};
+
+}  // namespace demecal

@@ -1,0 +1,68 @@
+#include "data/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace demecal {
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string number_text(double inside, UnitConversion to_border, UnitConversion to_inside) {
+  const double border = to_border(inside);
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::array<char, 32> buffer;
+    const auto result =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), border, std::chars_format::general, digits);
+    const std::string text(buffer.data(), result.ptr);
+    if (const auto rounded = parse_number(text); rounded && to_inside(*rounded) == inside) return number_text(*rounded);
+  }
+  return number_text(border);
+}
+
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  // Row i holds the distances of the first i letters of `from` to every beginning of `to`.
+  std::vector<std::size_t> before_last(to.size() + 1), last(to.size() + 1), row(to.size() + 1);
+  for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    before_last = std::exchange(last, row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t replaced = last[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1];
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[to.size()];
+}
+
+std::string nearest_name(std::string_view word, std::span<const std::string> names) {
+  std::string nearest;
+  std::size_t smallest = std::numeric_limits<std::size_t>::max();
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(lower_case(word), lower_case(name));
+    if (distance >= smallest) continue;
+    smallest = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
+}  // namespace demecal

@@ -1,0 +1,205 @@
+#include "languages/krl_frames.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "data/text.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program_text.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::array<std::string_view, 6> kFrameParts{"x", "y", "z", "a", "b", "c"};
+
+/// The values of an aggregate's components by name, in small letters.
+std::map<std::string, std::string> parts_of(const ProgramText& text, const BracketItem& list) {
+  std::map<std::string, std::string> parts;
+  for (const BracketItem& item : list.items) {
+    if (item.is_list) continue;
+    const std::size_t end = item.begin + item.size;
+    std::size_t begin = item.begin;
+    const std::size_t colon = text.code().substr(0, end).find(':', begin);
+    if (colon != std::string_view::npos) begin = std::min(text.skip_spaces(colon + 1), end);
+    std::size_t value = std::min(text.word_end(begin), end);
+    const std::string name = lower_case(text.code().substr(begin, value - begin));
+    parts[name] = lower_case(text.trimmed(value, end));
+  }
+  return parts;
+}
+
+std::optional<double> number_of(const std::map<std::string, std::string>& parts, std::string_view name) {
+  const auto part = parts.find(std::string(name));
+  if (part == parts.end()) return std::nullopt;
+  const auto cell = cell_at(part->second, 0, part->second.size(), {});
+  return cell ? std::optional(cell->value) : std::nullopt;
+}
+
+/// The frame that {X .., Y .., Z .., A .., B .., C ..} writes; nothing where it is not all numbers.
+std::optional<Eigen::Isometry3d> frame_of(const ProgramText& text, const BracketItem& list) {
+  const std::map<std::string, std::string> parts = parts_of(text, list);
+  std::array<double, 6> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto value = number_of(parts, kFrameParts[i]);
+    if (!value) return std::nullopt;
+    values[i] = *value;
+  }
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  Eigen::Isometry3d frame(
+      rotation_from(OrientationForm::zyx_angles, {values[3] * kDegree, values[4] * kDegree, values[5] * kDegree}));
+  frame.translation() = 1e-3 * Eigen::Vector3d(values[0], values[1], values[2]);
+  return frame;
+}
+
+/// A frame's number; one that no controller has where the value is no such number.
+int frame_number(double value) {
+  constexpr double kMost = 1e6;
+  return value >= 0.0 && value <= kMost && value == std::floor(value) ? static_cast<int>(value) : -1;
+}
+
+bool is_line(const std::string& word) {
+  return word == "lin" || word == "circ" || word == "slin" || word == "scirc";
+}
+
+}  // namespace
+
+KrlFrames::KrlFrames(const ProgramText& text) : text_(text) {
+  text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
+  text.for_each_word([&](std::size_t begin, std::size_t end) { read_statement(begin, end); });
+}
+
+/// TOOL_DATA[n]={...}, BASE_DATA[n]={...} and FDAT NAME={...}.
+void KrlFrames::read_data(std::size_t begin, std::size_t end) {
+  const std::string_view code = text_.code();
+  const std::string word = lower_case(code.substr(begin, end - begin));
+  std::size_t next = text_.skip_spaces(end);
+  if ((word == "tool_data" || word == "base_data") && text_.next(next) == '[') {
+    const std::size_t close = std::min(code.find(']', next), code.size());
+    const auto number = cell_at(code, next + 1, close - std::min(close, next + 1), {});
+    const std::size_t sign = text_.skip_spaces(std::min(close + 1, code.size()));
+    if (!number || text_.next(sign) != '=' || text_.next(sign + 1) != '{') return;
+    const auto frame = frame_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
+    const std::string name = word + '[' + std::to_string(frame_number(number->value)) + ']';
+    auto& data = word == "tool_data" ? tool_data_ : base_data_;
+    data[frame_number(number->value)] = frame ? KnownFrame{name, *frame, ""} : KnownFrame::computed(name);
+  } else if (word == "fdat") {
+    const std::string name = text_.word_at(next);
+    const std::size_t sign = text_.skip_spaces(next + name.size());
+    if (name.empty() || text_.next(sign) != '=' || text_.next(sign + 1) != '{') return;
+    const auto parts = parts_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
+    const auto held = parts.find("ipo_frame");
+    data_of_[name] = {frame_number(number_of(parts, "tool_no").value_or(0.0)),
+                      frame_number(number_of(parts, "base_no").value_or(0.0)),
+                      held == parts.end() || held->second != "#tcp"};
+  }
+}
+
+KnownFrame KrlFrames::numbered(bool of_tool, int number) const {
+  const std::string name = (of_tool ? "TOOL_DATA[" : "BASE_DATA[") + std::to_string(number) + ']';
+  if (number == 0) return {of_tool ? "flange" : "base", Eigen::Isometry3d::Identity(), ""};
+  const auto& data = of_tool ? tool_data_ : base_data_;
+  const auto found = data.find(number);
+  if (found != data.end()) return found->second;
+  return {name, Eigen::Isometry3d::Identity(), name + " is not given as numbers in this file"};
+}
+
+/// What stands behind "$TOOL =" or "$BASE =".
+KnownFrame KrlFrames::assigned(std::size_t at_value, const std::string& what) const {
+  const std::size_t begin = text_.skip_spaces(at_value);
+  if (text_.next(begin) == '{') {
+    const auto frame = frame_of(text_, read_list(text_, begin, '{'));
+    return frame ? KnownFrame{what, *frame, ""} : KnownFrame::computed(what);
+  }
+  const std::string word = text_.word_at(begin);
+  const std::size_t after = text_.skip_spaces(begin + word.size());
+  if ((word == "$nullframe" || word == "$world") && text_.next(after) != ':')
+    return {word, Eigen::Isometry3d::Identity(), ""};
+  if ((word == "tool_data" || word == "base_data") && text_.next(after) == '[') {
+    const std::size_t close = std::min(text_.code().find(']', after), text_.code().size());
+    const auto number = cell_at(text_.code(), after + 1, close - std::min(close, after + 1), {});
+    if (number && close < text_.code().size() && text_.next(close + 1) != ':') {
+      return numbered(word == "tool_data", frame_number(number->value));
+    }
+  }
+  return KnownFrame::computed(what);
+}
+
+void KrlFrames::read_assignment(bool of_tool, std::size_t begin, std::size_t next) {
+  const std::string what = of_tool ? "$TOOL" : "$BASE";
+  const bool part = text_.next(next) == '.';
+  const bool whole = text_.next(next) == '=' && text_.next(text_.skip_spaces(next) + 1) != '=';
+  if (!part && !whole) return;
+  const KnownFrame frame = part ? KnownFrame::computed(what) : assigned(text_.skip_spaces(next) + 1, what);
+  of_tool ? settings_.tool_from(begin, frame) : settings_.frame_from(begin, frame);
+}
+
+/// BAS(#TOOL, n) and BAS(#BASE, n).
+void KrlFrames::read_bas(std::size_t begin, std::size_t open) {
+  const std::string_view code = text_.code();
+  if (text_.next(open) != '(') return;
+  const std::size_t hash = text_.skip_spaces(text_.skip_spaces(open) + 1);
+  if (text_.next(hash) != '#') return;
+  const std::string word = text_.word_at(hash + 1);
+  if (word != "tool" && word != "base") return;
+  const std::size_t comma = text_.skip_spaces(text_.word_end(text_.skip_spaces(hash + 1)));
+  const std::size_t close = std::min(code.find(')', comma), code.size());
+  std::size_t value = std::min(comma + 1, close);
+  const std::string_view number_text = text_.trimmed(value, close);
+  const auto number = cell_at(code, value, number_text.size(), {});
+  const bool of_tool = word == "tool";
+  const KnownFrame frame = number ? numbered(of_tool, frame_number(number->value))
+                                  : KnownFrame::computed(of_tool ? "the tool of BAS" : "the base of BAS");
+  of_tool ? settings_.tool_from(begin, frame) : settings_.frame_from(begin, frame);
+}
+
+void KrlFrames::apply_data(std::size_t begin, const FrameNumbers& numbers) {
+  KnownFrame tool = numbered(true, numbers.tool);
+  if (!numbers.tool_on_robot) tool.unknown = "the tool stands beside the robot";
+  settings_.tool_from(begin, tool);
+  settings_.frame_from(begin, numbered(false, numbers.base));
+}
+
+void KrlFrames::read_motion(const std::string& word, std::size_t begin, std::size_t next) {
+  const Motion motion = is_line(word) ? Motion::line : Motion::joints;
+  motions_[begin] = motion;
+  const std::string name = text_.word_at(next);
+  if (!name.empty()) uses_[name].push_back({begin, motion, settings_.at(begin)});
+}
+
+void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
+  const std::string word = lower_case(text_.code().substr(begin, end - begin));
+  if (word == "$tool" || word == "$base") return read_assignment(word == "$tool", begin, end);
+  if (word == "bas") return read_bas(begin, end);
+  if (word == "fdat_act" && text_.next(end) == '=') {
+    const std::string name = text_.word_at(text_.skip_spaces(end) + 1);
+    const auto data = data_of_.find(name);
+    if (data != data_of_.end()) return apply_data(begin, data->second);
+    settings_.tool_from(begin, KnownFrame::computed("the tool of FDAT_ACT"));
+    settings_.frame_from(begin, KnownFrame::computed("the base of FDAT_ACT"));
+  }
+  if (word == "ptp" || word == "sptp" || is_line(word)) read_motion(word, begin, end);
+}
+
+void KrlFrames::complete(Target& target) const {
+  const std::size_t begin = target.begin();
+  const std::string name = lower_case(target.name);
+  target.order = begin;
+  if (const auto uses = uses_.find(name); !name.empty() && uses != uses_.end()) return take_uses(uses->second, target);
+  const auto after = motions_.upper_bound(begin);
+  const std::size_t line = text_.place(begin).line;
+  if (name.empty() && after != motions_.begin() && text_.place(std::prev(after)->first).line == line) {
+    target.motion = std::prev(after)->second;
+  }
+  target.frames = settings_.at(begin);
+  const auto data = name.starts_with('x') ? data_of_.find('f' + name.substr(1)) : data_of_.end();
+  if (data == data_of_.end()) return;
+  KnownFrame tool = numbered(true, data->second.tool);
+  if (!data->second.tool_on_robot) tool.unknown = "the tool stands beside the robot";
+  set_tool(target.frames, tool);
+  set_frame(target.frames, numbered(false, data->second.base));
+}
+
+}  // namespace demecal

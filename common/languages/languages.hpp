@@ -1,0 +1,53 @@
+// The robot languages: how each is recognised, read and commented, one row a language.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "languages/program.hpp"
+
+namespace demecal {
+
+/// What correction needs to know of a language. It is defined in the language's own file and listed in languages.cpp;
+/// nothing else knows one language from another. Corrected numbers replace the bytes of the old ones.
+struct Language {
+  std::string_view name;                         ///< for --language and in results; small letters
+  std::string_view title;                        ///< as people call it
+  std::vector<std::string_view> file_endings{};  ///< in small letters, without the point
+  std::vector<std::string_view> signs{};         ///< what only this language's programs hold, in small letters
+  char comment = '#';                            ///< begins what is a comment up to the end of its line
+  std::vector<std::string_view> headers{};       ///< how lines begin, in small letters, that comments must stand behind
+  /// A function of the text alone. Throws InputError with file, line, column, value and rule where a target is
+  /// malformed; what cannot be known it says in Target::frames or Program::uncorrected, and never guesses. `arm` says
+  /// how many joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing
+  /// last line break make no difference.
+  Program (*read)(std::string_view text, const std::string& file, const Chain& arm) = nullptr;
+};
+
+/// All languages, in the order in which programs are searched for their signs.
+std::span<const Language> languages();
+
+/// The one of this name in any letter case; null where there is none.
+const Language* find_language(std::string_view name, std::span<const Language> among = languages());
+/// That of a program by its file's ending or, where that is not known, by its signs; null where neither says.
+const Language* recognize_language(std::string_view text, const std::string& file,
+                                   std::span<const Language> among = languages());
+
+Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm);
+
+// The comment by which a corrected program is known, so that none is corrected twice
+
+/// "corrected by demecal VERSION with the model of JOB (data SHA)": the same for the same model.
+std::string correction_mark(const std::string& version, const std::string& job, const std::string& data_sha256);
+
+/// The text with the mark as a comment line of its own where the language allows one: behind the first of its headers
+/// or, without one, first of all. Line breaks are those of the text.
+std::string with_mark(const std::string& text, const Language& language, const std::string& mark);
+
+/// The line (from 1) that holds a mark, in any of the languages.
+std::optional<std::size_t> marked_line(std::string_view text, std::span<const Language> among = languages());
+
+}  // namespace demecal

@@ -1,0 +1,167 @@
+// ABB RAPID: robtarget and jointtarget, declared (arrays too) or in motion commands.
+#include <algorithm>
+#include <array>
+
+#include "data/text.hpp"
+#include "languages/languages.hpp"
+#include "languages/rapid_frames.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::array<std::size_t, 4> kRobtarget{3, 4, 4, 6};
+constexpr std::array<std::size_t, 2> kJointtarget{6, 6};
+
+/// Whether the item is a list of lists of these sizes, of nothing deeper.
+bool has_shape(const BracketItem& item, std::span<const std::size_t> sizes) {
+  if (!item.is_list || item.items.size() != sizes.size()) return false;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const BracketItem& part = item.items[i];
+    if (!part.is_list || part.items.size() != sizes[i]) return false;
+    for (const BracketItem& number : part.items) {
+      if (number.is_list) return false;
+    }
+  }
+  return true;
+}
+
+class RapidReader {
+ public:
+  RapidReader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {.comment = '!'}), arm_(arm) {
+    require_six_joints(arm, file, "RAPID");
+    program_.file = file;
+  }
+
+  Program read() {
+    const std::string_view code = text_.code();
+    for (std::size_t at = 0; at < code.size();) {
+      if (text_.begins_word(at)) {
+        const std::size_t end = text_.word_end(at);
+        const std::string word = lower_case(code.substr(at, end - at));
+        at = word == "robtarget" || word == "jointtarget" ? declaration(word, end) : end;
+      } else if (code[at] == '[') {
+        const BracketItem list = read_list(text_, at, '[');
+        find_targets(list, "");
+        at += list.size;
+      } else {
+        ++at;
+      }
+    }
+    const RapidFrames frames(text_);
+    for (Target& target : program_.targets) frames.complete(target);
+    return std::move(program_);
+  }
+
+ private:
+  /// Reads `NAME{n} := [...]` after the type's word; returns where to go on.
+  std::size_t declaration(const std::string& type, std::size_t at) {
+    const std::string_view code = text_.code();
+    const std::size_t begin = text_.skip_spaces(at), end = text_.word_end(begin);
+    std::size_t next = text_.skip_spaces(end);
+    int dimensions = 0;
+    if (next < code.size() && code[next] == '{') {
+      const BracketItem list = read_list(text_, next, '{');
+      dimensions = static_cast<int>(list.items.size());
+      next = text_.skip_spaces(next + list.size);
+    }
+    if (!code.substr(next).starts_with(":=")) return end;
+    next = text_.skip_spaces(next + 2);
+    if (next >= code.size() || code[next] != '[') return next;
+    const BracketItem list = read_list(text_, next, '[');
+    declared(list, dimensions, type == "robtarget", std::string(code.substr(begin, end - begin)));
+    return next + list.size;
+  }
+
+  void declared(const BracketItem& item, int dimensions, bool is_robtarget, const std::string& name) {
+    if (dimensions > 0 && item.is_list) {
+      int index = 0;
+      for (const BracketItem& inner : item.items) {
+        declared(inner, dimensions - 1, is_robtarget, name + '{' + std::to_string(++index) + '}');
+      }
+    } else if (is_robtarget) {
+      if (!has_shape(item, kRobtarget)) {
+        text_.fail(item.begin, item.size,
+                   "must be a robtarget: [[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [six external axes]]");
+      }
+      robtarget(item, name, Numbers::required);
+    } else {
+      if (!has_shape(item, kJointtarget)) {
+        text_.fail(item.begin, item.size, "must be a jointtarget: [[six joints], [six external axes]]");
+      }
+      jointtarget(item, name, Numbers::required);
+    }
+  }
+
+  /// Targets of either shape, wherever they stand.
+  void find_targets(const BracketItem& item, const std::string& name) {
+    if (has_shape(item, kRobtarget)) {
+      robtarget(item, name, Numbers::or_expressions);
+    } else if (has_shape(item, kJointtarget)) {
+      jointtarget(item, name, Numbers::or_expressions);
+    } else {
+      for (const BracketItem& inner : item.items) find_targets(inner, name);
+    }
+  }
+
+  void robtarget(const BracketItem& item, const std::string& name, Numbers numbers) {
+    constexpr std::array<CellUnit, 3> kPosition{kMillimetres, kMillimetres, kMillimetres};
+    constexpr CellUnit kPart{1.0, kDecimalsQuaternion};
+    constexpr std::array<CellUnit, 4> kQuaternion{kPart, kPart, kPart, kPart};
+    constexpr std::array<CellUnit, 4> kConfiguration{};
+    Target target{.name = name, .place = text_.place(item.begin)};
+    const auto position = cells_of(text_, item.items[0].items, kPosition, numbers, program_, target);
+    if (!position) return;
+    const auto orientation = cells_of(text_, item.items[1].items, kQuaternion, numbers, program_, target);
+    if (!orientation) return;
+    const auto configuration = cells_of(text_, item.items[2].items, kConfiguration, numbers, program_, target);
+    if (!configuration) return;
+    require_quaternion(text_, *orientation);
+    target.position = *position;
+    target.orientation = *orientation;
+    target.form = OrientationForm::quaternion;
+    target.hint = quadrants(*configuration);
+    program_.targets.push_back(std::move(target));
+  }
+
+  /// cf1, cf4 and cf6 are the quadrants of joints 1, 4 and 6; what cfx means differs between arms.
+  ArmHint quadrants(const std::vector<Cell>& configuration) const {
+    ArmHint hint;
+    hint.quadrants.resize(arm_.joints.size());
+    const std::array<std::size_t, 3> joints{0, 3, 5};
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const double quadrant = configuration[i].value;
+      if (!is_revolute(arm_.joints[joints[i]]) || !(quadrant >= -100.0 && quadrant <= 100.0)) continue;
+      hint.quadrants[joints[i]] = static_cast<int>(quadrant);
+    }
+    return hint;
+  }
+
+  void jointtarget(const BracketItem& item, const std::string& name, Numbers numbers) {
+    Target target{.name = name, .place = text_.place(item.begin)};
+    const auto joints = cells_of(text_, item.items[0].items, joint_units(arm_), numbers, program_, target);
+    if (!joints) return;
+    target.joints = *joints;
+    program_.targets.push_back(std::move(target));
+  }
+
+  ProgramText text_;
+  const Chain& arm_;
+  Program program_;
+};
+
+}  // namespace
+
+Language rapid_language() {
+  return {.name = "rapid",
+          .title = "ABB RAPID",
+          .file_endings = {"mod", "modx", "sys", "sysx", "rapid"},
+          .signs = {"robtarget", "jointtarget", "endmodule"},
+          .comment = '!',
+          .headers = {"module"},
+          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
+            return RapidReader(text, file, arm).read();
+          }};
+}
+
+}  // namespace demecal

@@ -1,0 +1,169 @@
+#include "languages/rapid_frames.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "data/text.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program_text.hpp"
+
+namespace demecal {
+namespace {
+
+/// [[x, y, z], [q1, q2, q3, q4]].
+std::optional<Eigen::Isometry3d> rapid_frame(const ProgramText& text, const BracketItem& list) {
+  if (!list.is_list || list.items.size() != 2) return std::nullopt;
+  const auto position = list_numbers(text, list.items[0], 3), turn = list_numbers(text, list.items[1], 4);
+  if (!position || !turn) return std::nullopt;
+  double square = 0.0;
+  for (const double part : *turn) square += part * part;
+  if (std::abs(square - 1.0) > 0.02) return std::nullopt;
+  Eigen::Isometry3d frame(rotation_from(OrientationForm::quaternion, *turn));
+  frame.translation() = 1e-3 * Eigen::Vector3d((*position)[0], (*position)[1], (*position)[2]);
+  return frame;
+}
+
+bool is_word(const ProgramText& text, const BracketItem& item, std::string_view word) {
+  return lower_case(text.code().substr(item.begin, item.size)) == word;
+}
+
+KnownFrame tool_of(const ProgramText& text, const BracketItem& list, const std::string& name) {
+  if (list.items.size() != 3) return KnownFrame::computed("tool " + name);
+  if (!is_word(text, list.items[0], "true")) {
+    return {name, Eigen::Isometry3d::Identity(), "tool " + name + " stands beside the robot"};
+  }
+  const auto frame = rapid_frame(text, list.items[1]);
+  return frame ? KnownFrame{name, *frame, ""} : KnownFrame::computed("tool " + name);
+}
+
+KnownFrame object_of(const ProgramText& text, const BracketItem& list, const std::string& name) {
+  if (list.items.size() != 5) return KnownFrame::computed("work object " + name);
+  const bool still = is_word(text, list.items[0], "false") && is_word(text, list.items[1], "true");
+  if (!still) return {name, Eigen::Isometry3d::Identity(), "work object " + name + " is moved by a robot or a unit"};
+  const auto user = rapid_frame(text, list.items[3]), object = rapid_frame(text, list.items[4]);
+  return user && object ? KnownFrame{name, *user * *object, ""} : KnownFrame::computed("work object " + name);
+}
+
+/// The ends of the arguments from `begin`: commas outside of brackets, and the semicolon (or end) last.
+std::vector<std::size_t> argument_ends(std::string_view code, std::size_t begin) {
+  std::vector<std::size_t> ends;
+  int depth = 0;
+  for (std::size_t at = begin; at < code.size(); ++at) {
+    const char letter = code[at];
+    if (letter == ';') break;
+    if (letter == ',' && depth == 0) ends.push_back(at);
+    depth += letter == '[' || letter == '(' || letter == '{'   ? 1
+             : letter == ']' || letter == ')' || letter == '}' ? -1
+                                                               : 0;
+  }
+  ends.push_back(std::min(code.find(';', begin), code.size()));
+  return ends;
+}
+
+}  // namespace
+
+RapidFrames::RapidFrames(const ProgramText& text) : text_(text) {
+  const std::string_view code = text.code();
+  tools_["tool0"] = {"tool0", Eigen::Isometry3d::Identity(), ""};
+  frames_["wobj0"] = {"wobj0", Eigen::Isometry3d::Identity(), ""};
+  const auto for_each_word = [&](const auto& visit) {
+    text.for_each_word(
+        [&](std::size_t begin, std::size_t end) { visit(begin, end, lower_case(code.substr(begin, end - begin))); });
+  };
+  for_each_word([&](std::size_t, std::size_t end, const std::string& word) {
+    if (word == "tooldata" || word == "wobjdata") read_declaration(word, end);
+  });
+  for_each_word(
+      [&](std::size_t begin, std::size_t end, const std::string& word) { forget_assigned(word, begin, end); });
+  for_each_word([&](std::size_t begin, std::size_t end, const std::string& word) {
+    if (word.starts_with("move") || word.starts_with("trigg")) read_move(begin, word, end);
+  });
+}
+
+void RapidFrames::read_declaration(const std::string& type, std::size_t at) {
+  const std::string_view code = text_.code();
+  const std::size_t begin = text_.skip_spaces(at), end = text_.word_end(begin);
+  if (end == begin) return;
+  const std::string name(code.substr(begin, end - begin)), key = lower_case(name);
+  const bool tool = type == "tooldata";
+  auto& data = tool ? tools_ : frames_;
+  declared_.insert(begin);
+  const std::size_t sign = text_.skip_spaces(end);
+  const std::size_t value = code.substr(sign).starts_with(":=") ? text_.skip_spaces(sign + 2) : code.size();
+  if (value >= code.size() || code[value] != '[') {
+    data[key] = KnownFrame::computed((tool ? "tool " : "work object ") + name);
+    return;
+  }
+  const BracketItem list = read_list(text_, value, '[');
+  data[key] = tool ? tool_of(text_, list, name) : object_of(text_, list, name);
+}
+
+/// Data that statements change are computed.
+void RapidFrames::forget_assigned(const std::string& word, std::size_t begin, std::size_t end) {
+  if (declared_.contains(begin)) return;
+  const std::size_t next = text_.skip_spaces(end);
+  const std::string_view rest = text_.code().substr(next);
+  if (!rest.starts_with(":=") && !rest.starts_with('.')) return;
+  if (begin > 0 && text_.code()[begin - 1] == '\\') return;  // an argument's name, such as \WObj:=
+  for (auto* data : {&tools_, &frames_}) {
+    const auto found = data->find(word);
+    if (found != data->end()) found->second = KnownFrame::computed((data == &tools_ ? "tool " : "work object ") + word);
+  }
+}
+
+KnownFrame RapidFrames::known(const std::map<std::string, KnownFrame>& data, const std::string& name,
+                              const char* what) const {
+  const auto found = data.find(name);
+  if (found != data.end()) return found->second;
+  return {name, Eigen::Isometry3d::Identity(), std::string(what) + name + " is not given as numbers in this file"};
+}
+
+void RapidFrames::read_move(std::size_t begin, const std::string& word, std::size_t end) {
+  const std::string_view code = text_.code();
+  const std::vector<std::size_t> ends = argument_ends(code, end);
+  if (ends.size() < 3) return;
+  TargetUse use{begin, Motion::joints, {}};
+  if (word.starts_with("movel") || word.starts_with("movec") || word == "triggl" || word == "triggc") {
+    use.motion = Motion::line;
+  }
+  // The tool: the last argument that is a tool of the file or, where none is, the last.
+  std::string tool;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    const std::size_t first = text_.skip_spaces(ends[i - 1] + 1);
+    if (first >= ends[i]) continue;
+    const std::string name = lower_case(code.substr(first, std::min(text_.word_end(first), ends[i]) - first));
+    if (tools_.contains(name) || (i + 1 == ends.size() && !tools_.contains(tool))) tool = name;
+  }
+  set_tool(use.frames, known(tools_, tool, "tool "));
+  const std::string all = lower_case(code.substr(end, ends.back() - end));
+  const std::size_t option = all.find("\\wobj");
+  if (option != std::string::npos) {
+    const std::size_t sign = all.find(":=", option);
+    const std::size_t name = sign == std::string::npos ? ends.back() : text_.skip_spaces(end + sign + 2);
+    set_frame(use.frames, known(frames_, lower_case(code.substr(name, text_.word_end(name) - name)), "work object "));
+  }
+  const std::size_t targets = word.starts_with("movec") || word == "triggc" ? 2 : 1;
+  held_.push_back({end, ends[targets - 1], use});
+  for (std::size_t at = end; at < ends[targets - 1]; ++at) {
+    if (!text_.begins_word(at)) continue;
+    std::size_t stop = text_.word_end(at);
+    if (stop < code.size() && code[stop] == '{') stop = std::min(code.find('}', stop), code.size() - 1) + 1;
+    std::string name = lower_case(code.substr(at, stop - at));
+    std::erase(name, ' ');
+    uses_[name].push_back(use);
+    at = stop - 1;
+  }
+}
+
+void RapidFrames::complete(Target& target) const {
+  const std::size_t begin = target.begin();
+  target.order = begin;
+  const auto uses = uses_.find(lower_case(target.name));
+  if (!target.name.empty() && uses != uses_.end()) return take_uses(uses->second, target);
+  for (const Held& held : held_) {
+    if (begin >= held.begin && begin < held.end) return take_uses({held.use}, target);
+  }
+}
+
+}  // namespace demecal

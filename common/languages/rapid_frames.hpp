@@ -1,0 +1,36 @@
+// ABB RAPID: tools and work objects, and the motions that name them with their targets.
+#pragma once
+
+#include <set>
+
+#include "languages/program.hpp"
+
+namespace demecal {
+
+/// tooldata and wobjdata that the file declares as numbers and assigns nowhere else; tool0 is the flange, wobj0 the
+/// base. Every Move instruction takes its tool and \WObj to the targets that it names or holds.
+class RapidFrames {
+ public:
+  explicit RapidFrames(const ProgramText& text);
+
+  /// Completes a target that was read, by its name and place.
+  void complete(Target& target) const;
+
+ private:
+  void read_declaration(const std::string& type, std::size_t at);
+  void read_move(std::size_t begin, const std::string& word, std::size_t end);
+  void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
+  KnownFrame known(const std::map<std::string, KnownFrame>& data, const std::string& name, const char* what) const;
+
+  const ProgramText& text_;
+  std::map<std::string, KnownFrame> tools_, frames_;
+  std::set<std::size_t> declared_;  ///< where the names of declarations stand
+  std::map<std::string, std::vector<TargetUse>> uses_;
+  struct Held {
+    std::size_t begin, end;  ///< of a motion's targets
+    TargetUse use;
+  };
+  std::vector<Held> held_;
+};
+
+}  // namespace demecal

@@ -1,0 +1,211 @@
+// Universal Robots URScript: what movej, movel, movep, movec, servoj and servoc are sent to, as p[...] or [...], there
+// or in the variable they name, and inside get_inverse_kin().
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+
+namespace demecal {
+namespace {
+
+/// How many of its first arguments a command moves to; 0 for words that are none.
+int targets_of(std::string_view word) {
+  if (word == "movec") return 2;
+  constexpr std::array<std::string_view, 5> kCommands{"movej", "movel", "movep", "servoj", "servoc"};
+  return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end() ? 1 : 0;
+}
+
+class UrReader {
+ public:
+  UrReader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {.comment = '#'}), code_(text_.code()), arm_(arm) {
+    require_six_joints(arm, file, "URScript");
+    program_.file = file;
+  }
+
+  Program read() {
+    find_assignments();
+    text_.for_each_word([&](std::size_t begin, std::size_t end) {
+      const std::string_view word = code_.substr(begin, end - begin);
+      if (word == "set_tcp" && text_.next(end) == '(') read_tool(text_.skip_spaces(end));
+      const int targets = targets_of(word);
+      if (targets == 0 || text_.next(end) != '(') return;
+      use_ = {begin, word == "movej" || word == "servoj" ? Motion::joints : Motion::line, {}};
+      if (tool_) set_tool(use_.frames, *tool_);
+      read_call(text_.skip_spaces(end), targets);
+    });
+    for (Target& target : program_.targets) take_uses(uses_at_.at(literal_of_.at(target.begin())), target);
+    std::sort(program_.targets.begin(), program_.targets.end(),
+              [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
+    return std::move(program_);
+  }
+
+ private:
+  /// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
+  std::optional<std::size_t> literal_at(std::size_t offset) const {
+    offset = text_.skip_spaces(offset);
+    if (offset >= code_.size()) return std::nullopt;
+    const bool pose = code_[offset] == 'p' && text_.next(offset + 1) == '[' && text_.word_end(offset) == offset + 1;
+    return pose || code_[offset] == '[' ? std::optional(offset) : std::nullopt;
+  }
+
+  /// Remembers where every variable is given a literal.
+  void find_assignments() {
+    text_.for_each_word([&](std::size_t begin, std::size_t end) {
+      const std::size_t sign = text_.skip_spaces(end);
+      if (sign >= code_.size() || code_[sign] != '=' || code_.substr(sign).starts_with("==")) return;
+      const std::string name(code_.substr(begin, end - begin));
+      if (const auto literal = literal_at(sign + 1)) {
+        assigned_[name].push_back(*literal);
+      } else {
+        computed_.insert(name);
+      }
+    });
+  }
+
+  /// Reads the first `targets` arguments of the call whose parenthesis opens at `open`.
+  void read_call(std::size_t open, int targets) {
+    std::size_t offset = open + 1;
+    for (int i = 0; i < targets; ++i) {
+      target_at(after_keyword(offset), {});
+      offset = argument_end(offset);
+      if (offset >= code_.size() || code_[offset] != ',') return;
+      ++offset;
+    }
+  }
+
+  /// Past "NAME =", where the argument is given by name.
+  std::size_t after_keyword(std::size_t offset) const {
+    const std::size_t begin = text_.skip_spaces(offset), end = text_.word_end(begin);
+    if (end == begin || text_.next(end) != '=') return offset;
+    const std::size_t sign = text_.skip_spaces(end);
+    return code_.substr(sign).starts_with("==") ? offset : sign + 1;
+  }
+
+  /// The comma or parenthesis that ends the argument at `offset`.
+  std::size_t argument_end(std::size_t offset) const {
+    int depth = 0;
+    for (; offset < code_.size(); ++offset) {
+      const char letter = code_[offset];
+      if (depth == 0 && (letter == ',' || letter == ')')) return offset;
+      depth += letter == '(' || letter == '[' ? 1 : letter == ')' || letter == ']' ? -1 : 0;
+    }
+    return offset;
+  }
+
+  /// The target that an argument is: a literal, a variable that was given one, or a pose in get_inverse_kin().
+  void target_at(std::size_t offset, const ArmHint& hint) {
+    if (const auto literal = literal_at(offset)) return add(*literal, "", Numbers::or_expressions, hint);
+    const std::size_t begin = text_.skip_spaces(offset), end = text_.word_end(begin);
+    const std::string word(code_.substr(begin, end - begin));
+    if (word == "get_inverse_kin" && text_.next(end) == '(') return inverse_kinematics(text_.skip_spaces(end));
+    const auto variable = assigned_.find(word);
+    const char after = text_.next(end);
+    if (variable != assigned_.end() && (after == ',' || after == ')')) {
+      for (const std::size_t literal : variable->second) add(literal, word, Numbers::or_expressions, hint);
+    } else {
+      std::size_t first = begin;
+      const std::string argument(text_.trimmed(first, argument_end(begin)));
+      skip_target(program_, {.name = word, .place = text_.place(std::min(begin, code_.size()))},
+                  "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
+    }
+  }
+
+  /// The tool of set_tcp(): a literal, or a variable that is given one and no other.
+  void read_tool(std::size_t open) {
+    std::optional<std::size_t> literal = literal_at(open + 1);
+    const std::size_t begin = text_.skip_spaces(open + 1);
+    const std::string word(code_.substr(begin, text_.word_end(begin) - begin));
+    const auto variable = assigned_.find(word);
+    if (!literal && variable != assigned_.end() && variable->second.size() == 1 && !computed_.contains(word)) {
+      literal = variable->second.front();
+    }
+    tool_ = KnownFrame::computed("the tool of set_tcp");
+    if (!literal || code_[*literal] != 'p') return;
+    const auto values = list_numbers(text_, read_list(text_, text_.skip_spaces(*literal + 1), '['), 6);
+    if (!values) return;
+    Eigen::Isometry3d pose(rotation_from(OrientationForm::rotation_vector, {(*values)[3], (*values)[4], (*values)[5]}));
+    pose.translation() = Eigen::Vector3d((*values)[0], (*values)[1], (*values)[2]);
+    tool_ = KnownFrame{"set_tcp", pose, ""};
+  }
+
+  void inverse_kinematics(std::size_t open) {
+    const std::size_t second = argument_end(open + 1);
+    ArmHint hint;
+    if (second < code_.size() && code_[second] == ',') hint.near = joints_at(after_keyword(second + 1));
+    target_at(after_keyword(open + 1), hint);
+  }
+
+  /// The joints that a literal or a variable gives; empty where it gives none.
+  JointVector joints_at(std::size_t offset) const {
+    std::optional<std::size_t> literal = literal_at(offset);
+    const std::size_t begin = text_.skip_spaces(offset);
+    const auto variable = assigned_.find(std::string(code_.substr(begin, text_.word_end(begin) - begin)));
+    if (!literal && variable != assigned_.end()) literal = variable->second.front();
+    if (!literal || code_[*literal] != '[') return {};
+    const auto values = list_numbers(text_, read_list(text_, *literal, '['), arm_.joints.size());
+    if (!values) return {};
+    return Eigen::Map<const Eigen::VectorXd>(values->data(), arm_.size());
+  }
+
+  /// Makes a target of the literal at `begin`, unless it is one already.
+  void add(std::size_t begin, const std::string& name, Numbers numbers, const ArmHint& hint) {
+    uses_at_[begin].push_back(use_);
+    if (!seen_.insert(begin).second) return;
+    constexpr CellUnit kMetre{1.0, kDecimalsM}, kRadian{1.0, kDecimalsRad};
+    constexpr std::array<CellUnit, 6> kPose{kMetre, kMetre, kMetre, kRadian, kRadian, kRadian};
+    const bool pose = code_[begin] == 'p';
+    const BracketItem list = read_list(text_, pose ? text_.skip_spaces(begin + 1) : begin, '[');
+    Target target{.name = name, .place = text_.place(begin)};
+    if (list.items.size() != kPose.size()) {
+      text_.fail(begin, list.begin + list.size - begin,
+                 pose ? "must have six numbers: x, y, z and a rotation vector" : "must have six joint angles");
+    }
+    std::vector<CellUnit> units(kPose.begin(), kPose.end());
+    for (std::size_t i = 0; !pose && i < units.size(); ++i) {
+      units[i] = is_revolute(arm_.joints[i]) ? kRadian : kMetre;
+    }
+    const auto cells = cells_of(text_, list.items, units, numbers, program_, target);
+    if (!cells) return;
+    if (pose) {
+      target.position.assign(cells->begin(), cells->begin() + 3);
+      target.orientation.assign(cells->begin() + 3, cells->end());
+      target.form = OrientationForm::rotation_vector;
+      target.hint = hint;
+    } else {
+      target.joints = *cells;
+    }
+    literal_of_[target.begin()] = begin;
+    program_.targets.push_back(std::move(target));
+  }
+
+  ProgramText text_;
+  std::string_view code_;
+  const Chain& arm_;
+  Program program_;
+  std::map<std::string, std::vector<std::size_t>> assigned_;
+  std::set<std::string> computed_;  ///< variables that are given something else, too
+  std::set<std::size_t> seen_;
+  std::optional<KnownFrame> tool_;
+  TargetUse use_;                                          ///< the motion that is being read
+  std::map<std::size_t, std::vector<TargetUse>> uses_at_;  ///< of every literal
+  std::map<std::size_t, std::size_t> literal_of_;          ///< the literal of a target, by its first number
+};
+
+}  // namespace
+
+Language urscript_language() {
+  return {.name = "urscript",
+          .title = "URScript",
+          .file_endings = {"script", "urscript"},
+          .signs = {"movej", "movel(", "movep("},
+          .comment = '#',
+          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
+            return UrReader(text, file, arm).read();
+          }};
+}
+
+}  // namespace demecal

@@ -1,0 +1,262 @@
+// VAL II (thesis 6.1.1, Appendix C): all points between .LOCATIONS and .END, of any number of programs. `#name[i]` is
+// a precision point: a number per joint, in degrees (mm). Other names are transformation points: nine numbers of
+// rotation, the axes x, y, z of the tool one after the other, and three of translation: in sixteenths of a mm where
+// all are whole and the axes are not of length 1, in mm otherwise.
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "data/text.hpp"
+#include "languages/languages.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kSixteenthMm = 1e-3 / 16.0;
+constexpr std::size_t kRotationNumbers = 9, kTransformationNumbers = 12;
+
+struct Token {
+  std::size_t begin, size;
+};
+
+/// A location's name and the numbers after it, on its line or on those that follow.
+struct Location {
+  Token name;
+  std::vector<Token> numbers;
+};
+
+std::string rotation_rule() {
+  return "begins nine numbers that are no rotation: three axes of one length at right angles are needed";
+}
+
+std::string lower_name(const Target& target) {
+  return lower_case(target.name);
+}
+
+/// BASE dx, dy, dz, turn: how the robot's base was moved in the world that points are in, mm and degrees about z; what
+/// is left out is 0. The frame that points are in is the way back.
+KnownFrame base_of(const std::string& argument) {
+  std::array<double, 4> values{};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < values.size() && begin <= argument.size(); ++i) {
+    const std::size_t end = std::min(argument.find(',', begin), argument.size());
+    if (end > begin) {
+      const auto cell = cell_at(argument, begin, end - begin, {});
+      if (!cell) return KnownFrame::computed("BASE");
+      values[i] = cell->value;
+    }
+    begin = end + 1;
+  }
+  if (begin <= argument.size()) return KnownFrame::computed("BASE");
+  Eigen::Isometry3d moved(
+      Eigen::AngleAxisd(values[3] * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  moved.translation() = 1e-3 * Eigen::Vector3d(values[0], values[1], values[2]);
+  return {"BASE", moved.inverse(), ""};
+}
+
+KnownFrame tool_of(const std::string& argument, const Program& program) {
+  if (argument.empty() || argument == "null" || argument == "nulltool") {
+    return {"flange", Eigen::Isometry3d::Identity(), ""};
+  }
+  const auto found = std::find_if(program.targets.begin(), program.targets.end(), [&](const Target& target) {
+    return target.is_pose() && lower_name(target) == argument;
+  });
+  if (found == program.targets.end()) return KnownFrame::computed("TOOL");
+  return {found->name, stated_tool_pose(*found), ""};
+}
+
+/// The only one of the arguments; nothing where they differ.
+std::optional<std::string> only(const std::vector<std::string>& arguments) {
+  const std::set<std::string> different(arguments.begin(), arguments.end());
+  return different.size() == 1 ? std::optional(*different.begin()) : std::nullopt;
+}
+
+/// Collects the TOOL and BASE instructions of programs line by line; points are not tied to motions here, so that one
+/// tool and one base must serve all of them.
+class Val2Frames {
+ public:
+  /// Takes a line of a program, [begin, end) of the code.
+  void read_line(const ProgramText& text, std::size_t begin, std::size_t end);
+
+  /// Gives the program's targets their frames; the location that TOOL names is taken out, for nothing moves to it.
+  void complete(Program& program) const;
+
+ private:
+  std::vector<std::string> tools_, bases_;  ///< what stands behind each instruction, without spaces, in small letters
+};
+
+void Val2Frames::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::string_view code = text.code();
+  begin = text.skip_spaces(begin);
+  while (begin < end && is_digit(code[begin])) ++begin;  // a label
+  begin = text.skip_spaces(begin);
+  if (begin >= end || !text.begins_word(begin)) return;
+  const std::size_t word_end = std::min(text.word_end(begin), end);
+  const std::string word = lower_case(code.substr(begin, word_end - begin));
+  if (word != "tool" && word != "base") return;
+  std::string argument = lower_case(code.substr(word_end, end - word_end));
+  std::erase_if(argument, [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; });
+  (word == "tool" ? tools_ : bases_).push_back(argument);
+}
+
+void Val2Frames::complete(Program& program) const {
+  StatedFrames frames;
+  if (!tools_.empty()) {
+    const auto argument = only(tools_);
+    set_tool(frames, argument ? tool_of(*argument, program)
+                              : KnownFrame{"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
+  }
+  if (!bases_.empty()) {
+    const auto argument = only(bases_);
+    set_frame(frames, argument ? base_of(*argument)
+                               : KnownFrame{"BASE", Eigen::Isometry3d::Identity(), "several bases are set by BASE"});
+  }
+  std::erase_if(program.targets, [&](const Target& target) {
+    return std::find(tools_.begin(), tools_.end(), lower_name(target)) != tools_.end();
+  });
+  for (Target& target : program.targets) target.frames = frames;
+}
+
+class Val2Reader {
+ public:
+  Val2Reader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {.comment = ';'}), arm_(arm) {
+    program_.file = file;
+  }
+
+  Program read() {
+    const std::string_view code = text_.code();
+    for (std::size_t begin = 0; begin < code.size();) {
+      const std::size_t end = std::min(code.find('\n', begin), code.size());
+      read_line(begin, end);
+      begin = end + 1;
+    }
+    finish();
+    frames_.complete(program_);
+    return std::move(program_);
+  }
+
+ private:
+  void read_line(std::size_t begin, std::size_t end) {
+    const std::string_view line = text_.trimmed(begin, end);
+    end = begin + line.size();
+    if (line.starts_with('.') && (line.size() < 2 || !is_digit(line[1]))) {
+      finish();
+      in_locations_ = lower_case(line.substr(0, line.find_first_of(" \t"))) == ".locations";
+      return;
+    }
+    if (!in_locations_) return frames_.read_line(text_, begin, end);
+    if (line.empty()) return;
+    if (line.front() == '#' || text_.begins_word(begin)) begin = read_name(begin, end);
+    read_numbers(begin, end);
+  }
+
+  /// Begins a location, and returns where its name, indices included, ends.
+  std::size_t read_name(std::size_t begin, std::size_t end) {
+    finish();
+    const std::string_view code = text_.code();
+    std::size_t at = begin;
+    while (at < end && code.substr(at, 1).find_first_of(" \t,=") != 0) {
+      if (code[at] == '[') at = std::min(code.find(']', at), end);
+      if (at == end) text_.fail(begin, end - begin, "opens a bracket that its line does not close");
+      ++at;
+    }
+    location_ = {{begin, at - begin}, {}};
+    open_ = true;
+    return at;
+  }
+
+  void read_numbers(std::size_t begin, std::size_t end) {
+    constexpr std::string_view kSeparators = " \t,=";
+    const std::string_view code = text_.code().substr(0, end);
+    for (std::size_t at = begin; (at = code.find_first_not_of(kSeparators, at)) < end;) {
+      const std::size_t next = std::min(code.find_first_of(kSeparators, at), end);
+      if (!open_) text_.fail(at, next - at, "stands before the name of a location");
+      text_.number(at, next - at, {});
+      location_.numbers.push_back({at, next - at});
+      at = next;
+    }
+  }
+
+  /// Makes a target of the location that was begun.
+  void finish() {
+    if (!open_) return;
+    open_ = false;
+    const std::string name(text_.text().substr(location_.name.begin, location_.name.size));
+    Target target{.name = name, .place = text_.place(location_.name.begin)};
+    name.front() == '#' ? read_precision_point(target) : read_transformation(target);
+    program_.targets.push_back(std::move(target));
+  }
+
+  void require_numbers(std::size_t expected, const std::string& of_what) const {
+    if (location_.numbers.size() == expected) return;
+    text_.fail(location_.name.begin, location_.name.size,
+               "has " + std::to_string(location_.numbers.size()) + " numbers; " + of_what + " has " +
+                   std::to_string(expected));
+  }
+
+  void read_precision_point(Target& target) const {
+    require_numbers(arm_.joints.size(), "a precision point of this arm");
+    const std::vector<CellUnit> units = joint_units(arm_);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      target.joints.push_back(text_.number(location_.numbers[i].begin, location_.numbers[i].size, units[i]));
+    }
+  }
+
+  void read_transformation(Target& target) const {
+    require_numbers(kTransformationNumbers, "a transformation point (nine of rotation, three of translation)");
+    target.form = OrientationForm::columns;
+    for (std::size_t i = 0; i < kRotationNumbers; ++i) {
+      target.orientation.push_back(text_.number(location_.numbers[i].begin, location_.numbers[i].size, {}));
+    }
+    const double length = axis_length(target.orientation);
+    const bool counted =
+        length > 1.5 && std::none_of(location_.numbers.begin(), location_.numbers.end(), [&](Token at) {
+          return text_.code().substr(at.begin, at.size).find_first_of(".eE") != std::string_view::npos;
+        });
+    const CellUnit unit = counted ? CellUnit{kSixteenthMm, 0} : kMillimetres;
+    for (std::size_t i = kRotationNumbers; i < kTransformationNumbers; ++i) {
+      target.position.push_back(text_.number(location_.numbers[i].begin, location_.numbers[i].size, unit));
+    }
+  }
+
+  /// The length of the rotation's axes, whatever it is scaled by.
+  double axis_length(const std::vector<Cell>& cells) const {
+    Eigen::Matrix3d axes;
+    for (Eigen::Index i = 0; i < 9; ++i) axes(i % 3, i / 3) = cells[static_cast<std::size_t>(i)].value;
+    const double length = std::sqrt(axes.squaredNorm() / 3.0);
+    const Eigen::Matrix3d product = axes.transpose() * axes / (length * length);
+    const bool rotation = length > 0.0 && (product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 0.02;
+    if (!rotation || !(axes.determinant() > 0.0)) {
+      text_.fail(location_.numbers.front().begin, location_.numbers.front().size, rotation_rule());
+    }
+    return length;
+  }
+
+  ProgramText text_;
+  const Chain& arm_;
+  Program program_;
+  bool in_locations_ = false, open_ = false;
+  Location location_{};
+  Val2Frames frames_;
+};
+
+}  // namespace
+
+Language val2_language() {
+  return {.name = "val2",
+          .title = "VAL II",
+          .file_endings = {"v2", "val", "val2", "pg", "lc"},
+          .signs = {".locations", ".program"},
+          .comment = ';',
+          .headers = {".program", ".locations"},
+          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
+            return Val2Reader(text, file, arm).read();
+          }};
+}
+
+}  // namespace demecal

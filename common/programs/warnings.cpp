@@ -1,0 +1,134 @@
+#include "programs/correct_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/corrected_robot.hpp"
+#include "kinematics/units.hpp"
+#include "programs/nominal_joints.hpp"
+#include "programs/target_correction.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kLimitRounding = 1e-4;  ///< rad or m: files round, and the ends of ranges are poses themselves
+constexpr double kLargestUsual = 0.05;   ///< rad or m: errors of arms are a tenth of it
+
+void check_limits(int joint, const Joint& link, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
+  const std::string limits = joint_amount(link, link.lower) + " .. " + joint_amount(link, link.upper);
+  if (beyond_limits(link, corrected.nominal[joint]) > kLimitRounding) {
+    sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, corrected.nominal[joint]) +
+                        ", outside its limits " + limits);
+  } else if (beyond_limits(link, corrected.command[joint]) > kLimitRounding) {
+    sentences.push_back("the correction takes " + joint_label(joint) + " to " +
+                        joint_amount(link, corrected.command[joint]) + ", outside its limits " + limits);
+  }
+}
+
+void check_range(int joint, const Joint& link, const CorrectedTarget& corrected, const CommandModel& model,
+                 std::vector<std::string>& sentences) {
+  const double value = corrected.nominal[joint];
+  const bool corrected_range = distance_outside_calibrated(model.robot, joint, value) > kLimitRounding;
+  const std::optional<Interval> range =
+      corrected_range ? calibrated_range(model.robot, joint) : outside_measured(model, joint, value);
+  if (!range) return;
+  sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, value) +
+                      ", outside the calibrated range " + joint_amount(link, range->lower) + " .. " +
+                      joint_amount(link, range->upper));
+}
+
+/// What the model would ask for without its joint corrections: their bounds speak of the rest.
+JointVector without_formulas(const CorrectedTarget& corrected, const CommandModel& model) {
+  CorrectedRobot robot = model.robot;
+  for (JointCorrection& correction : robot.corrections) correction = {};
+  return command_reaching(robot, corrected.goal, corrected.stop).q;
+}
+
+void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, std::vector<std::string>& sentences) {
+  const JointVector change = corrected.inverse - corrected.nominal;
+  std::optional<JointVector> rest;
+  for (int joint = 0; joint < change.size(); ++joint) {
+    const double bound = model.bounds[static_cast<std::size_t>(joint)];
+    const Joint& link = model.nominal.chain.joints[static_cast<std::size_t>(joint)];
+    double allowed = bound * (1.0 + 1e-6) + 1e-9;
+    if (std::isfinite(bound) && std::abs(change[joint]) > allowed) {
+      if (!rest) rest = without_formulas(corrected, model);
+      allowed += std::abs((*rest)[joint] - corrected.nominal[joint]);
+      if (std::abs(change[joint]) > allowed) {
+        sentences.push_back("the correction of " + joint_label(joint) + ", " + joint_amount(link, change[joint]) +
+                            ", is larger than the bound that the model states, " + joint_amount(link, bound));
+        continue;
+      }
+    }
+    if (std::abs(change[joint]) <= kLargestUsual) continue;
+    sentences.push_back("the correction of " + joint_label(joint) + ", " + joint_amount(link, change[joint]) +
+                        ", is larger than errors of arms are; is the pose near a singularity?");
+  }
+}
+
+void check_configuration(const Target& target, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
+  if (!target.is_pose() || target.hint.empty()) return;
+  if (contradictions(target.hint, corrected.nominal) > 0) {
+    sentences.emplace_back("no joints were found that reach the pose in the configuration that is stated");
+  } else if (contradictions(target.hint, corrected.command) > 0) {
+    sentences.emplace_back("the correction takes a joint out of the configuration that is stated");
+  }
+}
+
+/// What should be known of a tool that the user names for this program.
+void check_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std::vector<std::string>& sentences) {
+  constexpr double kAnother = 1e-4;  ///< m
+  const auto another = [&](const Target& target) {
+    return target.frames.tool && (target.frames.tool->translation() - tool_m).norm() > kAnother;
+  };
+  const auto stands_in = [](const Target& target) { return target.is_pose() && !target.frames.unknown_tool.empty(); };
+  if (std::any_of(program.targets.begin(), program.targets.end(), another)) {
+    sentences.emplace_back(
+        "the program states a tool that is not the one given with --tool-mm; where it states one, that one is "
+        "corrected");
+  }
+  if (std::any_of(program.targets.begin(), program.targets.end(), stands_in)) {
+    sentences.emplace_back(
+        "the tool given with --tool-mm stands in for one that the file does not give; its axes are taken to be those "
+        "of "
+        "the flange");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected,
+                                     const CommandModel& model) {
+  if (corrected.outcome == CorrectionOutcome::no_joints) {
+    return {"the nominal robot does not reach the pose; it is left as it is"};
+  }
+  std::vector<std::string> sentences = corrected.remarks;
+  if (corrected.outcome == CorrectionOutcome::uncorrected) return sentences;
+  for (int joint = 0; joint < model.nominal.chain.size(); ++joint) {
+    const Joint& link = model.nominal.chain.joints[static_cast<std::size_t>(joint)];
+    check_limits(joint, link, corrected, sentences);
+    check_range(joint, link, corrected, model, sentences);
+  }
+  check_bounds(corrected, model, sentences);
+  check_configuration(target, corrected, sentences);
+  if (corrected.outcome == CorrectionOutcome::nearest) {
+    sentences.push_back("the model has no exact inverse here; " + fixed_text(millimetres(corrected.residual_m), 4) +
+                        " mm of position error and " + fixed_text(degrees(corrected.residual_rad), 4) +
+                        " deg of orientation error remain");
+  }
+  return sentences;
+}
+
+std::vector<std::string> warnings_of(const Program& program, const CommandModel& model, bool tool_given) {
+  std::vector<std::string> sentences = model.notes;
+  if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
+  const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
+  if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {
+    sentences.emplace_back(
+        "positions without orientation: they are corrected for the joints nearest to those of the target before");
+  }
+  if (tool_given) check_given_tool(program, model.nominal.chain.tool_m, sentences);
+  return sentences;
+}
+
+}  // namespace demecal

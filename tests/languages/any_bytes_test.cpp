@@ -1,0 +1,147 @@
+// Readers end with a program or with a sentence, whatever bytes they are given.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "errors/input_error.hpp"
+#include "kinematics/forward.hpp"
+#include "languages/written_program.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr std::string_view kTelling = "[]{}(),;:=\"'!#.$&\n\r\t p1-eE";
+
+/// The text with a few bytes changed, taken out, doubled, or cut off.
+std::string disturbed(RandomStream& stream, std::string text) {
+  const std::size_t changes = 1 + stream.index(4);
+  for (std::size_t i = 0; i < changes && !text.empty(); ++i) {
+    const std::size_t at = stream.index(text.size());
+    switch (stream.index(5)) {
+      case 0:
+        text[at] = kTelling[stream.index(kTelling.size())];
+        break;
+      case 1:
+        text.erase(at, 1 + stream.index(6));
+        break;
+      case 2:
+        text.insert(at, text.substr(at, stream.index(30)));
+        break;
+      case 3:
+        text[at] = static_cast<char>(stream.index(256));
+        break;
+      default:
+        text.resize(at);
+    }
+  }
+  return text;
+}
+
+/// Every number lies inside the text, and none overlaps another.
+void expect_sound(const Program& program, const std::string& text) {
+  std::vector<std::pair<std::size_t, std::size_t>> spans;
+  for (const Target& target : program.targets) {
+    for (const auto* cells : {&target.joints, &target.position, &target.orientation}) {
+      for (const Cell& cell : *cells) spans.emplace_back(cell.begin, cell.begin + cell.size);
+    }
+  }
+  std::sort(spans.begin(), spans.end());
+  std::size_t last = 0;
+  for (const auto& [begin, end] : spans) {
+    EXPECT_GE(begin, last);
+    EXPECT_LT(begin, end);
+    last = end;
+  }
+  EXPECT_LE(last, text.size());
+}
+
+TEST(Readers, EndWithAProgramOrASentence) {
+  RandomStream stream{7401};
+  const Chain arm = wrist_arm();
+  int read = 0, refused = 0;
+  for (int repetition = 0; repetition < 400; ++repetition) {
+    for (const WrittenIn language : kLanguages) {
+      const bool of_poses = stream.chance(0.5);
+      const auto line = [&](int index) {
+        const JointVector joints = random_joints(stream, arm);
+        return of_poses ? pose_line(language, forward(arm, joints), joints, index, 3)
+                        : joints_line(language, joints, index, 3);
+      };
+      const std::string text = disturbed(stream, written(language, of_poses, 2, line, "\n"));
+      try {
+        expect_sound(read_program(language, text, "p", arm), text);
+        ++read;
+      } catch (const InputError&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(read, 200);
+  EXPECT_GT(refused, 200);
+}
+
+/// Programs that state tools, frames and configurations in every way that is read.
+const std::vector<std::pair<WrittenIn, std::string>>& stating_programs() {
+  static const std::vector<std::pair<WrittenIn, std::string>> programs{
+      {WrittenIn::val2,
+       ".PROGRAM a\n 10 TOOL t\n BASE 100,,-50,30\n MOVE p\n.END\n.LOCATIONS\n"
+       "t 1 0 0 0 1 0 0 0 1 0 0 150\np 1 0 0 0 1 0 0 0 1 10 20 30\n.END\n"},
+      {WrittenIn::krl,
+       "&ACCESS RVP\nDEF a()\nTOOL_DATA[1]={X 1,Y 2,Z 3,A 4,B 5,C 6}\nBASE_DATA[2]={X 1,Y 2,Z 3,A 4,B 5,C 6}\n"
+       "DECL FDAT FP1={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \"}\nFDAT_ACT=FP1\nBAS(#TOOL,1)\n"
+       "$BASE=BASE_DATA[2]\n$TOOL={X 1,Y 2,Z 3,A 4,B 5,C 6}\n$BASE.X=3\n$TOOL=$NULLFRAME\n"
+       "DECL E6POS XP1={X 10,Y 0,Z 0,A 0,B 0,C 0,S 2,T 2}\nLIN XP1 C_DIS\nPTP {E6POS: X 1,Y 2,Z 3,A 4,B 5,C 6}\nEND\n"},
+      {WrittenIn::rapid,
+       "MODULE m\nPERS tooldata g:=[TRUE,[[0,0,150],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+       "PERS wobjdata w:=[FALSE,TRUE,\"\",[[500,0,0],[1,0,0,0]],[[0,0,10],[1,0,0,0]]];\nw.uframe:=f;\n"
+       "CONST robtarget p{1}:=[[[100,200,300],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]];\n"
+       "MoveC p{1},Offs(p{1},0,0,5),v100,fine,g\\WObj:=w;\nMoveJ p{1},v9,fine,tool0;\nENDMODULE\n"},
+      {WrittenIn::urscript,
+       "def a():\n t=p[0,0,0.3,0,0,0]\n q=p[0.1,0.2,0.3,0,0,0]\n set_tcp(t)\n movej(get_inverse_kin(q, "
+       "qnear=[0,0,0,0,0,0]))\n"
+       " set_tcp(p[0,0,0,0,0,0])\n movel(q)\nend\n"}};
+  return programs;
+}
+
+TEST(Readers, EndWithFramesOrASentence) {
+  RandomStream stream{7403};
+  const Chain arm = wrist_arm();
+  int read = 0, refused = 0;
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    for (const auto& [language, whole] : stating_programs()) {
+      const std::string text = disturbed(stream, whole);
+      try {
+        const Program program = read_program(language, text, "p", arm);
+        expect_sound(program, text);
+        for (const Target& target : program.targets) {
+          if (!target.is_pose()) continue;
+          EXPECT_TRUE(stated_tool_pose(target).matrix().allFinite()) << text;
+        }
+        ++read;
+      } catch (const InputError&) {
+        ++refused;
+      }
+      marked_line(with_mark(text, row_of(language), "corrected by demecal"));
+    }
+  }
+  EXPECT_GT(read, 200);
+  EXPECT_GT(refused, 200);
+}
+
+TEST(Readers, RefuseBracketsWithoutEnd) {
+  for (const char bracket : {'[', '{', '('}) {
+    std::string text = "movej(";
+    for (int i = 0; i < 100000; ++i) text += bracket;
+    for (const WrittenIn language : {WrittenIn::krl, WrittenIn::rapid, WrittenIn::urscript}) {
+      try {
+        read_program(language, text, "p", wrist_arm());
+      } catch (const InputError&) {
+        continue;
+      }
+      EXPECT_TRUE(bracket == '(' || (bracket == '{') != (language == WrittenIn::krl));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,43 @@
+// The mark of corrected programs: where it stands, and that it is found again.
+#include <gtest/gtest.h>
+
+#include "languages/written_program.hpp"
+
+namespace demecal {
+namespace {
+
+TEST(Mark, IsACommentThatReadersPassOverAndASecondRunFinds) {
+  const std::string mark = correction_mark("1.0", "a job", "0123456789abcdef");
+  EXPECT_EQ(mark, "corrected by demecal 1.0 with the model of a job (data 0123456789ab)");
+  RandomStream stream{7510};
+  const Chain arm = wrist_arm();
+  for (const WrittenIn language : kLanguages) {
+    for (const char* line_break : {"\n", "\r\n"}) {
+      SCOPED_TRACE(to_string(language));
+      const auto line = [&](int index) { return joints_line(language, random_joints(stream, arm), index, 4); };
+      const std::string text = written(language, false, 3, line, line_break);
+      EXPECT_EQ(marked_line(text), std::nullopt);
+      const std::string marked = with_mark(text, row_of(language), mark);
+      const auto found = marked_line(marked);
+      ASSERT_TRUE(found);
+      EXPECT_EQ(marked.size(), text.size() + mark.size() + 2 + std::string(line_break).size());
+      EXPECT_EQ(read_program(language, marked, "p", arm).targets.size(), 3u);
+    }
+  }
+}
+
+TEST(Mark, StandsBehindTheHeaderOfAModule) {
+  EXPECT_EQ(with_mark("&ACCESS RVP\nDEF a()\nEND\n", row_of(WrittenIn::krl), "m"), "&ACCESS RVP\nDEF a()\n; m\nEND\n");
+  EXPECT_EQ(with_mark("&ACCESS RVP\nPTP {A1 0}\n", row_of(WrittenIn::krl), "m"), "&ACCESS RVP\n; m\nPTP {A1 0}\n");
+  EXPECT_EQ(with_mark("%%%\n%%%\nMODULE m\nENDMODULE", row_of(WrittenIn::rapid), "m"),
+            "%%%\n%%%\nMODULE m\n! m\nENDMODULE");
+  EXPECT_EQ(with_mark("\xEF\xBB\xBFq1_deg\n1\n", row_of(WrittenIn::csv), "m"), "\xEF\xBB\xBF# m\nq1_deg\n1\n");
+}
+
+TEST(Mark, IsNoneInAString) {
+  EXPECT_EQ(marked_line("textmsg(\"corrected by demecal\")\n"), std::nullopt);
+  EXPECT_EQ(marked_line("a\n\n  ! corrected by demecal 2\n"), 3u);
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,26 @@
+// The languages that tests write programs in, by name.
+#pragma once
+
+#include "languages/languages.hpp"
+
+namespace demecal {
+
+enum class WrittenIn { val2, csv, krl, rapid, urscript };
+
+inline constexpr WrittenIn kLanguages[] = {WrittenIn::val2, WrittenIn::csv, WrittenIn::krl, WrittenIn::rapid,
+                                           WrittenIn::urscript};
+
+inline std::string to_string(WrittenIn language) {
+  constexpr const char* kNames[] = {"val2", "csv", "krl", "rapid", "urscript"};
+  return kNames[static_cast<std::size_t>(language)];
+}
+
+inline const Language& row_of(WrittenIn language) {
+  return *find_language(to_string(language));
+}
+
+inline Program read_program(WrittenIn language, std::string_view text, const std::string& file, const Chain& arm) {
+  return read_program(row_of(language), text, file, arm);
+}
+
+}  // namespace demecal

@@ -1,0 +1,63 @@
+// What is added in one place is named in one place: a robot language in its own files and in the table of languages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "source.hpp"
+
+namespace demecal::map {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const std::string kTable = "common/languages/languages.cpp";
+
+/// The languages that the table lists: its forward declarations.
+std::vector<std::string> listed_languages(const std::string& table) {
+  static const std::regex row("\nLanguage (\\w+)_language\\(\\);");
+  std::vector<std::string> names;
+  for (std::sregex_iterator match(table.begin(), table.end(), row), end; match != end; ++match) {
+    names.push_back((*match)[1].str());
+  }
+  return names;
+}
+
+/// "path:line" of every line that names the language, in code or in a string, outside its files and the table.
+std::vector<std::string> named_elsewhere(const std::string& language, const std::vector<Source>& sources) {
+  const std::regex name(language, std::regex::icase);
+  std::vector<std::string> found;
+  for (const Source& source : sources) {
+    if (source.path == kTable || source.path.starts_with("common/languages/" + language)) continue;
+    const std::vector<std::string> lines = lines_of(without_comments(source.text));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (std::regex_search(lines[i], name)) found.push_back(source.path + ':' + std::to_string(i + 1));
+    }
+  }
+  return found;
+}
+
+TEST(OnePlace, EveryLanguageIsNamedInItsOwnFilesAndTheTable) {
+  const std::string root = DEMECAL_SOURCE_DIR;
+  const std::vector<std::string> languages = listed_languages(read_file(root + "/" + kTable));
+  EXPECT_THAT(languages, SizeIs(testing::Ge(5u)));
+  const std::vector<Source> sources = read_tree(root, {"common", "coordinator", "worker"});
+  for (const std::string& language : languages) {
+    SCOPED_TRACE(language);
+    EXPECT_THAT(read_file(root + "/common/languages/" + language + ".cpp"),
+                testing::HasSubstr(".name = \"" + language + '"'));
+    if (language == "csv") continue;  // data sets are CSV, too
+    EXPECT_THAT(named_elsewhere(language, sources), IsEmpty());
+  }
+}
+
+TEST(OnePlace, SeesANameInCodeAndInAStringButNotInAComment) {
+  const std::vector<Source> sources{{"common/languages/krl.cpp", "int krl;\n"},
+                                    {"common/programs/a.cpp", "// KRL\nif (is_krl) return;\n"},
+                                    {"coordinator/b.cpp", "print(\"KUKA KRL\");\n"}};
+  EXPECT_THAT(named_elsewhere("krl", sources), testing::ElementsAre("common/programs/a.cpp:2", "coordinator/b.cpp:1"));
+}
+
+}  // namespace
+}  // namespace demecal::map

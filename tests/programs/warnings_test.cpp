@@ -1,0 +1,147 @@
+// What is warned about, and what is not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corrected_arm.hpp"
+#include "kinematics/units.hpp"
+#include "languages/written_program.hpp"
+#include "programs/correct_program.hpp"
+#include "programs/nominal_joints.hpp"
+#include "programs/summary.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Wrong by a wave in joint 2 alone, measured from -1 to 1 rad.
+CommandModel wave_model(double bound_rad) {
+  RandomStream stream{7501};
+  Robot nominal = elbow_arm(stream);
+  for (Joint& joint : nominal.chain.joints) {
+    joint.lower = -2.5;
+    joint.upper = 2.5;
+  }
+  CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
+  identified.corrections.assign(6, {});
+  identified.corrections[1] = {wave(2e-3, 1.0, 1.5), {}, {-1.0, 1.0}};
+  identified.described = nominal;
+  std::vector<double> bounds(6, std::numeric_limits<double>::infinity());
+  bounds[1] = bound_rad;
+  return command_model(nominal, identified, bounds);
+}
+
+CorrectedProgram corrected_joints(const CommandModel& model, const JointVector& joints) {
+  const std::string text = joints_line(WrittenIn::urscript, joints, 1, 9);
+  return correct_program(text, read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain), model, {});
+}
+
+JointVector joints_with(double second, double third) {
+  JointVector joints(6);
+  joints << 0.3, second, third, 0.2, 0.9, -0.4;
+  return joints;
+}
+
+TEST(Concerns, AreNoneWithinLimitsRangeAndBound) {
+  EXPECT_TRUE(corrected_joints(wave_model(2e-3), joints_with(0.5, 0.2)).warnings.empty());
+}
+
+TEST(Concerns, NameTheJointBeyondTheCalibratedRange) {
+  const CorrectedProgram corrected = corrected_joints(wave_model(2e-3), joints_with(1.1, 0.2));
+  ASSERT_EQ(corrected.warnings.size(), 1u);
+  EXPECT_THAT(corrected.warnings[0].sentence,
+              HasSubstr("joint 2 is sent to 63.0254 deg, outside the calibrated range"));
+  EXPECT_EQ(warning_text(corrected, corrected.warnings[0]).substr(0, 11), "p.script:1:");
+}
+
+TEST(Concerns, NameTheJointBeyondItsLimits) {
+  const CorrectedProgram corrected = corrected_joints(wave_model(2e-3), joints_with(0.5, 2.6));
+  ASSERT_EQ(corrected.warnings.size(), 1u);
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("joint 3 is sent to 148.9690 deg, outside its limits"));
+}
+
+TEST(Concerns, NameACorrectionLargerThanStated) {
+  const CorrectedProgram corrected = corrected_joints(wave_model(1e-4), joints_with(0.1, 0.2));
+  ASSERT_EQ(corrected.warnings.size(), 1u);
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("correction of joint 2"));
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("larger than the bound that the model states, 0.0057 deg"));
+}
+
+TEST(Concerns, NamePosesOutOfReachAndLeaveThem) {
+  const CommandModel model = wave_model(2e-3);
+  const std::string text = "movel(p[9, 0, 0, 0, 0, 0])\nmovel(p[0.5, 0.4, 0.2, 0, 0, 0])";
+  const Eigen::Isometry3d second(Eigen::Translation3d(0.5, 0.4, 0.2));
+  const JointVector near = *nominal_joints(model.nominal.chain, second, {}, JointVector::Zero(6));
+  const CorrectedProgram corrected =
+      correct_program(text, read_program(WrittenIn::urscript, text, "p", model.nominal.chain), model, {.near = near});
+  ASSERT_FALSE(corrected.warnings.empty());
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("does not reach the pose"));
+  EXPECT_EQ(corrected.text.substr(0, 27), text.substr(0, 27));
+  EXPECT_NE(corrected.text, text);
+  EXPECT_EQ(moved_figures(corrected).uncorrected, 1);
+}
+
+/// The one warning about a model whose tool is moved so, and that nothing is corrected for it.
+std::string only_warning(const Eigen::Isometry3d& tool) {
+  RandomStream stream{7502};
+  const Robot nominal = elbow_arm(stream);
+  CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
+  identified.corrections.assign(6, {});
+  identified.tools[""] = identified.tools[""] * tool;
+  const CorrectedProgram corrected = corrected_joints(unbounded_model(nominal, identified), joints_with(0.5, 0.2));
+  EXPECT_EQ(corrected.targets[0].command, corrected.targets[0].nominal);
+  return corrected.warnings.size() == 1 ? corrected.warnings[0].sentence : "";
+}
+
+TEST(Concerns, NameAToolThatIsAnother) {
+  EXPECT_THAT(only_warning(Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.0, 0.0))), HasSubstr("50 mm"));
+  const Eigen::AngleAxisd mounted(0.5, Eigen::Vector3d::UnitY());
+  EXPECT_THAT(only_warning(Eigen::Isometry3d(mounted)), HasSubstr("turned by 29 deg"));
+}
+
+TEST(Concerns, DoNotLayTheApproachAtAFormulasDoor) {
+  CommandModel model = wave_model(2.1e-3);
+  model.robot.effects = {{.kind = "backlash", .joint = 1, .values = {0.002}}};
+  const std::string text = joints_line(WrittenIn::urscript, joints_with(0.4, 0.2), 1, 9) + '\n' +
+                           joints_line(WrittenIn::urscript, joints_with(0.05, 0.3), 2, 9);
+  const CorrectedProgram corrected =
+      correct_program(text, read_program(WrittenIn::urscript, text, "p", model.nominal.chain), model, {});
+  EXPECT_GT(std::abs(corrected.targets[1].command[1] - corrected.targets[1].nominal[1]), 2.2e-3);
+  EXPECT_TRUE(corrected.warnings.empty());
+}
+
+TEST(Summary, ShowsNominalCorrectedAndDifference) {
+  const CommandModel model = wave_model(2e-3);
+  const CorrectedProgram corrected = corrected_joints(model, joints_with(0.5, 0.2));
+  const double change_deg = degrees(corrected.targets[0].command[1] - 0.5);
+  const std::string table = summary_table(corrected, model.nominal.chain);
+  EXPECT_THAT(table, HasSubstr("28.6479"));
+  EXPECT_THAT(table, HasSubstr(listed({&change_deg, 1}, 4)));
+  EXPECT_THAT(table, HasSubstr("1 targets corrected"));
+  const std::string json = summary_json(corrected, model.nominal.chain);
+  EXPECT_EQ(std::count(json.begin(), json.end(), '\n'), 1);
+  EXPECT_THAT(json, HasSubstr("\"nominal\":[17.188"));
+}
+
+TEST(Approach, IsThatOfTheJointsLastMotion) {
+  RandomStream stream{7503};
+  const Robot nominal = elbow_arm(stream);
+  CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
+  identified.corrections.assign(6, {});
+  identified.effects = {{.kind = "backlash", .joint = 1, .values = {0.002}}};
+  const CommandModel model = unbounded_model(nominal, identified);
+  std::string text;
+  for (const double second : {0.5, 0.6, 0.6, 0.4, 0.401}) {
+    text += joints_line(WrittenIn::urscript, joints_with(second, 0.2), 1, 9) + '\n';
+  }
+  const CorrectedProgram corrected =
+      correct_program(text, read_program(WrittenIn::urscript, text, "p", model.nominal.chain), model, {});
+  std::vector<double> changes;
+  for (const CorrectedTarget& target : corrected.targets) changes.push_back(target.command[1] - target.nominal[1]);
+  // Half of the lost motion, to the side that the joint comes from; nothing is known of the first.
+  const std::vector<double> expected{0.0, 0.001, 0.001, -0.001, -0.001};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(changes[i], expected[i], 1e-9) << i;
+}
+
+}  // namespace
+}  // namespace demecal
