@@ -8,7 +8,7 @@
 #include "effects/measurement.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline baselines {
 namespace {
 
 constexpr int kHighestDegree = 3;
@@ -170,4 +170,4 @@ std::array<ErrorFigures, 3> figures_by_set(const BaselineFit& fit, const DataSet
   return figures;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline baselines

@@ -8,7 +8,7 @@
 
 #include "fitting/fit.hpp"
 
-namespace demecal {
+namespace demecal::inline baselines {
 
 /// What every method starts from: the nominal robot in the base, and with the tool where declared, that fit the
 /// calibration poses best.
@@ -44,4 +44,4 @@ const std::vector<Baseline>& baselines();
 /// Figures on calibration, validation and accept poses; NaN where a set is empty.
 std::array<ErrorFigures, 3> figures_by_set(const BaselineFit& fit, const DataSet& data);
 
-}  // namespace demecal
+}  // namespace demecal::inline baselines

@@ -6,7 +6,7 @@
 
 #include "baselines/regression.hpp"
 
-namespace demecal {
+namespace demecal::inline baselines {
 namespace {
 
 constexpr int kFoldsOfNetwork = 5;
@@ -115,4 +115,4 @@ BaselineFit fit_radial_basis(const RegisteredArm& arm) {
           arm.parameters + static_cast<int>(best.weights.size()), chosen.str()};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline baselines

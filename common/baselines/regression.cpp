@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-namespace demecal {
+namespace demecal::inline baselines {
 namespace {
 
 /// Keeps what nothing else decides where it is, at no cost to what the rows show.
@@ -119,4 +119,4 @@ RidgeChoice choose_ridge(const std::vector<RidgeSums>& by_fold, const Eigen::Vec
   return best;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline baselines

@@ -10,7 +10,7 @@
 #include "baselines/baseline.hpp"
 #include "data/data_set.hpp"
 
-namespace demecal {
+namespace demecal::inline baselines {
 
 /// For each of the poses, the fold (from 0) in which it is left out: repeats of a pose together, the folds in turn.
 std::vector<int> assign_folds(const DataSet& data, std::span<const std::size_t> poses, int folds);
@@ -107,4 +107,4 @@ VaryingFit fit_varying_links(const RegisteredArm& arm, const std::vector<LinkFun
 /// their number, width and ridge by cross-validation. Orientations are those of the registered arm.
 BaselineFit fit_radial_basis(const RegisteredArm& arm);
 
-}  // namespace demecal
+}  // namespace demecal::inline baselines

@@ -6,7 +6,7 @@
 #include "baselines/regression.hpp"
 #include "fitting/observation.hpp"
 
-namespace demecal {
+namespace demecal::inline baselines {
 namespace {
 
 constexpr int kFoldsOfLinks = 5;
@@ -119,4 +119,4 @@ VaryingFit fit_varying_links(const RegisteredArm& arm, const std::vector<LinkFun
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline baselines

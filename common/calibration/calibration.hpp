@@ -12,7 +12,7 @@
 #include "fitting/fit.hpp"
 #include "fitting/posterior.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 /// Mean absolute joint error over the calibration poses (thesis Table 6-5), rad.
 struct JointSummary {
@@ -88,4 +88,4 @@ std::vector<std::size_t> selection_poses(const DataSet& data);
 /// Performance index (thesis eq. 4.6): the sum of squared tool errors over `poses`, mm^2.
 double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses);
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -6,7 +6,7 @@
 #include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 /// A jump smaller than this moves a tool a metre away by less than a hundredth of a millimetre.
@@ -103,4 +103,4 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

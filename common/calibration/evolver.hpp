@@ -8,7 +8,7 @@
 #include "calibration/selection.hpp"
 #include "expression/shared_function.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 /// Functions that joints share, where these are known, be they none.
 using KnownFunctions = std::optional<std::vector<SharedFunction>>;
@@ -55,4 +55,4 @@ class Evolver {
   virtual void add_effort(std::uint32_t /*generations*/, std::uint64_t /*evaluations*/) {}
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -12,7 +12,7 @@
 #include "expression/tree.hpp"
 #include "fitting/declared_model.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 /// posterior: the most probable errors, given how far joints err and how far measurements scatter; exact: the joints
 /// that reach the measured point with the orientation the model predicts (thesis 4.5).
@@ -116,4 +116,4 @@ struct Job {
   bool operator==(const Job&) const = default;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -6,7 +6,7 @@
 #include "calibration/joint_targets.hpp"
 #include "effects/measurement.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 /// A laser tracker's, m, rad and m: exact data must not make the joints take up what no joint can.
@@ -137,4 +137,4 @@ std::optional<JointVector> most_probable_errors(const DataSet& data, const Measu
   return x.allFinite() ? std::optional(errors(x)) : std::nullopt;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -7,7 +7,7 @@
 
 #include "effects/measurement.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 constexpr double kPrismaticPerRevolute_m = 0.2;
@@ -145,4 +145,4 @@ JointTargets joint_targets(const DataSet& data, std::span<const std::size_t> pos
   return targets;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -10,7 +10,7 @@
 #include "fitting/observation.hpp"
 #include "kinematics/inverse.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 /// A pose whose joints the measurement hardly determines.
 struct SingularPose {
@@ -72,4 +72,4 @@ std::optional<JointVector> most_probable_errors(const DataSet& data, const Measu
                                                 const CorrectedRobot& robot, const JointBelief& belief,
                                                 const RowScales& scales);
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

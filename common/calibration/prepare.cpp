@@ -5,7 +5,7 @@
 #include "fitting/scatter.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
@@ -115,4 +115,4 @@ Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, con
   return preparation;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

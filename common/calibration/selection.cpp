@@ -10,7 +10,7 @@
 #include "expression/bound.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 constexpr int kSweeps = 5;
@@ -260,4 +260,4 @@ Selection select_corrections(const DataSet& data, std::span<const std::size_t> f
   return best;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

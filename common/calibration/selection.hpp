@@ -10,7 +10,7 @@
 #include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 using SquaredErrors = std::vector<double>;  ///< mm^2, one per pose
 
@@ -92,4 +92,4 @@ Selection select_corrections(const DataSet& data, std::span<const std::size_t> f
                              std::span<const std::size_t> selecting, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates);
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

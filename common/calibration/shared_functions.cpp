@@ -8,7 +8,7 @@
 #include "evolution/model_archive.hpp"
 #include "expression/simplify.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 constexpr std::size_t kGoodFormulas = 8;
@@ -104,4 +104,4 @@ std::vector<int> joints_calling(const CorrectedRobot& robot, const std::vector<S
   return joints;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -11,7 +11,7 @@
 #include "effects/corrected_robot.hpp"
 #include "expression/shared_function.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 /// A joint's formulas that are described in the fewest nats together with the errors they leave on its table, taken as
 /// of Laplace's law for absolute and normal for squared errors; simplified, no two equal, the best first.
@@ -41,4 +41,4 @@ FoldedFormula folded_correction(const JointCorrection& correction, const KnownFu
 std::vector<int> joints_calling(const CorrectedRobot& robot, const std::vector<SharedFunction>& functions,
                                 std::size_t place);
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -8,7 +8,7 @@
 #include "expression/simplify.hpp"
 #include "fitting/median.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 namespace {
 
 constexpr double kLeastMotionRad = 1e-3;
@@ -147,4 +147,4 @@ CorrectedRobot without_corrections(CorrectedRobot robot) {
   return robot;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -10,7 +10,7 @@
 #include "effects/corrected_robot.hpp"
 #include "evolution/fitness.hpp"
 
-namespace demecal {
+namespace demecal::inline calibration {
 
 /// One joint's table: theta (rad) as variable 0, theta_C - theta_N in units of scale_rad as target.
 struct JointTraining {
@@ -63,4 +63,4 @@ bool has_corrections(const CorrectedRobot& robot);
 /// The robot with all its corrections neutral.
 CorrectedRobot without_corrections(CorrectedRobot robot);
 
-}  // namespace demecal
+}  // namespace demecal::inline calibration

@@ -14,7 +14,7 @@
 #include "fitting/scatter.hpp"
 #include "residuals/structure.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 namespace {
 
 bool is_of_base(const ParameterId& id) {
@@ -253,4 +253,4 @@ PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declare
   return prediction_interval(data, fitted_posterior(data, declared, calibration.robot, poses), calibration.robot);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

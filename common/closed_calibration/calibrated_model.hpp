@@ -12,7 +12,7 @@
 #include "fitting/observation.hpp"
 #include "fitting/posterior.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 
 struct CalibratedModel {
   std::string job;
@@ -60,4 +60,4 @@ PredictionInterval prediction_interval(const DataSet& data, const FittedPosterio
 /// Of a finished calibration: from the validation poses while they were unseen.
 PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration);
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

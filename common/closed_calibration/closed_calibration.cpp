@@ -7,7 +7,7 @@
 #include "formula_search/formula_search.hpp"
 #include "random/random_purpose.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 namespace {
 
 constexpr int kMostPasses = 3;
@@ -212,4 +212,4 @@ ClosedCalibration close_calibration(const DataSet& data, const Job& job, const P
   return LoopPasses(data, job, preparation, first, evolver, functions).run(watch);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

@@ -5,7 +5,7 @@
 #include "calibration/evolver.hpp"
 #include "diagnosis/loop.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 
 struct ClosedCalibration {
   CorrectedRobot before;    ///< what the loop started from: everything declared
@@ -25,4 +25,4 @@ ClosedCalibration close_calibration(const DataSet& data, const Job& job, const P
                                     const Calibration& first, Evolver& evolver, const RoundWatcher& watch,
                                     const KnownFunctions& functions = std::nullopt);
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

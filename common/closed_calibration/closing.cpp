@@ -8,7 +8,7 @@
 #include "diagnosis/loop.hpp"
 #include "effects/measurement.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 namespace {
 
 constexpr double kSmallestCoefficient = 1e-8;  ///< rad
@@ -131,4 +131,4 @@ std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declar
   return LastFit{std::move(ends), unseen};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

@@ -5,7 +5,7 @@
 #include "calibration/calibration.hpp"
 #include "diagnosis/loop.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 
 /// How the job wants the loop run on a model that holds `held` effects already.
 LoopOptions loop_options(const Job& job, std::size_t held = 0);
@@ -47,4 +47,4 @@ struct LastFit {
 /// Nothing where it would change neither end.
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends);
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

@@ -5,7 +5,7 @@
 
 #include "calibration/selection.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 namespace {
 
 std::vector<Decoy> joined(std::vector<Decoy> earlier, const std::vector<Decoy>& later) {
@@ -124,4 +124,4 @@ void append_rejected_rounds(const LoopOutcome& pass, const CorrectedRobot& kept,
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

@@ -9,7 +9,7 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
 
-namespace demecal {
+namespace demecal::inline closed_calibration {
 
 bool added_any(const LoopOutcome& outcome);
 
@@ -41,4 +41,4 @@ bool describes_better(const CorrectedRobot& robot, const CorrectedRobot& present
 /// Appends to `outcome` the rounds of a pass that added what `kept`, the model that was kept after all, does without.
 void append_rejected_rounds(const LoopOutcome& pass, const CorrectedRobot& kept, LoopOutcome& outcome);
 
-}  // namespace demecal
+}  // namespace demecal::inline closed_calibration

@@ -10,7 +10,7 @@
 #include "effects/arm_state.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// The poses and the robot of a DATASET.yaml; the files it names are taken relative to it. Where neither a set column
 /// nor `split` divides the poses, 30 % of them validate, drawn with seed 1. Throws InputError with file, line, value
@@ -37,4 +37,4 @@ std::filesystem::path write_data_set(const DataSet& data, const std::filesystem:
 std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const DataSet& data,
                                const std::vector<Stop>& stops);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -9,7 +9,7 @@
 #include "expression/text.hpp"
 #include "yaml/files.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 struct CountKey {
@@ -157,4 +157,4 @@ CorrectionOptions read_correction_options(const YamlNode& node) {
   return options;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -9,7 +9,7 @@
 #include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 constexpr std::int64_t kMostDemes = 1000;
@@ -167,4 +167,4 @@ DeclaredModel read_declared(const YamlNode& list) {
   return declared;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -11,7 +11,7 @@
 #include "fitting/declared_model.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// The job of a JOB.yaml; its data set is named relative to it and not opened. What the file leaves out keeps the Job's
 /// defaults. Throws InputError with file, line, value and rule at the first fault.
@@ -36,4 +36,4 @@ GpParameters read_gp(const YamlNode& node);
 /// first fault.
 CorrectionOptions read_correction_options(const YamlNode& node);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

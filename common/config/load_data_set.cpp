@@ -13,7 +13,7 @@
 #include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 void read_anchors(const YamlNode* node, std::size_t distances, DataSet& data) {
@@ -155,4 +155,4 @@ AssumedUnits read_units(const YamlNode* node) {
   return units;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

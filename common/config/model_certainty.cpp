@@ -9,7 +9,7 @@
 #include "kinematics/units.hpp"
 #include "yaml/yaml_text.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 using Kind = ParameterId::Kind;
@@ -177,4 +177,4 @@ void read_prediction(const YamlNode& file, CalibratedModel& model) {
                          .fitted = node->at("told_by").one_of<bool>({{"validation", false}, {"calibration", true}})};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -6,7 +6,7 @@
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 /// "{name: 1, other: 2}" of the coefficients.
@@ -156,4 +156,4 @@ std::vector<Effect> read_effects(const YamlNode& list, const Robot& robot) {
   return effects;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

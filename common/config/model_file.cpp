@@ -14,7 +14,7 @@
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 std::string rigid_text(const Eigen::Isometry3d& pose) {
@@ -228,4 +228,4 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   return model;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -9,7 +9,7 @@
 #include "effects/effect.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// The text of a model.yaml: the robot, where the numbers came from, the identified numbers with standard errors, and
 /// every joint's correction with its range, bound and jumps.
@@ -40,4 +40,4 @@ std::string prediction_text(const CalibratedModel& model);
 /// Reads the key, where it is. Throws InputError.
 void read_prediction(const YamlNode& file, CalibratedModel& model);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -8,7 +8,7 @@
 #include "preparation/readings.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 constexpr double kTolerance_mm =
@@ -147,4 +147,4 @@ std::optional<CordInstrument> read_instrument(const YamlNode& node) {
   return read_cords(node.with_keys({"cords"}).at("cords"));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -8,7 +8,7 @@
 #include "preparation/readings.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// Everything that a PREPARATION.yaml names, read; the files are taken relative to it. Throws InputError with file,
 /// line, value and rule at the first fault in any of them.
@@ -18,4 +18,4 @@ RawMeasurements load_preparation(const std::filesystem::path& path);
 /// coordinates.
 std::optional<CordInstrument> read_instrument(const YamlNode& node);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -4,7 +4,7 @@
 #include "kinematics/units.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 constexpr std::int64_t kHighestOrder = 1000;
@@ -137,4 +137,4 @@ void read_true_errors(const YamlNode& errors, Scenario& scenario) {
   read_instrument_errors(errors, scenario);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

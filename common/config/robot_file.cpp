@@ -12,7 +12,7 @@
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 constexpr double kMostGravity_mps2 = 20.0;  // beyond it stands a mistaken unit, not another planet
@@ -214,4 +214,4 @@ Listing load_matrices(Algebra& algebra, const std::filesystem::path& path) {
   return listing;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

@@ -8,7 +8,7 @@
 #include "symbolic/code.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// The robot of a ROBOT.yaml. Throws InputError with file, line, value and rule at the first fault.
 Robot load_robot(const std::filesystem::path& path);
@@ -26,4 +26,4 @@ std::string robot_text(const Robot& robot, int indent = 0);
 /// nor a value is one.
 Listing load_matrices(Algebra& algebra, const std::filesystem::path& path);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

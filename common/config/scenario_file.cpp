@@ -7,7 +7,7 @@
 #include "kinematics/units.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 constexpr std::int64_t kMostPoses = 1000000;
@@ -160,4 +160,4 @@ Scenario load_scenario(const std::filesystem::path& path) {
   return scenario;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

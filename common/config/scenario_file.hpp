@@ -6,7 +6,7 @@
 #include "simulation/scenario.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// The scenario of a SCENARIO.yaml; its robot is named relative to it. Throws InputError with file, line, value and
 /// rule at the first fault.
@@ -15,4 +15,4 @@ Scenario load_scenario(const std::filesystem::path& path);
 /// Adds the errors of the map to the scenario, whose robot must be set. Throws InputError at the first fault.
 void read_true_errors(const YamlNode& errors, Scenario& scenario);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

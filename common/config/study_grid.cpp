@@ -7,7 +7,7 @@
 #include "errors/input_error.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 constexpr std::size_t kMostCells = 10000;
@@ -175,4 +175,4 @@ std::vector<GridCell> grid_cells(const std::filesystem::path& job_file, const st
   return cells;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

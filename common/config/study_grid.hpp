@@ -8,7 +8,7 @@
 #include "calibration/job.hpp"
 #include "yaml/yaml_node.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 
 /// A parameter of jobs and its values, each of which knows where it was written.
 struct GridAxis {
@@ -35,4 +35,4 @@ struct GridCell {
 /// there are more than 10000 cells, or a cell is no valid job: at the value at fault, with the cell named.
 std::vector<GridCell> grid_cells(const std::filesystem::path& job_file, const std::vector<GridAxis>& axes);
 
-}  // namespace demecal
+}  // namespace demecal::inline config

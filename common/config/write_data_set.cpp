@@ -13,7 +13,7 @@
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 
-namespace demecal {
+namespace demecal::inline config {
 namespace {
 
 /// One column of the table: its heading, and its field for a pose.
@@ -254,4 +254,4 @@ std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const
   return text.str();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline config

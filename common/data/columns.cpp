@@ -6,7 +6,7 @@
 #include "data/text.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 namespace {
 
 double unchanged(double value) {
@@ -135,4 +135,4 @@ void TableColumn::fail(const CsvRow& row, const std::string& rule) const {
   throw InputError({file_, row.line}, text(row), "column " + name_ + " " + rule);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -10,7 +10,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 
 /// A column's name and where the user wrote it.
 struct ColumnName {
@@ -74,4 +74,4 @@ class TableColumn {
   UnitConversion to_inside_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -7,7 +7,7 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 namespace {
 
 constexpr std::string_view kSpaces = " \t";
@@ -144,4 +144,4 @@ void write_csv(std::ostream& text, const CsvTable& table) {
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data

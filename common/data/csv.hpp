@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline data {
 
 struct CsvRow {
   std::size_t line = 0;             ///< in the file, from 1
@@ -32,4 +32,4 @@ CsvTable read_csv(std::istream& text, const std::string& file);
 /// Writes the table in a form read_csv() reads back the same, whatever its fields hold but line breaks.
 void write_csv(std::ostream& text, const CsvTable& table);
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -8,7 +8,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 namespace {
 
 std::vector<std::string> distinct_ids(std::span<const MeasuredPose> poses) {
@@ -72,4 +72,4 @@ void split_by_pose(std::span<MeasuredPose> poses, const SplitFractions& fraction
   for (MeasuredPose& pose : poses) pose.set = set_of[pose.pose_id];
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data

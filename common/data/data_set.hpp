@@ -13,7 +13,7 @@
 
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 
 /// What a pose is used for: fitting, choosing, or the one final judgement.
 enum class PoseSet { calibration, validation, accept };
@@ -90,4 +90,4 @@ using DrawIndex = std::function<std::size_t(std::size_t)>;
 /// calibration keeps one at least. Equal draws give equal sets.
 void split_by_pose(std::span<MeasuredPose> poses, const SplitFractions& fractions, const DrawIndex& draw);
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -10,7 +10,7 @@
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 namespace {
 
 constexpr double kLimitMargin_rad = radians(5.0);
@@ -230,4 +230,4 @@ std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& col
   return poses;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -10,7 +10,7 @@
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
 
-namespace demecal {
+namespace demecal::inline data {
 
 /// Angle for a revolute, length for a prismatic joint.
 Quantity joint_quantity(const Joint& joint);
@@ -36,4 +36,4 @@ void check_repeats(std::span<const MeasuredPose> poses, const std::string& file)
 std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& columns, const AssumedUnits& units,
                                      const Chain& chain, const std::map<std::string, Eigen::Vector3d>& tools_m);
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline data {
 
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
@@ -65,4 +65,4 @@ std::string nearest_name(std::string_view word, std::span<const std::string> nam
   return nearest;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data

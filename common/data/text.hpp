@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace demecal {
+namespace demecal::inline data {
 
 /// The finite number that the whole of `text` writes in decimal notation, a leading + allowed. Nothing where it writes
 /// no number, one out of range, NaN or an infinity.
@@ -38,4 +38,4 @@ std::size_t edit_distance(std::string_view from, std::string_view to);
 /// no names.
 std::string nearest_name(std::string_view word, std::span<const std::string> names);
 
-}  // namespace demecal
+}  // namespace demecal::inline data

@@ -11,7 +11,7 @@
 #include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 std::string axis_name(int axis) {
@@ -170,4 +170,4 @@ std::vector<Finding> find_other_tools(const Trial& trial, const std::map<std::st
   return found;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

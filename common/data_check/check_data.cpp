@@ -13,7 +13,7 @@
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr std::size_t kTrialRows = 240;  ///< calibration rows that explanations are tried on
@@ -216,4 +216,4 @@ DataCheck check_without_copies(DataSet& data) {
   return check;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -6,7 +6,7 @@
 #include "data_check/finding.hpp"
 #include "effects/corrected_robot.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 
 /// Checks the data before anything is fitted, with the arm of `data.robot` and nothing else known: the measured points
 /// against a quick fit that a few wrong rows do not move (trial_fit.hpp). First what contradicts the whole set
@@ -26,4 +26,4 @@ void require_joint_limits(const DataSet& data, const DataCheck& check);
 /// Throws InputError as require_joint_limits(), unless the data contradict the arm.
 DataCheck check_without_copies(DataSet& data);
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

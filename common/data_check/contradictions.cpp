@@ -7,7 +7,7 @@
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr double kHalf = 0.5;       ///< of the error, which an explanation must take away
@@ -137,4 +137,4 @@ std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows&
   return Contradictions(data, rows, placed, fit).find();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -11,7 +11,7 @@
 #include "data_check/searches.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr double kHardlyMoving_rad = radians(2.0), kHardlyMoving_m = 5e-3;
@@ -148,4 +148,4 @@ std::vector<Finding> take_out_copies(DataSet& data) {
   return found;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

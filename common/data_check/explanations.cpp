@@ -10,7 +10,7 @@
 #include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr std::size_t kRefined = 6;         ///< explanations whose links are fitted too
@@ -267,4 +267,4 @@ std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialF
   return BestExplanation{std::move(best.explanations), std::move(best.fit), std::move(equals)};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -12,7 +12,7 @@
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 
 /// One way to read the data otherwise than they are given.
 struct Explanation {
@@ -94,4 +94,4 @@ std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow
 std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& predicted,
                                          const std::vector<Eigen::Vector3d>& measured);
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 struct KindRow {
@@ -78,4 +78,4 @@ std::string before_and_after(double as_given_m, double if_changed_m) {
                      distance_text(if_changed_m));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

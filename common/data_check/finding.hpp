@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline data_check {
 
 /// The mistakes that the check knows. Reports write their names as they stand here.
 enum class FindingKind {
@@ -66,4 +66,4 @@ std::string distance_text(double metres_value);
 /// "(median error 412 mm as given, 0.21 mm if changed)"
 std::string before_and_after(double as_given_m, double if_changed_m);
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

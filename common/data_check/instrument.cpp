@@ -8,7 +8,7 @@
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr std::size_t kFewestBehind = 5;  ///< rows on either side of a move: fewer could be outliers
@@ -288,4 +288,4 @@ std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& pre
   return other;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -10,7 +10,7 @@
 #include "fitting/median.hpp"
 #include "kinematics/forward.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr int kMostShift = 30;
@@ -193,4 +193,4 @@ std::optional<RowReordering> find_shuffled_rows(const Trial& whole, double near_
   return RowReordering{"the measured points are this arm's, but in another order: no shift of the rows fits", least};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -10,7 +10,7 @@
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 
 // What a real arm may leave. Base, tools and links are fitted, links held near their description (5 mm and 1 degree
 // standard deviation): five measured series of the shared data then leave .011 to .19 % of their reach at the median, a
@@ -65,4 +65,4 @@ std::vector<Finding> find_small_angles(const DataSet& data);
 /// with noise does not, unless its digits are as coarse as the noise.
 std::vector<Finding> take_out_copies(DataSet& data);
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

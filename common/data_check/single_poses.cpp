@@ -8,7 +8,7 @@
 #include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr double kFarDeviations = 8.0;  ///< beyond which no noise goes
@@ -222,4 +222,4 @@ std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<Tr
   return OutlierSearch(data, rows, predict, least_m).findings();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

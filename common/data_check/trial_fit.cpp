@@ -13,7 +13,7 @@
 #include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 namespace {
 
 constexpr double kSmallestScale_m = 1e-6;
@@ -274,4 +274,4 @@ std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
   return indices;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -6,7 +6,7 @@
 
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline data_check {
 
 /// One measured point of a trial.
 struct TrialRow {
@@ -81,4 +81,4 @@ Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eige
 /// About `count` of 0 .. `size` - 1 (all where there are no more), spread evenly over them, ascending.
 std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count);
 
-}  // namespace demecal
+}  // namespace demecal::inline data_check

@@ -19,10 +19,10 @@
 #include "transport/participants.hpp"
 #include "transport/run_owners.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
@@ -67,11 +67,11 @@ class DdsTransport final : public Transport {
   const Role role_;
   const std::string name_;
   Inbox inbox_;
-  std::vector<std::unique_ptr<dds::DataReaderListener>> receivers_;
+  std::vector<std::unique_ptr<fastdds::DataReaderListener>> receivers_;
   DdsParticipant participant_;
   DdsWriters writers_;
   std::mutex mutex_;  ///< guards what follows
-  std::map<DdsWriters::Channel, Owned<dds::DataReader>> readers_;
+  std::map<DdsWriters::Channel, Owned<fastdds::DataReader>> readers_;
   std::optional<WorkerStatus> status_;  ///< the last one published
   steady_clock::time_point status_published_;
 };
@@ -149,4 +149,4 @@ std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const 
   return std::make_unique<DdsTransport>(options, role, name);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -9,7 +9,7 @@
 #include "protocol/messages.hpp"
 #include "transport/transport.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 
 struct DdsOptions {
   std::uint32_t domain = 0;
@@ -28,4 +28,4 @@ struct DdsOptions {
 /// made, and InputError where an address is none or a certificate is missing or not accepted.
 std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name);
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

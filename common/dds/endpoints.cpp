@@ -14,10 +14,10 @@
 #include "protocol/message_bytes.hpp"
 #include "transport/transport.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
@@ -27,7 +27,7 @@ constexpr std::uint32_t kFirstBuffer_bytes = 256;
 /// Called on any thread, on several at once: nothing is kept between calls. (The types that fastddsgen makes work a key
 /// out in a buffer of their own; a sample would at times take the key, and with it the place, of another.)
 template <class Plain>
-class MessageType final : public dds::TopicDataType {
+class MessageType final : public fastdds::TopicDataType {
  public:
   explicit MessageType(const char* name) {
     setName(name);
@@ -76,8 +76,8 @@ class MessageType final : public dds::TopicDataType {
 };
 
 template <class Plain>
-dds::TypeSupport message_type(const char* name) {
-  return dds::TypeSupport(new MessageType<Plain>(name));
+fastdds::TypeSupport message_type(const char* name) {
+  return fastdds::TypeSupport(new MessageType<Plain>(name));
 }
 
 using std::chrono::milliseconds;
@@ -85,8 +85,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kHeartbeat{50};
 
 /// 0 is "no limit" to Fast DDS.
-dds::ResourceLimitsQosPolicy no_limits() {
-  dds::ResourceLimitsQosPolicy limits;
+fastdds::ResourceLimitsQosPolicy no_limits() {
+  fastdds::ResourceLimitsQosPolicy limits;
   limits.max_samples = 0;
   limits.max_instances = 0;
   limits.max_samples_per_instance = 0;
@@ -97,14 +97,14 @@ dds::ResourceLimitsQosPolicy no_limits() {
 /// What the two ends of a topic must agree on, and what is set alike on both.
 template <class Qos>
 void set_both_ends(Qos& qos, Topic topic) {
-  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
-  qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+  qos.reliability().kind = fastdds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind = fastdds::TRANSIENT_LOCAL_DURABILITY_QOS;
   qos.resource_limits() = no_limits();
   qos.data_sharing().off();
   // The dynamic policies cannot receive a disposal, which is an empty sample: all later ones of its writer would wait.
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   if (topic == Topic::worker) {
-    qos.liveliness().kind = dds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    qos.liveliness().kind = fastdds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
     qos.liveliness().lease_duration = dds_duration(kLease);
     qos.liveliness().announcement_period = dds_duration(kLease / 3);
   }
@@ -112,7 +112,7 @@ void set_both_ends(Qos& qos, Topic topic) {
 
 }  // namespace
 
-dds::TypeSupport topic_type(Topic topic) {
+fastdds::TypeSupport topic_type(Topic topic) {
   if (is_large(topic)) return message_type<MessagePart>("demecal::wire::MessagePart");
   if (topic == Topic::progress) return message_type<PlacedProgress>("demecal::wire::PlacedProgress");
   if (topic == Topic::control) return message_type<Control>("demecal::wire::Control");
@@ -148,29 +148,29 @@ std::string topic_name(Topic topic, std::uint32_t joint) {
   return "demecal/6/worker";
 }
 
-dds::DataWriterQos writer_qos(Topic topic) {
-  dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
+fastdds::DataWriterQos writer_qos(Topic topic) {
+  fastdds::DataWriterQos qos = fastdds::DATAWRITER_QOS_DEFAULT;
   set_both_ends(qos, topic);
-  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().kind = fastdds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 1;
   // A thread of its own puts what comes at once into one datagram.
-  qos.publish_mode().kind = is_large(topic) ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.publish_mode().kind = is_large(topic) ? fastdds::ASYNCHRONOUS_PUBLISH_MODE : fastdds::SYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kHeartbeat);
   return qos;
 }
 
-dds::DataReaderQos reader_qos(Topic topic, bool reliably) {
-  dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+fastdds::DataReaderQos reader_qos(Topic topic, bool reliably) {
+  fastdds::DataReaderQos qos = fastdds::DATAREADER_QOS_DEFAULT;
   set_both_ends(qos, topic);
   if (!reliably) {
-    qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
-    qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
-    qos.liveliness() = dds::LivelinessQosPolicy();  // carried by heartbeats, which only reliable readers take
+    qos.reliability().kind = fastdds::BEST_EFFORT_RELIABILITY_QOS;
+    qos.durability().kind = fastdds::VOLATILE_DURABILITY_QOS;
+    qos.liveliness() = fastdds::LivelinessQosPolicy();  // carried by heartbeats, which only reliable readers take
   }
-  qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
+  qos.history().kind = fastdds::KEEP_ALL_HISTORY_QOS;
   // How long a newcomer waits before it asks for what it missed; the default is 70 ms.
   qos.reliable_reader_qos().times.initialAcknackDelay = dds_duration(milliseconds{10});
   return qos;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -15,10 +15,10 @@
 #include "errors/input_error.hpp"
 #include "protocol/message_bytes.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
 /// How long a handshake may take on a busy machine.
@@ -33,10 +33,10 @@ bool shows_certificate(const rtps::ParticipantProxyData& participant) {
   return !participant.identity_token_.class_id().empty();
 }
 
-class OnceEach final : public dds::StdoutErrConsumer {
+class OnceEach final : public fastdds::StdoutErrConsumer {
  public:
   /// Called on one thread of the library.
-  void Consume(const dds::Log::Entry& entry) override {
+  void Consume(const fastdds::Log::Entry& entry) override {
     constexpr std::size_t kMostKinds = 200;
     std::string kind = entry.message;
     std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
@@ -50,11 +50,11 @@ class OnceEach final : public dds::StdoutErrConsumer {
 /// Only errors, on standard error, not where results are printed; each kind of error once, since a participant that
 /// sends nonsense can cause one with every packet.
 void set_up_log() {
-  dds::Log::SetVerbosity(dds::Log::Kind::Error);
-  dds::Log::ClearConsumers();
+  fastdds::Log::SetVerbosity(fastdds::Log::Kind::Error);
+  fastdds::Log::ClearConsumers();
   auto to_stderr = std::make_unique<OnceEach>();
-  to_stderr->stderr_threshold(dds::Log::Kind::Info);
-  dds::Log::RegisterConsumer(std::move(to_stderr));
+  to_stderr->stderr_threshold(fastdds::Log::Kind::Info);
+  fastdds::Log::RegisterConsumer(std::move(to_stderr));
 }
 
 /// The library logs errors alone; and it takes the same path between participants of one process as between
@@ -76,25 +76,25 @@ Owned<Entity> own(Entity* entity, Delete take_back, const std::string& what) {
   return Owned<Entity>(entity, take_back);
 }
 
-Owned<dds::DomainParticipant> join_domain(const DdsOptions& options, Role role, const std::string& name,
-                                          PeerLog* peers) {
+Owned<fastdds::DomainParticipant> join_domain(const DdsOptions& options, Role role, const std::string& name,
+                                              PeerLog* peers) {
   set_up_library();
-  auto* factory = dds::DomainParticipantFactory::get_instance();
-  auto* participant =
-      factory->create_participant(options.domain, participant_qos(options, role, name), peers, dds::StatusMask::none());
+  auto* factory = fastdds::DomainParticipantFactory::get_instance();
+  auto* participant = factory->create_participant(options.domain, participant_qos(options, role, name), peers,
+                                                  fastdds::StatusMask::none());
   if (participant == nullptr && !options.security.empty()) {
     throw InputError(
         {options.security, 0}, certificate_name(role),
         "this certificate, its key or its permissions are not accepted: expired, altered, or of another authority");
   }
   return own(
-      participant, [factory](dds::DomainParticipant* p) { factory->delete_participant(p); },
+      participant, [factory](fastdds::DomainParticipant* p) { factory->delete_participant(p); },
       "a participant in domain " + std::to_string(options.domain));
 }
 
 }  // namespace
 
-void PeerLog::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& found) {
+void PeerLog::on_participant_discovery(fastdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& found) {
   const std::lock_guard lock(mutex_);
   if (found.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
       found.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
@@ -111,7 +111,7 @@ void PeerLog::on_participant_discovery(dds::DomainParticipant*, rtps::Participan
     log(other, "does not talk to this one: it demands a certificate, which --security would show");
 }
 
-void PeerLog::onParticipantAuthentication(dds::DomainParticipant*, rtps::ParticipantAuthenticationInfo&& result) {
+void PeerLog::onParticipantAuthentication(fastdds::DomainParticipant*, rtps::ParticipantAuthenticationInfo&& result) {
   const std::lock_guard lock(mutex_);
   const auto other = others_.find(result.guid);
   if (other == others_.end()) return;
@@ -146,27 +146,27 @@ DdsParticipant::DdsParticipant(const DdsOptions& options, Role role, const std::
     : peers_(!options.security.empty(), role), participant_(join_domain(options, role, name, &peers_)) {
   auto* participant = participant_.get();
   publisher_ = own(
-      participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
-      [participant](dds::Publisher* p) { participant->delete_publisher(p); }, "a publisher");
+      participant->create_publisher(fastdds::PUBLISHER_QOS_DEFAULT),
+      [participant](fastdds::Publisher* p) { participant->delete_publisher(p); }, "a publisher");
   subscriber_ = own(
-      participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT),
-      [participant](dds::Subscriber* s) { participant->delete_subscriber(s); }, "a subscriber");
+      participant->create_subscriber(fastdds::SUBSCRIBER_QOS_DEFAULT),
+      [participant](fastdds::Subscriber* s) { participant->delete_subscriber(s); }, "a subscriber");
 }
 
-Owned<dds::DataWriter> DdsParticipant::make_writer(demecal::Topic which, std::uint32_t joint) {
+Owned<fastdds::DataWriter> DdsParticipant::make_writer(demecal::Topic which, std::uint32_t joint) {
   auto* publisher = publisher_.get();
   return own(
       publisher->create_datawriter(topic(which, joint), writer_qos(which)),
-      [publisher](dds::DataWriter* writer) { publisher->delete_datawriter(writer); },
+      [publisher](fastdds::DataWriter* writer) { publisher->delete_datawriter(writer); },
       "a writer of " + topic_name(which, joint));
 }
 
-Owned<dds::DataReader> DdsParticipant::make_reader(demecal::Topic which, std::uint32_t joint,
-                                                   dds::DataReaderListener* listener, bool reliably) {
+Owned<fastdds::DataReader> DdsParticipant::make_reader(demecal::Topic which, std::uint32_t joint,
+                                                       fastdds::DataReaderListener* listener, bool reliably) {
   auto* subscriber = subscriber_.get();
   return own(
       subscriber->create_datareader(topic(which, joint), reader_qos(which, reliably), listener),
-      [subscriber](dds::DataReader* reader) {
+      [subscriber](fastdds::DataReader* reader) {
         reader->set_listener(nullptr);
         subscriber->delete_datareader(reader);
       },
@@ -187,18 +187,18 @@ ParticipantId DdsParticipant::id() const {
   return id;
 }
 
-dds::Topic* DdsParticipant::topic(demecal::Topic which, std::uint32_t joint) {
+fastdds::Topic* DdsParticipant::topic(demecal::Topic which, std::uint32_t joint) {
   const std::string name = topic_name(which, joint);
-  Owned<dds::Topic>& topic = topics_[name];
+  Owned<fastdds::Topic>& topic = topics_[name];
   if (!topic) {
     auto* participant = participant_.get();
-    const dds::TypeSupport type = topic_type(which);
+    const fastdds::TypeSupport type = topic_type(which);
     type.register_type(participant);
     topic = own(
-        participant->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT),
-        [participant](dds::Topic* t) { participant->delete_topic(t); }, "topic " + name);
+        participant->create_topic(name, type.get_type_name(), fastdds::TOPIC_QOS_DEFAULT),
+        [participant](fastdds::Topic* t) { participant->delete_topic(t); }, "topic " + name);
   }
   return topic.get();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

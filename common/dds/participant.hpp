@@ -27,7 +27,7 @@
 #include "protocol/messages.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 
 /// What writers take and readers give: nothing where bytes came that are no such message, so that the reader learns who
 /// sent them. `Plain` is what travels on the topic.
@@ -128,4 +128,4 @@ class DdsParticipant {
   std::map<std::string, Owned<eprosima::fastdds::dds::Topic>> topics_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -20,11 +20,11 @@
 #include "errors/input_error.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
 namespace rtps = eprosima::fastrtps::rtps;
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 using std::chrono::milliseconds;
 
 constexpr const char* kLoopback = "127.0.0.1";
@@ -104,7 +104,7 @@ std::string readable(const std::filesystem::path& folder, const std::string& fil
 }
 
 /// Has a participant of this role use the files that scripts/security left in `folder`.
-void set_security(dds::DomainParticipantQos& qos, const std::string& folder, Role role) {
+void set_security(fastdds::DomainParticipantQos& qos, const std::string& folder, Role role) {
   const std::string name = certificate_name(role);
   const std::string authority = readable(folder, "authority.pem");
   const std::string identity = "dds.sec.auth.builtin.PKI-DH.", access = "dds.sec.access.builtin.Access-Permissions.";
@@ -135,8 +135,8 @@ std::string certificate_name(Role role) {
   return "watcher";
 }
 
-dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role, const std::string& name) {
-  dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+fastdds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role, const std::string& name) {
+  fastdds::DomainParticipantQos qos = fastdds::PARTICIPANT_QOS_DEFAULT;
   qos.name(name);
   if (role == Role::worker) std::ranges::copy(participant_of(name), qos.wire_protocol().prefix.value);
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -153,4 +153,4 @@ dds::DomainParticipantQos participant_qos(const DdsOptions& options, Role role, 
   return qos;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -6,7 +6,7 @@
 
 #include "protocol/message_bytes.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
 constexpr std::size_t kMostParts = kMostSample_bytes / kPart_bytes + 1;
@@ -139,4 +139,4 @@ std::vector<std::uint32_t> PlaceAllocator::vacate(RunId run) {
   return places;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -15,7 +15,7 @@
 #include "protocol/messages.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 
 /// What a datagram (64 KiB) holds beside the headers, signatures included.
 inline constexpr std::size_t kPart_bytes = 60'000;
@@ -81,4 +81,4 @@ class PlaceAllocator {
   std::uint32_t count_ = 0;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -14,10 +14,10 @@
 #include "dds/parts.hpp"
 #include "protocol/message_bytes.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SequenceNumber_t;
 
@@ -28,7 +28,7 @@ WriterId writer_id(const InstanceHandle_t& publication) {
 }
 
 /// Puts what a reader received where it belongs.
-class Delivery : public dds::DataReaderListener {
+class Delivery : public fastdds::DataReaderListener {
  public:
   explicit Delivery(Inbox& inbox) : inbox_(inbox) {}
 
@@ -36,7 +36,7 @@ class Delivery : public dds::DataReaderListener {
   /// Calls `use(sample, writer)` with all that have come, each writer's in the order in which it wrote them: Fast DDS
   /// hands them over instance by instance.
   template <class Plain, class Use>
-  void take_all(dds::DataReader& reader, Use use) {
+  void take_all(fastdds::DataReader& reader, Use use) {
     struct Taken {
       WriterId writer;
       SequenceNumber_t number;
@@ -44,7 +44,7 @@ class Delivery : public dds::DataReaderListener {
     };
     std::vector<Taken> all;
     Sample<Plain> sample;
-    dds::SampleInfo info;
+    fastdds::SampleInfo info;
     while (reader.take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK)
       if (info.valid_data && !inbox_.is_own(info.publication_handle))
         all.push_back({writer_id(info.publication_handle), info.sample_identity.sequence_number(), std::move(sample)});
@@ -106,7 +106,7 @@ class Receiver : public Delivery {
  public:
   using Delivery::Delivery;
 
-  void on_data_available(dds::DataReader* reader) override {
+  void on_data_available(fastdds::DataReader* reader) override {
     take_all<Plain>(*reader,
                     [this](Sample<Plain> sample, const WriterId& writer) { deliver(std::move(sample), writer); });
   }
@@ -118,12 +118,12 @@ class PartsReceiver : public Delivery {
  public:
   using Delivery::Delivery;
 
-  void on_data_available(dds::DataReader* reader) override {
+  void on_data_available(fastdds::DataReader* reader) override {
     take_all<MessagePart>(*reader,
                           [this](Sample<MessagePart> part, const WriterId& writer) { take(std::move(part), writer); });
   }
 
-  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+  void on_subscription_matched(fastdds::DataReader*, const fastdds::SubscriptionMatchedStatus& status) override {
     if (status.current_count_change >= 0) return;
     const std::lock_guard lock(mutex_);
     assembly_.departed(writer_id(status.last_publication_handle), std::chrono::steady_clock::now());
@@ -151,7 +151,7 @@ class ProgressReceiver : public Delivery {
  public:
   using Delivery::Delivery;
 
-  void on_data_available(dds::DataReader* reader) override {
+  void on_data_available(fastdds::DataReader* reader) override {
     take_all<PlacedProgress>(*reader, [this](Sample<PlacedProgress> sample, const WriterId& writer) {
       if (!sample) return reject(writer, "it cannot be read");
       if (!sample->over) deliver(std::move(sample->progress), writer);
@@ -164,7 +164,7 @@ class DataReceiver final : public PartsReceiver<CalibrationData> {
  public:
   using PartsReceiver::PartsReceiver;
 
-  void on_subscription_matched(dds::DataReader* reader, const dds::SubscriptionMatchedStatus& status) override {
+  void on_subscription_matched(fastdds::DataReader* reader, const fastdds::SubscriptionMatchedStatus& status) override {
     PartsReceiver::on_subscription_matched(reader, status);
     const ParticipantId owner = participant_of(writer_id(status.last_publication_handle));
     if (status.current_count_change < 0) inbox_.owners.departed(owner, std::chrono::steady_clock::now());
@@ -177,13 +177,13 @@ class WorkerReceiver final : public Receiver<WorkerStatus> {
  public:
   using Receiver::Receiver;
 
-  void on_liveliness_changed(dds::DataReader*, const dds::LivelinessChangedStatus& status) override {
+  void on_liveliness_changed(fastdds::DataReader*, const fastdds::LivelinessChangedStatus& status) override {
     const WriterId writer = writer_id(status.last_publication_handle);
     if (status.not_alive_count_change > 0) inbox_.presence.lost_liveliness(writer);
     if (status.alive_count_change > 0) inbox_.presence.regained_liveliness(writer);
   }
 
-  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+  void on_subscription_matched(fastdds::DataReader*, const fastdds::SubscriptionMatchedStatus& status) override {
     if (status.current_count_change < 0) inbox_.presence.departed(writer_id(status.last_publication_handle));
   }
 };
@@ -193,14 +193,14 @@ class LoopReceiver final : public Receiver<LoopNews> {
  public:
   using Receiver::Receiver;
 
-  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+  void on_subscription_matched(fastdds::DataReader*, const fastdds::SubscriptionMatchedStatus& status) override {
     if (status.current_count_change < 0) inbox_.heralds.departed(writer_id(status.last_publication_handle));
   }
 };
 
 }  // namespace
 
-std::unique_ptr<dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox) {
+std::unique_ptr<fastdds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox) {
   switch (topic) {
     case Topic::data:
       return std::make_unique<DataReceiver>(inbox);
@@ -224,4 +224,4 @@ std::unique_ptr<dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox
   return std::make_unique<WorkerReceiver>(inbox);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

@@ -11,7 +11,7 @@
 #include "transport/participants.hpp"
 #include "transport/run_owners.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 
 /// Where a participant's listeners put what they receive.
 struct Inbox {
@@ -35,4 +35,4 @@ struct Inbox {
 /// The listener for a reader of this topic. Called on Fast DDS's threads; `inbox` must outlive the reader.
 std::unique_ptr<eprosima::fastdds::dds::DataReaderListener> make_receiver(Topic topic, Inbox& inbox);
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

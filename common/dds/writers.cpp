@@ -14,10 +14,10 @@
 #include "evolution/archipelago.hpp"
 #include "protocol/message_bytes.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 
 constexpr std::size_t kMostOver = 1024;
 /// So long after a run's end its final messages may still be published.
@@ -28,14 +28,14 @@ DdsWriters::Channel channel_of(const TopicKey& key) {
 }
 
 template <class Plain>
-void publish(dds::DataWriter& writer, Plain message) {
+void publish(fastdds::DataWriter& writer, Plain message) {
   Sample<Plain> sample(std::move(message));
   if (!writer.write(&sample)) throw std::runtime_error("DDS: cannot write to " + writer.get_topic()->get_name());
 }
 
 }  // namespace
 
-void DdsWriters::add(Channel channel, Owned<dds::DataWriter> writer) {
+void DdsWriters::add(Channel channel, Owned<fastdds::DataWriter> writer) {
   const std::lock_guard lock(mutex_);
   writers_[channel].dds = std::move(writer);
 }
@@ -46,14 +46,14 @@ DdsWriters::Writer& DdsWriters::writer(Channel channel) {
   return found->second;
 }
 
-dds::DataWriter* DdsWriters::at(Channel channel) {
+fastdds::DataWriter* DdsWriters::at(Channel channel) {
   const std::lock_guard lock(mutex_);
   return writer(channel).dds.get();
 }
 
-std::vector<std::pair<Topic, dds::DataWriter*>> DdsWriters::all() {
+std::vector<std::pair<Topic, fastdds::DataWriter*>> DdsWriters::all() {
   const std::lock_guard lock(mutex_);
-  std::vector<std::pair<Topic, dds::DataWriter*>> all;
+  std::vector<std::pair<Topic, fastdds::DataWriter*>> all;
   for (const auto& [channel, writer] : writers_) all.emplace_back(channel.first, writer.dds.get());
   return all;
 }
@@ -117,4 +117,4 @@ void DdsWriters::vacate_ended() {
     if (now - ended.at >= kDrainTimeout) vacate(ended);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

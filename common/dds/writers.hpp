@@ -15,7 +15,7 @@
 #include "dds/parts.hpp"
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline dds {
 
 /// Publishes what concerns a run in places (idl/calibration.idl), and vacates them when the run is over.
 /// Any thread may call.
@@ -66,4 +66,4 @@ class DdsWriters {
   std::deque<Ended> over_;    ///< the last runs that ended
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline dds

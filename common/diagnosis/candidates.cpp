@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 bool is_wanted(const std::vector<std::string>& kinds, std::string_view kind) {
@@ -186,4 +186,4 @@ std::vector<UntestableKind> untestable_kinds(const Evidence& evidence, const std
   return untestable;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

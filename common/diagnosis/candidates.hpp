@@ -10,7 +10,7 @@
 #include "fitting/declared_model.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 /// The evidence of `poses`. A circumstance counts where every pose has it and not all poses have the same; a joint's
 /// approach where it came from both sides.
@@ -62,4 +62,4 @@ std::vector<double> naming_costs_nats(const std::vector<Candidate>& candidates);
 /// joints that move take part. What evolution finds most often where it is let loose, tried without evolving.
 std::vector<Effect> formula_library(const Robot& robot, const Evidence& evidence);
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

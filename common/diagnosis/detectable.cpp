@@ -7,7 +7,7 @@
 #include "diagnosis/judgement.hpp"
 #include "effects/catalogue.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 /// What terms could absorb of a column one after another, the one that absorbs most first: of its squared length.
@@ -144,4 +144,4 @@ std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vect
   return all;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -10,7 +10,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 /// A candidate, and how it shows beyond the model.
 struct DetectableCandidate {
@@ -60,4 +60,4 @@ struct BoundOptions {
 std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vector<double>& null_maxima,
                                        const BoundOptions& options, RandomStream random);
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

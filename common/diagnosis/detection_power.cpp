@@ -9,7 +9,7 @@
 
 #include "effects/catalogue.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr double kUndetectable = std::numeric_limits<double>::infinity();
@@ -134,4 +134,4 @@ std::vector<NotFound> smallest_detectable(const std::vector<DetectableCandidate>
   return all;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

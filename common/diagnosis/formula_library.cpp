@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr double kLeastMotion = 0.05;  ///< rad or m: joints that move less say nothing
@@ -120,4 +120,4 @@ std::vector<Effect> formula_library(const Robot& robot, const Evidence& evidence
   return effects;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -9,7 +9,7 @@
 #include "diagnosis/scan.hpp"
 #include "effects/law_terms.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr int kMostRejections = 12;
@@ -260,4 +260,4 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
   return std::move(outcome_);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

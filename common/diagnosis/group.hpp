@@ -11,7 +11,7 @@
 #include "random/random_purpose.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 /// What the evaluation of a candidate takes.
 struct GroupRules {
@@ -87,4 +87,4 @@ class Group {
   GroupOutcome outcome_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -11,7 +11,7 @@
 #include "fitting/fit.hpp"
 #include "fitting/median.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr int kConfirmationDraws = 1000;
@@ -250,4 +250,4 @@ std::string implausibility(const Effect& effect, const DiagnosisProblem& problem
          std::string(largest.turn_rad > kLargestTurn_rad ? "20 mrad" : "20 mm") + "): check signs, units and row order";
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -9,7 +9,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 /// The tool error of every validation pose, mm, less what it shares with its neighbours: of its position rows or, where
 /// there are none, the root mean square of all.
@@ -58,4 +58,4 @@ std::string implausibility(const Effect& effect, const DiagnosisProblem& problem
 /// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in truth.
 bool tilt_is_implausible(const Effect& effect);
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -11,7 +11,7 @@
 #include "residuals/noise_estimation.hpp"
 #include "residuals/structure.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr int kFirstSteps = 12;  ///< of Gauss and Newton, from the declared fit
@@ -293,4 +293,4 @@ LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const 
   return ClosedLoop(problem, options, watch).run(diagnosed_model(problem, start));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -10,7 +10,7 @@
 #include "diagnosis/outcome.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 struct LoopOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue to consider; empty: all
@@ -62,4 +62,4 @@ std::vector<std::size_t> poses_of_last_fit(const DataSet& data);
 /// it is no longer unseen, but for the accept poses.
 DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, DiagnosedModel model);
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

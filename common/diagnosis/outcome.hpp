@@ -11,7 +11,7 @@
 #include "next_measurement/next_measurement.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 enum class Verdict { added, rejected, none };
 
@@ -136,4 +136,4 @@ inline std::string to_string(Verdict verdict) {
   return "none";
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -9,7 +9,7 @@
 #include "effects/measurement.hpp"
 #include "fitting/median.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr int kRefitSteps = 3;
@@ -117,4 +117,4 @@ DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, Dia
   return capped_index_m2(all, last.robot) <= std::pow(kWorse, 2) * capped_index_m2(all, model.robot) ? last : model;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

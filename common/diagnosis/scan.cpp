@@ -7,7 +7,7 @@
 
 #include "residuals/noise.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 namespace {
 
 constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
@@ -161,4 +161,4 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
   return rivals;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

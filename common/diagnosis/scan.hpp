@@ -11,7 +11,7 @@
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline diagnosis {
 
 /// One candidate against the residual.
 struct Score {
@@ -72,4 +72,4 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
                              const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
                              const ResidualField& field);
 
-}  // namespace demecal
+}  // namespace demecal::inline diagnosis

@@ -9,7 +9,7 @@
 #include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 namespace {
 
 /// 0 where orientation has no part in the fit.
@@ -142,4 +142,4 @@ ChosenShapes AmplitudeFit::unscaled(std::span<const std::size_t> chosen) const {
   return chosen_shapes(ones(chosen), index_mm2(chosen, ones(chosen)));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

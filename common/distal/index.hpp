@@ -10,7 +10,7 @@
 #include "effects/corrected_robot.hpp"
 #include "fitting/fit.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 
 /// What a pose says near the present corrections: rows that the index squares, and how they fall as joints are
 /// corrected further.
@@ -86,4 +86,4 @@ class AmplitudeFit {
   double bare_index_mm2_;     ///< without corrections of `joints`
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

@@ -11,7 +11,7 @@
 #include "calibration/evolver.hpp"
 #include "distal/steps.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 
 /// Learns by distal supervision (thesis 4.3, 4.4) in the form that the job asks for, from where `preparation` stands,
 /// over its targets' poses. What comes out is what was reached. `functions` are those that the joints share;
@@ -49,4 +49,4 @@ struct SequenceOutcome {
 SequenceOutcome learn_in_sequence(const DistalIndex& index, const Preparation& preparation, const Job& job,
                                   const std::function<bool()>& may_go_on);
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

@@ -5,7 +5,7 @@
 #include "distal/steps.hpp"
 #include "evolution/fitness.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 namespace {
 
 constexpr std::size_t kSeedShare = 4;  ///< one in so many individuals may be a seed
@@ -119,4 +119,4 @@ void gather_candidates(const DistalIndex& index, const std::vector<JointTraining
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

@@ -8,7 +8,7 @@
 #include "evolution/tree_generation.hpp"
 #include "random/random_purpose.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 namespace {
 
 constexpr int kPatience = 40;     ///< generations without gain before a population begins anew
@@ -157,4 +157,4 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
   return std::move(outcome.learnt);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

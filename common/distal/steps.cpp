@@ -9,7 +9,7 @@
 #include "distal/index.hpp"
 #include "evolution/fitness.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 namespace {
 
 constexpr double kLeastGain = 1e-4;  ///< of the linearized index, by a choice that counts
@@ -248,4 +248,4 @@ bool accept_candidates(const DistalIndex& index, std::span<const JointCandidates
   return true;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

@@ -10,7 +10,7 @@
 #include "calibration/selection.hpp"
 #include "distal/index.hpp"
 
-namespace demecal {
+namespace demecal::inline distal {
 
 inline constexpr double kLeastFall = 1e-6;  ///< of the index, by a step that counts
 
@@ -58,4 +58,4 @@ bool accept_correction(const DistalIndex& index, const JointTraining& training, 
 bool accept_candidates(const DistalIndex& index, std::span<const JointCandidates> candidates, Amplitudes amplitudes,
                        std::uint32_t generation, DistalOutcome& outcome);
 
-}  // namespace demecal
+}  // namespace demecal::inline distal

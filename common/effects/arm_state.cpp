@@ -3,7 +3,7 @@
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// Sets places and links: the frames met on the way from base to flange.
@@ -76,4 +76,4 @@ ArmState arm_state(const Robot& robot, const Stop& stop) {
   return state;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -8,7 +8,7 @@
 
 #include "data/data_set.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 /// One stop of the robot: where it was commanded, and the circumstances that its errors depend on.
 struct Stop {
@@ -59,4 +59,4 @@ struct ArmState {
 /// The state of `robot` at `stop`; the tool point in the sensor's frame is set by the caller who knows it.
 ArmState arm_state(const Robot& robot, const Stop& stop);
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

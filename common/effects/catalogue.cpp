@@ -4,7 +4,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 // Each is defined in the file of its law.
 const EffectLaw& registration_law();
@@ -133,4 +133,4 @@ bool is_harmonic(std::string_view kind) {
   return law != nullptr && law->is_harmonic();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -6,7 +6,7 @@
 
 #include "effects/effect.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 struct Cause {
   std::string_view kind;          ///< a word of the catalogue
@@ -27,4 +27,4 @@ int place_among_limits(std::string_view kind);
 /// Whether the kind's effects are harmonics of a joint's turn, of which a model may hold many.
 bool is_harmonic(std::string_view kind);
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

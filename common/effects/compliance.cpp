@@ -8,7 +8,7 @@
 #include "effects/weight_parts.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 constexpr double kSamplePayload_kg = 1.0;
@@ -249,4 +249,4 @@ const EffectLaw& compliance_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -8,7 +8,7 @@
 #include "expression/simplify.hpp"
 #include "kinematics/inverse.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 Eigen::Isometry3d tool_at(const Eigen::Vector3d& point_m) {
@@ -178,4 +178,4 @@ InverseSolution command_reaching(const CorrectedRobot& robot, const Eigen::Isome
   return nearest;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

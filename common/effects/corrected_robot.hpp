@@ -15,7 +15,7 @@
 #include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 /// The correction g(theta) of one joint: h(theta) = theta + g(theta) is where it really goes (thesis eq. 4.1). Outside
 /// its calibrated range it keeps the value it has at the nearer end, so that it never extrapolates. Of a prismatic
@@ -117,4 +117,4 @@ InverseSolution corrected_command(const CorrectedRobot& robot, const Chain& nomi
 InverseSolution command_reaching(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start,
                                  const InverseOptions& options = {});
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

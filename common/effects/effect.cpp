@@ -7,7 +7,7 @@
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// The form that an effect is of: an empty one stands for its law's first.
@@ -111,4 +111,4 @@ void append_unit_motions(const Effect& effect, const Robot& robot, const ArmStat
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

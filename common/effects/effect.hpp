@@ -12,7 +12,7 @@
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 /// The joints' measured ranges within which an effect was identified: joint (from 0) and interval (rad or m).
 using MeasuredRanges = std::map<int, Interval>;
@@ -163,4 +163,4 @@ void append_unit_motions(const Effect& effect, const Robot& robot, const ArmStat
 /// 1 inside the ranges, 0 beyond 0.1 rad (m) from them, smooth between. Whole turns of revolute joints do not count.
 double known_share(const Effect& effect, const Chain& chain, const JointVector& joints);
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

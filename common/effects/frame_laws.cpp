@@ -5,7 +5,7 @@
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// The base's place in the instrument's frame: six motions about the frame of the measurements.
@@ -152,4 +152,4 @@ const EffectLaw& sensor_scale_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -6,7 +6,7 @@
 #include "effects/symbolic_state.hpp"
 #include "effects/weight_parts.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// The load that seats a gear, of the joint's median load.
@@ -161,4 +161,4 @@ const EffectLaw& hysteresis_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -5,7 +5,7 @@
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// A joint's zero that is off.
@@ -145,4 +145,4 @@ const EffectLaw& coupling_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 constexpr double kArcsecondsPerRadian = 3600.0 * 180.0 / std::numbers::pi;
@@ -170,4 +170,4 @@ std::string triple_text(const Effect& effect, std::size_t first, double scale, c
   return text + ") " + unit;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

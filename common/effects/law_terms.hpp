@@ -6,7 +6,7 @@
 
 #include "effects/effect.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 /// Appends a motion of the joint itself: about its axis, or along it where it is prismatic. Nothing where it is zero.
 void append_joint_motion(const Robot& robot, int joint, int coefficient, double size, std::vector<UnitMotion>& motions);
@@ -82,4 +82,4 @@ inline std::string warming_symbol(const Effect& effect) {
   return "(T - " + rounded_text(effect.setting("reference_celsius")) + " degC)";
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -7,7 +7,7 @@
 #include "effects/symbolic_state.hpp"
 #include "effects/weight_parts.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// The frame in which the link's transform `parameter` acts, from where the link begins.
@@ -162,4 +162,4 @@ const EffectLaw& link_bending_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

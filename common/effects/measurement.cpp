@@ -10,7 +10,7 @@
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -105,4 +105,4 @@ ErrorFigures error_figures(std::vector<double> errors_mm) {
   return {sum / count, std::sqrt(squares / count), percentile_95(errors_mm), errors_mm.back()};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -9,7 +9,7 @@
 #include "data/data_set.hpp"
 #include "effects/corrected_robot.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 // Distances are understood as lengths from the known anchors, one each in their order: a data set whose anchors are
 // unknown has no prediction here, and its caller refuses it.
@@ -54,4 +54,4 @@ ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std
 /// As error_figures() of poses, of these tool errors, mm (none NaN); all NaN where there are none.
 ErrorFigures error_figures(std::vector<double> errors_mm);
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -5,7 +5,7 @@
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// A joint that swings to either side so many periods a turn; a setting says how many.
@@ -177,4 +177,4 @@ const EffectLaw& axis_wobble_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

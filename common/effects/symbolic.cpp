@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "expression/evaluate.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 constexpr int kCircumstances = 3;  // tau, s, T: behind the joints
@@ -142,4 +142,4 @@ const EffectLaw& symbolic_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

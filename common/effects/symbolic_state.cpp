@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 /// Turns the frame about one of its own axes: the two that follow it mix.
@@ -207,4 +207,4 @@ std::vector<SymbolicUnit> symbolic_units(const Effect& effect, const SymbolicSta
   return writer.units;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -9,7 +9,7 @@
 #include "kinematics/chain.hpp"
 #include "symbolic/parse_expression.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 using SymbolicVector = std::vector<Expression>;  ///< x, y, z
 
@@ -105,4 +105,4 @@ struct SymbolicWriter {
 /// What a unit of each coefficient of the effect does at the state.
 std::vector<SymbolicUnit> symbolic_units(const Effect& effect, const SymbolicState& state, const std::string& name);
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -4,7 +4,7 @@
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 const Joint& link_of(const Robot& robot, const Effect& effect) {
@@ -102,4 +102,4 @@ const EffectLaw& thermal_offset_law() {
   return law;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -7,7 +7,7 @@
 
 #include "effects/law_terms.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 namespace {
 
 constexpr int kMass = 3;
@@ -136,4 +136,4 @@ std::vector<double> torques_by_size(const Robot& robot, const std::vector<ArmSta
   return sizes;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

@@ -9,7 +9,7 @@
 
 #include "effects/effect.hpp"
 
-namespace demecal {
+namespace demecal::inline effects {
 
 /// One of a link's four unknowns that gravity's torque on a joint is linear in: its first moments along x, y, z of its
 /// own frame (kg m), or its mass as if hung at its frame's origin (kg).
@@ -49,4 +49,4 @@ std::vector<double> torques_by_size(const Robot& robot, const std::vector<ArmSta
 /// Loads and levers below this (N, Nm, m) are rounding.
 inline constexpr double kNoLoad = 1e-9;
 
-}  // namespace demecal
+}  // namespace demecal::inline effects

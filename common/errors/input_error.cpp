@@ -1,6 +1,6 @@
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline errors {
 namespace {
 
 std::string sentence(const InputError::Where& where, const std::string& value, const std::string& rule) {
@@ -16,4 +16,4 @@ std::string sentence(const InputError::Where& where, const std::string& value, c
 InputError::InputError(Where where, const std::string& value, const std::string& rule)
     : std::runtime_error(sentence(where, value, rule)), where_(std::move(where)), value_(value), rule_(rule) {}
 
-}  // namespace demecal
+}  // namespace demecal::inline errors

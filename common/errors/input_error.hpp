@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace demecal {
+namespace demecal::inline errors {
 
 /// The one exception for bad input. Thrown anywhere, caught once in each program's main (exit code 11).
 /// The sentence reads "FILE:LINE: 'VALUE': RULE", leaving out what is empty or, for the line, 0.
@@ -28,4 +28,4 @@ class InputError : public std::runtime_error {
   std::string rule_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline errors

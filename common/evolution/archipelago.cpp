@@ -5,7 +5,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 std::vector<std::uint32_t> source_demes(const Archipelago& archipelago, std::uint32_t deme) {
@@ -65,4 +65,4 @@ GpParameters island_parameters(const GpParameters& parameters, const Archipelago
   return own;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -7,7 +7,7 @@
 
 #include "evolution/parameters.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// An island: one deme of one joint. Joints and demes count from 0.
 struct IslandKey {
@@ -51,4 +51,4 @@ std::vector<IslandKey> consumers(const Archipelago& archipelago, IslandKey islan
 /// and the shrink mutation rate, in equal steps between; each as far as its rules allow. An island alone has the mean.
 GpParameters island_parameters(const GpParameters& parameters, const Archipelago& archipelago, std::uint32_t deme);
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

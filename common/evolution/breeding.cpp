@@ -9,7 +9,7 @@
 #include "errors/check.hpp"
 #include "evolution/population.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 ConstantLearning::ConstantLearning(const TrainingTable& table, const GpParameters& parameters)
     : fit_(table, parameters),
@@ -191,4 +191,4 @@ std::uint64_t Breeder::count_new(const SharedPopulation& parents) {
   return count;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -14,7 +14,7 @@
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// fitness[i] is that of models[i]: of roots[i] itself or, where fitted constants are not inherited, of what roots[i]
 /// was fitted to; models[i] is 0 where that is no longer known.
@@ -118,4 +118,4 @@ class Breeder {
   std::size_t size_after_collection_ = 0;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

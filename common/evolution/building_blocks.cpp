@@ -11,7 +11,7 @@
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 const Node kConstant{Primitive::variable, 0, 0.0};
@@ -148,4 +148,4 @@ std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, 
   return blocks;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -12,7 +12,7 @@
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// What one island ended with: its best of each length.
 struct IslandFront {
@@ -59,4 +59,4 @@ std::vector<SharedFunction> find_shared_functions(std::span<const std::vector<Tr
 
 inline constexpr std::size_t kLargestStructure = 5;
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -5,7 +5,7 @@
 
 #include "expression/elementary.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 constexpr std::size_t kMostUnknowns = 24;  // further constants stay as they are
@@ -203,4 +203,4 @@ FittedFormula ConstantFit::by_squares(NodeStore& store, NodeId root) {
   return {model_.rebuilt(store, constants_), loss_};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

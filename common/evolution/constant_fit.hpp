@@ -14,7 +14,7 @@
 #include "expression/constant_model.hpp"
 #include "expression/node_store.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// (J' W J + damping diag(J' W J)) x = J' W e, where column i of J is the slope of the values by unknown i and e are
 /// the errors left (Marquardt 1963). Keeps its memory.
@@ -112,4 +112,4 @@ class ConstantFit {
   bool at_constants_ = false;    ///< whether the model has them
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -9,7 +9,7 @@
 #include "errors/check.hpp"
 #include "expression/elementary.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 DEMECAL_FOR_EACH_VECTOR_UNIT
@@ -57,4 +57,4 @@ double ErrorSum::total(const Lanes& s) {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -6,7 +6,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 void check_columns(const TrainingTable& table) {
   DEMECAL_CHECK(!table.variables.empty() && table.weight.size() == table.target.size(),
@@ -96,4 +96,4 @@ void SafeFormulas::forget(std::span<const NodeId> dropped) {
     if (id < known_.size()) known_[id] = Verdict::unknown;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

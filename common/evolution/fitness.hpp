@@ -15,7 +15,7 @@
 #include "expression/node_store.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// What a row's error counts: its size, as in direct learning (thesis eq. 4.12), or its square, as in the performance
 /// index of the whole model (eq. 4.6).
@@ -122,4 +122,4 @@ class SafeFormulas {
   Tree tree_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

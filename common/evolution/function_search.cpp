@@ -16,7 +16,7 @@
 #include "expression/shared_function.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 constexpr std::size_t kMostTried = 200;     // structures of a search that are looked at closely
@@ -184,4 +184,4 @@ std::vector<SharedFunction> find_shared_functions(std::span<const std::vector<Tr
   return chosen;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

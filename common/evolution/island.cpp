@@ -14,7 +14,7 @@
 #include "expression/node_store.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 constexpr double kRejected = std::numeric_limits<double>::infinity();
@@ -218,4 +218,4 @@ void Island::restore(IslandState state) {
   residents_ = {};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

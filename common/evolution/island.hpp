@@ -14,7 +14,7 @@
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// All that an island is between two epochs: with it any worker can go on where another stopped.
 struct IslandState {
@@ -93,4 +93,4 @@ class Island {
   IslandState state_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

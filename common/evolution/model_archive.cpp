@@ -10,7 +10,7 @@
 #include "expression/node_store.hpp"
 #include "expression/primitive.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 double description_length_nats(const Tree& tree, double square, double rows) {
   double nats = 0.5 * rows * std::log(square);
@@ -85,4 +85,4 @@ const Individual* ModelArchive::chosen() const {
   return briefest == members.end() ? nullptr : &*briefest;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -13,7 +13,7 @@
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// Nats that it takes to write down the errors, normal and of unknown size, of a formula with mean square `square` over
 /// `rows` rows, and the formula: one for every node and log(rows) / 2 more for every constant (after Rissanen 1978).
@@ -62,4 +62,4 @@ class ModelArchive {
   std::vector<std::pair<std::size_t, double>> last_;  ///< length and fitness of the members offered last
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

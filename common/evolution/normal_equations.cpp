@@ -10,7 +10,7 @@
 
 #include "expression/elementary.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 using Lanes = std::array<double, kLanes>;
@@ -115,4 +115,4 @@ bool DampedNormalEquations::solve(double damping, std::span<double> step) {
   return solve_in_place(factor_.data(), diagonal_.data(), step.data(), n);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

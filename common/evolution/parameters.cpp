@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <iterator>
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 template <class Number>
@@ -143,4 +143,4 @@ std::optional<ParameterFault> find_fault(const GpParameters& p) {
   return constants_fault(p);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -9,7 +9,7 @@
 #include "expression/primitive.hpp"
 #include "expression/shared_function.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// What max_tree_depth may be at most.
 inline constexpr int kDeepestTree = 15;
@@ -65,4 +65,4 @@ struct ParameterFault {
 /// both finite, a known policy for constants. Nothing where all hold.
 std::optional<ParameterFault> find_fault(const GpParameters& parameters);
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 Population::const_iterator ParetoFront::first_as_long(std::size_t length) const {
   const auto shorter = [](const Individual& member, std::size_t most) { return member.tree.size() < most; };
@@ -57,4 +57,4 @@ std::vector<std::size_t> ranking(std::span<const double> fitness) {
   return indices;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -9,7 +9,7 @@
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 struct Individual {
   Tree tree;
@@ -55,4 +55,4 @@ std::size_t fittest(std::span<const double> fitness);
 /// All indices from the fittest to the worst; equals by index.
 std::vector<std::size_t> ranking(std::span<const double> fitness);
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 double finite_or_worst(double value) {
@@ -95,4 +95,4 @@ double SimplexSearch::operator()(const Function& function, std::span<double> poi
   return values_[best];
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

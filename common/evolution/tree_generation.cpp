@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-namespace demecal {
+namespace demecal::inline evolution {
 namespace {
 
 std::uint64_t hash_of(const Tree& tree) {
@@ -190,4 +190,4 @@ std::vector<Tree> ramped_half_and_half(RandomStream& random, const GpParameters&
   return trees;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

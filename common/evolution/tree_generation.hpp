@@ -11,7 +11,7 @@
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// A hash table of trees that stay where they are, compared to the bit: whether two trees are found equal never depends
 /// on their hashes.
@@ -68,4 +68,4 @@ void append_full(RandomStream& random, const NodeSet& nodes, int depth, Tree& tr
 /// and so is one that stands in the population already, up to invalid_attempts times.
 std::vector<Tree> ramped_half_and_half(RandomStream& random, const GpParameters& parameters, int variables);
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

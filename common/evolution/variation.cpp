@@ -4,7 +4,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 // A missing second argument counts as one of depth 0, which is no deeper than this point lies.
 inline void TreePoint::descend(const SharedNode& node, bool to_right) {
@@ -110,4 +110,4 @@ bool Variation::mutate(RandomStream& random, NodeStore& store, NodeId& formula) 
   return false;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

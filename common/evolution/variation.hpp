@@ -11,7 +11,7 @@
 #include "expression/tree.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline evolution {
 
 /// A node of a formula as a tree; finding one takes as many steps as it lies deep.
 class TreePoint {
@@ -68,4 +68,4 @@ class Variation {
   Tree grown_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline evolution

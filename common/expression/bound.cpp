@@ -11,7 +11,7 @@
 #include "errors/check.hpp"
 #include "expression/elementary.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -269,4 +269,4 @@ bool stays_within(std::span<const Node> tree, Interval range, double largest, in
   return stays_within(walk, range, largest, halvings);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -7,7 +7,7 @@
 #include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// All values from lower to upper, both included; an infinite end means that nothing bounds that side.
 struct Interval {
@@ -50,4 +50,4 @@ std::vector<double> discontinuities(const Tree& tree, Interval range, double sma
 /// -largest and largest: pieces are halved only where they do not. False where a pole cannot be excluded.
 bool stays_within(std::span<const Node> tree, Interval range, double largest, int halvings = 8);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

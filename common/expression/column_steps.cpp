@@ -10,7 +10,7 @@
 #include "errors/check.hpp"
 #include "expression/elementary.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 enum class Form : std::uint8_t { column, column_constant, constant_column };
@@ -184,4 +184,4 @@ void run(std::span<const ColumnStep> steps, std::size_t begin, std::size_t rows)
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -4,7 +4,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 constexpr std::size_t kLine = LineAligned<double>::kBytes / sizeof(double);
@@ -45,4 +45,4 @@ PaddedColumns::PaddedColumns(Columns columns)
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

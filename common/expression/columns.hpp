@@ -9,7 +9,7 @@
 
 #include "expression/primitive.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// Columns start at a cache line, so that no vector of rows straddles two.
 template <class T>
@@ -101,4 +101,4 @@ ColumnStep make_step(Primitive function, const Operand& left, const Operand& rig
 /// every row are those that value_of() gives. A step's `out` may be one of its arguments.
 void run(std::span<const ColumnStep> steps, std::size_t begin, std::size_t rows);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

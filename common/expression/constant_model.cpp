@@ -6,7 +6,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 constexpr std::size_t kRowsOfModel = 128;  // the columns of a formula's parts and their slopes stay in the near caches
@@ -188,4 +188,4 @@ NodeId ConstantModel::rebuilt(NodeStore& store, std::span<const double> constant
   return rebuilt_.back();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -11,7 +11,7 @@
 #include "expression/node_store.hpp"
 #include "expression/primitive.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// Takes one formula of a store at a time. Its constants are its largest subtrees without a variable, folded into
 /// numbers; equal subtrees share one constant. Slopes come from one sweep backwards over the shared form (reverse
@@ -102,4 +102,4 @@ class ConstantModel {
   bool jumps_ = false;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -8,7 +8,7 @@
 #include "expression/elementary.hpp"
 #include "expression/primitive.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 const double* ConstantModel::emit(Primitive primitive, const Operand& argument) {
   double* const out = take_column();
@@ -137,4 +137,4 @@ void ConstantModel::backpropagate(const Part& part) {
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -8,7 +8,7 @@
 
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 // Formulas without terms and factors that change no finite value. A function of constants is one constant, unless it
@@ -133,4 +133,4 @@ Tree derivative(const Tree& tree, std::uint8_t variable) {
       .slope;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -16,7 +16,7 @@
 #include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 double value_at(std::span<const Node> tree, double x) {
@@ -166,4 +166,4 @@ std::vector<double> discontinuities(const Tree& tree, Interval range, double sma
   return search.found();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

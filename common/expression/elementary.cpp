@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 __extension__ using Wide = unsigned __int128;
@@ -94,4 +94,4 @@ double arc_tangent(double x) {
   return inline_arc_tangent(x);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

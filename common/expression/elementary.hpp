@@ -22,7 +22,7 @@
 #define DEMECAL_ROWS_APART
 #endif
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// Arguments up to this size (rad) are reduced in doubles; beyond it, sine() and cosine() take longer.
 inline constexpr double kLargestReducedAngle = 0x1.0p20;
@@ -171,4 +171,4 @@ double hyperbolic_tangent(double x);
 /// Within 2.5 units in the last place.
 double arc_tangent(double x);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -7,7 +7,7 @@
 #include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 constexpr std::size_t kRowsOfEvaluation = 256;  // so that the columns of a strip stay in the first-level cache
@@ -222,4 +222,4 @@ void SharedEvaluator::forget(std::span<const NodeId> dropped) {
   std::erase_if(cached_nodes_, [&](NodeId id) { return node_columns_[id].kept == 0; });
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -11,7 +11,7 @@
 #include "expression/node_store.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// The value at one point; `variables[i]` is the value of variable i. The tree must be valid for as many variables.
 double evaluate(std::span<const Node> tree, std::span<const double> variables);
@@ -94,4 +94,4 @@ class SharedEvaluator {
   AlignedColumn constant_strip_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

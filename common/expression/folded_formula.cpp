@@ -14,7 +14,7 @@
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 constexpr std::size_t kMostNames = 255;
@@ -220,4 +220,4 @@ std::string to_string(const FoldedFormula& formula, const VariableNames& names) 
   return to_string(formula.outline, with_calls);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -5,7 +5,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 std::uint64_t mixed(std::uint64_t bits) {
@@ -180,4 +180,4 @@ std::span<const NodeId> NodeStore::collect(std::span<const NodeId> roots) {
   return dropped_;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

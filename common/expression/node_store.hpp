@@ -10,7 +10,7 @@
 #include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// The number of a node in its store, from 1: the formula whose root it is.
 using NodeId = std::uint32_t;
@@ -86,4 +86,4 @@ class NodeStore {
   std::uint64_t functions_made_ = 0;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

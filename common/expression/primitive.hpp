@@ -9,7 +9,7 @@
 
 #include "expression/elementary.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// Terminals first, then the functions of thesis section 6.2: {+ - * % SIN COS SIGN SQRTp}, then later ones. Their
 /// numbers go over the wire: new ones come last.
@@ -137,4 +137,4 @@ inline double value_of(Primitive function, double left, double right) {
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

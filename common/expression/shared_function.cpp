@@ -7,7 +7,7 @@
 #include "expression/primitive.hpp"
 #include "expression/text.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 std::size_t places_in(const Tree& body) {
@@ -116,4 +116,4 @@ SharedFunction parse_definition(std::string_view text, std::size_t place) {
   return function;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -11,7 +11,7 @@
 
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// F(c1, c2, ..., a1, a2, ...): a formula without constants whose variables are places, those of coefficients first. A
 /// coefficient is a number; an argument is any formula.
@@ -83,4 +83,4 @@ std::vector<std::size_t> functions_called(const FoldedFormula& formula);
 /// The formula written out: in_order() of it is in_order() of the one that was folded.
 Tree expanded(const FoldedFormula& formula, std::span<const SharedFunction> functions);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

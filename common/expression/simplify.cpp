@@ -11,7 +11,7 @@
 #include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 using Span = std::span<const Node>;
@@ -272,4 +272,4 @@ Tree simplified_over(const Tree& tree, const std::vector<std::vector<double>>& c
   return furthest <= tolerance * largest ? shorter : simplified(tree);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

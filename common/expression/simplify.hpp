@@ -6,7 +6,7 @@
 
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// The formula without what changes no value, to the bit but for the sign of zero, wherever all its subtrees are
 /// finite: functions of constants become constants; a - a is 0, a % a and a % 0 are 1 (as % is protected), terms of 0
@@ -29,4 +29,4 @@ Tree simplified_over(const Tree& tree, const std::vector<std::vector<double>>& c
 /// derivative is that of the pieces beside the jump; at the point of the jump itself it has some finite value.
 Tree derivative(const Tree& tree, std::uint8_t variable);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -14,7 +14,7 @@
 #include "expression/primitive.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 namespace {
 
 Precedence precedence_of(Primitive function) {
@@ -230,4 +230,4 @@ void throw_syntax_error(std::string_view text, std::size_t position, const std::
   throw InputError({}, shown, "column " + std::to_string(position + 1) + ": expected " + expected);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

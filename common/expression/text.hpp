@@ -11,7 +11,7 @@
 #include "expression/shared_function.hpp"
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 /// How tightly infix text binds; whole: a terminal, a call, or anything in parentheses.
 enum class Precedence { sum, product, whole };
@@ -42,4 +42,4 @@ Tree parse(std::string_view text, const VariableNames& names = theta_only(),
 /// shown from 1), and says what was expected there.
 [[noreturn]] void throw_syntax_error(std::string_view text, std::size_t position, const std::string& expected);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

@@ -7,7 +7,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 Tree constant_tree(double value) {
   return {Node{Primitive::constant, 0, value}};
@@ -127,4 +127,4 @@ Tree in_order(std::span<const Node> tree) {
       [](Primitive function, Tree argument) { return apply(function, std::move(argument)); }, apply_in_order);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

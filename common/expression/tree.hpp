@@ -11,7 +11,7 @@
 
 #include "expression/primitive.hpp"
 
-namespace demecal {
+namespace demecal::inline expression {
 
 struct Node {
   Primitive primitive = Primitive::constant;
@@ -104,4 +104,4 @@ Tree with_negatives_added(std::span<const Node> tree);
 /// That formula with all its arguments in order; also of the same values.
 Tree in_order(std::span<const Node> tree);
 
-}  // namespace demecal
+}  // namespace demecal::inline expression

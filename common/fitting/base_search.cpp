@@ -10,7 +10,7 @@
 
 #include "fitting/least_squares.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 /// What base and tool alone usually leave; only the ratio between the kinds matters here.
@@ -251,4 +251,4 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   return svd.matrixU() * Eigen::Vector3d(1, 1, turn < 0 ? -1 : 1).asDiagonal() * svd.matrixV().transpose();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -8,7 +8,7 @@
 #include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// `start` with base and tools, where declared, placed by least squares over at most options.start_poses poses spread
 /// over `poses`: near enough for every parameter to be refined together. Every start is refined a little and the best
@@ -34,4 +34,4 @@ Eigen::Matrix3d spread_rotation(int index, int count);
 /// The rotation nearest to `matrix` (Frobenius).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

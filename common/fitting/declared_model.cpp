@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "fitting/fit.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 struct DeclaredWord {
@@ -191,4 +191,4 @@ std::string UnidentifiedDirection::sentence() const {
   return names + (weak ? " can hardly" : " cannot") + " be told apart by these poses (" + ratios + " by effect)" + kept;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

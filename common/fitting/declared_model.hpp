@@ -7,7 +7,7 @@
 
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 struct DeclaredModel {
   bool registration = false;  ///< the base in the instrument's frame, 6 numbers
@@ -49,4 +49,4 @@ struct ParameterId {
   bool is_angle() const;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

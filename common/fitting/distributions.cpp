@@ -5,7 +5,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 double fisher_p_value(double ratio, double above, double below) {
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(above, below), ratio));
@@ -24,4 +24,4 @@ double median_coverage(std::size_t count, std::size_t rank) {
          2.0 * boost::math::cdf(boost::math::binomial(static_cast<double>(count), 0.5), static_cast<double>(rank));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// P(F > ratio) of Fisher's F with `above` and `below` degrees of freedom; ratio >= 0.
 double fisher_p_value(double ratio, double above, double below);
@@ -18,4 +18,4 @@ double normal_length_quantile(int axes, double share);
 /// the one as far from the end: how many values lie below the median is binomial with 1/2.
 double median_coverage(std::size_t count, std::size_t rank);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -10,7 +10,7 @@
 #include "fitting/row_sums.hpp"
 #include "fitting/scatter.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 void require_known_anchors(const DataSet& data, std::span<const std::size_t> poses) {
@@ -215,4 +215,4 @@ Fit fit_registration(const DataSet& data, std::span<const std::size_t> poses, co
   return fit_declared(data, poses, {.registration = declared.registration, .tool = declared.tool}, start, kept);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -10,7 +10,7 @@
 #include "effects/measurement.hpp"
 #include "fitting/declared_model.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 struct ParameterEstimate {
   ParameterId id;
@@ -84,4 +84,4 @@ Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const 
 Fit fit_registration(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                      const CorrectedRobot& start, const FitOptions& options = {});
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

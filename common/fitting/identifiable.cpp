@@ -9,7 +9,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 /// How far parameters may usually move: links by about a millimetre or what turns half a metre of arm as far; base and
@@ -162,4 +162,4 @@ std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobia
   return readable_directions((jacobian.lengths.asDiagonal() * moves).transpose(), jacobian, ids, true);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

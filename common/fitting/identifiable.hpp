@@ -6,7 +6,7 @@
 
 #include "fitting/fit.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// A Jacobian's triangular factor R (n x n, R^T R = J^T J) with columns scaled to unit length, so that parameters of
 /// different units compare by their effect. Columns without effect are zero, their length 1.
@@ -37,4 +37,4 @@ IdentifiableSubspace identifiable_subspace(const ScaledJacobian& jacobian, const
 std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
                                                    const Eigen::MatrixXd& covariance, const Eigen::VectorXd& precision);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -5,7 +5,7 @@
 
 #include "fitting/row_sums.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 /// The cost at a point and its first two derivatives by z.
@@ -150,4 +150,4 @@ Prior link_prior(const ParameterSpace& space, const CorrectedRobot& nominal, con
   return prior;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

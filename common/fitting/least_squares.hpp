@@ -9,7 +9,7 @@
 #include "fitting/observation.hpp"
 #include "fitting/parameter_space.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// Independent normal beliefs about the parameters of a space, in changes from its reference.
 struct Prior {
@@ -57,4 +57,4 @@ double huber_threshold(int rows);
 /// (Wilson and Hilferty, 1931).
 double norm_quantile(int rows, double normal_quantile);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

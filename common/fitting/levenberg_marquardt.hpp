@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 struct LevenbergMarquardtOptions {
   int max_iterations = std::numeric_limits<int>::max();  ///< tries, successful or not
@@ -45,4 +45,4 @@ void levenberg_marquardt(Problem& problem, const LevenbergMarquardtOptions& opti
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

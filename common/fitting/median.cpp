@@ -5,7 +5,7 @@
 #include "errors/check.hpp"
 #include "fitting/distributions.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 double median(std::vector<double> values) {
   DEMECAL_CHECK(!values.empty(), "the median of nothing");
@@ -34,4 +34,4 @@ std::size_t least_for_interval(double confidence) {
   return count;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// The upper one of the two middle values where there are as many below as above. There must be a value.
 double median(std::vector<double> values);
@@ -26,4 +26,4 @@ MedianInterval median_interval(std::vector<double> values, double confidence = 0
 /// The least number of values for which there is such an interval: 6 for 0.95.
 std::size_t least_for_interval(double confidence = 0.95);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

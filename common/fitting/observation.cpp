@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 /// Visits the rows in use: visit(row among the used, row among all, its scale). Returns how many there are.
@@ -100,4 +100,4 @@ RowScales root_mean_squares(const DataSet& data, const CorrectedRobot& robot,
   return squares;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -9,7 +9,7 @@
 #include "effects/measurement.hpp"
 #include "fitting/parameter_space.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// The kinds of rows: position, orientation, distance, in the order they stand in.
 inline constexpr std::size_t kPosition = 0, kOrientation = 1, kDistance = 2, kRowKinds = 3;
@@ -57,4 +57,4 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
 RowScales root_mean_squares(const DataSet& data, const CorrectedRobot& robot,
                             const std::vector<Observation>& observations);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

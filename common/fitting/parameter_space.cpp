@@ -5,7 +5,7 @@
 #include "errors/check.hpp"
 #include "kinematics/rotation_vector.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 using Kind = ParameterId::Kind;
@@ -240,4 +240,4 @@ Eigen::MatrixXd value_jacobian(const ParameterSpace& space, const ModelPoint& po
   return jacobian;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

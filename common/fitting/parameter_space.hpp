@@ -9,7 +9,7 @@
 #include "effects/corrected_robot.hpp"
 #include "fitting/declared_model.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// The robot at one value of the vector.
 struct ModelPoint {
@@ -59,4 +59,4 @@ double parameter_value(const CorrectedRobot& robot, const ParameterId& id);
 /// rotations, whose vectors do not add.
 Eigen::MatrixXd value_jacobian(const ParameterSpace& space, const ModelPoint& point);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

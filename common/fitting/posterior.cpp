@@ -11,7 +11,7 @@
 #include "errors/check.hpp"
 #include "fitting/distributions.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 /// Of each score: its part of its group's one vote.
@@ -109,4 +109,4 @@ double real_radius95_m(const PredictionInterval& interval, const Posterior& post
   return interval.quantile * std::sqrt(posterior_m2 + 3.0 * std::pow(interval.model_error_m, 2));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -10,7 +10,7 @@
 #include "effects/corrected_robot.hpp"
 #include "fitting/parameter_space.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// A shape that a joint's correction could hold more or less of, in rad of theta in rad.
 struct CorrectionTerm {
@@ -92,4 +92,4 @@ double radius95_m(const PredictionInterval& interval, const Posterior& posterior
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                        const Stop& stop);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

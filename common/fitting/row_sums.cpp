@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 constexpr Eigen::Index kProductRows = 256, kFactorRows = 512;  // collected before they are reduced
@@ -73,4 +73,4 @@ Eigen::MatrixXd TriangularFactor::factor() {
   return stack_.topRows(stack_.cols());
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

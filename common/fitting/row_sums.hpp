@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 /// Takes weighed rows piece by piece and sums them up over a basis B: B^T J^T W J B and B^T J^T W r. Rows are
 /// multiplied by the basis before they are squared, so that hardly visible directions keep their digits.
@@ -59,4 +59,4 @@ class TriangularFactor {
   Eigen::Index filled_ = 0;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -8,7 +8,7 @@
 #include "fitting/median.hpp"
 #include "fitting/row_sums.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 namespace {
 
 constexpr double kLeastDeviation = 1e-9;
@@ -126,4 +126,4 @@ Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
   return scatter;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -6,7 +6,7 @@
 
 #include "fitting/least_squares.hpp"
 
-namespace demecal {
+namespace demecal::inline fitting {
 
 struct Scatter {
   RowScales deviation{};         ///< standard deviation per kind, sqrt(2 cost / dof); 0 for kinds not in use
@@ -26,4 +26,4 @@ Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change);
 RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
                             const std::vector<Observation>& observations);
 
-}  // namespace demecal
+}  // namespace demecal::inline fitting

@@ -8,7 +8,7 @@
 #include "formula_search/rewrite.hpp"
 #include "residuals/noise.hpp"
 
-namespace demecal {
+namespace demecal::inline formula_search {
 namespace {
 
 constexpr double kLeastMotion = 0.05;  ///< rad or m: joints that move less say nothing
@@ -227,4 +227,4 @@ FormulaSearch search_formulas(const DiagnosisProblem& problem, const DiagnosedMo
   return FormulaSearcher(problem, model, evolver, std::move(terms)).run(family_error, random);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline formula_search

@@ -13,7 +13,7 @@
 #include "formula_search/misfit.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline formula_search {
 
 /// One joint's table. Its variables are those of symbolic_variables that these poses know and that vary: joints that
 /// move (rad or m), gravity's torque where masses are known, approach signs and temperatures where they were recorded.
@@ -61,4 +61,4 @@ struct FormulaSearch {
 FormulaSearch search_formulas(const DiagnosisProblem& problem, const DiagnosedModel& model, Evolver& evolver,
                               EvolutionTerms terms, double family_error, RandomStream random);
 
-}  // namespace demecal
+}  // namespace demecal::inline formula_search

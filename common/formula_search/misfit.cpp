@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace demecal {
+namespace demecal::inline formula_search {
 namespace {
 
 /// A constant and the functions up to ABS or, in formulas that have others, all functions.
@@ -108,4 +108,4 @@ double description_nats(const Tree& tree, int variables, std::size_t poses) {
   return nats;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline formula_search

@@ -6,7 +6,7 @@
 #include "evolution/fitness.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline formula_search {
 
 /// Formulas of one joint's error against one residual.
 class FormulaMisfit {
@@ -50,4 +50,4 @@ class FormulaMisfit {
 /// that is not a whole or half number costs half the log of the number of poses.
 double description_nats(const Tree& tree, int variables, std::size_t poses);
 
-}  // namespace demecal
+}  // namespace demecal::inline formula_search

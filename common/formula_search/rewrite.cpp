@@ -7,7 +7,7 @@
 
 #include "fitting/levenberg_marquardt.hpp"
 
-namespace demecal {
+namespace demecal::inline formula_search {
 namespace {
 
 constexpr std::size_t kMostConstants = 8;
@@ -284,4 +284,4 @@ Tree best_product(FormulaMisfit& misfit) {
   return best;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline formula_search

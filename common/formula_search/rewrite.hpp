@@ -4,7 +4,7 @@
 
 #include "formula_search/misfit.hpp"
 
-namespace demecal {
+namespace demecal::inline formula_search {
 
 /// `tree` with its constants (the first 8) where the misfit's sum of squares is least, the formula's amplitude free:
 /// Levenberg and Marquardt's steps from where they are. Then, one after another, a constant within 0.15 of a whole or
@@ -24,4 +24,4 @@ Tree rewritten(const Tree& tree, FormulaMisfit& misfit);
 /// where selection found none, since of such a product no part shows anything alone. There is one variable at least.
 Tree best_product(FormulaMisfit& misfit);
 
-}  // namespace demecal
+}  // namespace demecal::inline formula_search

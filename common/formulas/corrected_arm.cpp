@@ -6,7 +6,7 @@
 #include "expression/simplify.hpp"
 #include "formulas/held_units.hpp"
 
-namespace demecal {
+namespace demecal::inline formulas {
 namespace {
 
 /// What the effects add up to, as Displacement.
@@ -141,4 +141,4 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
   return listing;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline formulas

@@ -4,7 +4,7 @@
 #include "effects/corrected_robot.hpp"
 #include "symbolic/code.hpp"
 
-namespace demecal {
+namespace demecal::inline formulas {
 
 /// The formulas, and what the model knows beyond them.
 struct CorrectedArm {
@@ -20,4 +20,4 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
 /// The listing of the formulas with the remarks that a reader needs: what it is, units, frames, and the notes.
 Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title);
 
-}  // namespace demecal
+}  // namespace demecal::inline formulas

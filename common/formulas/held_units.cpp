@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace demecal {
+namespace demecal::inline formulas {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -117,4 +117,4 @@ std::vector<SymbolicUnit> held_units(const Effect& effect, const SymbolicState& 
   return all;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline formulas

@@ -6,7 +6,7 @@
 #include "effects/symbolic_state.hpp"
 #include "expression/bound.hpp"
 
-namespace demecal {
+namespace demecal::inline formulas {
 
 /// As wrap_near().
 inline Expression wrapped_near(Expression angle, double centre_rad) {
@@ -25,4 +25,4 @@ inline Expression held_within(Expression value, const Interval& range) {
 /// does it.
 std::vector<SymbolicUnit> held_units(const Effect& effect, const SymbolicState& state, const std::string& name);
 
-}  // namespace demecal
+}  // namespace demecal::inline formulas

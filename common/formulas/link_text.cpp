@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-namespace demecal {
+namespace demecal::inline formulas {
 namespace {
 
 std::string digits(double value) {
@@ -86,4 +86,4 @@ std::vector<MatrixText> link_texts(const Chain& chain, LinkNumbers numbers) {
   return texts;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline formulas

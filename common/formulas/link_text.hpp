@@ -4,7 +4,7 @@
 #include "kinematics/chain.hpp"
 #include "symbolic/parse_expression.hpp"
 
-namespace demecal {
+namespace demecal::inline formulas {
 
 enum class LinkNumbers {
   given,  ///< parameters are written as numbers, m and rad
@@ -18,4 +18,4 @@ std::string parameter_name(LinkParameter parameter, int joint);
 /// (given) or may have (named) Hayati's beta, its parts. Rows as in thesis table 5-4.
 std::vector<MatrixText> link_texts(const Chain& chain, LinkNumbers numbers);
 
-}  // namespace demecal
+}  // namespace demecal::inline formulas

@@ -6,7 +6,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline hosting {
 
 const TrainingTable& RunData::table(std::uint32_t joint) const {
   const auto& joints = data.archipelago.joints;
@@ -106,4 +106,4 @@ Outcome HostedIsland::outcome(const std::string& worker) const {
           .front = state.front};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

@@ -14,7 +14,7 @@
 #include "hosting/migrants.hpp"
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline hosting {
 
 /// Counts how much of something could work and how much of it waited: an island that is there or not, the slots of a
 /// worker. Times are arguments and never go back.
@@ -121,4 +121,4 @@ class HostedIsland {
   WaitedShare::Time checkpoint_sent_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline hosting {
 
 EpochBatch::EpochBatch(std::vector<Member> members, MigrantStore arrived)
     : members_(std::move(members)), arrived_(std::move(arrived)) {
@@ -176,4 +176,4 @@ std::shared_ptr<EpochBatch> IslandHost::collect() {
   return *finished;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

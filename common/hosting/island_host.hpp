@@ -19,7 +19,7 @@
 #include "hosting/hosted_island.hpp"
 #include "hosting/migrants.hpp"
 
-namespace demecal {
+namespace demecal::inline hosting {
 
 /// Thrown out of work by its own heartbeat() when the slots are going away: what it computed so far is dropped.
 struct SlotsClosing {};
@@ -207,4 +207,4 @@ class IslandHost {
   Slots<std::shared_ptr<EpochBatch>> slots_;  // last: its threads stop before what they use goes
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

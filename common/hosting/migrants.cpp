@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace demecal {
+namespace demecal::inline hosting {
 namespace {
 
 constexpr std::size_t kMostAssigned = 1024;
@@ -126,4 +126,4 @@ std::map<std::string, std::size_t> UnverifiedMigrants::forget(RunId run) {
   return forgotten;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

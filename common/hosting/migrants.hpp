@@ -13,7 +13,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline hosting {
 
 /// Emigrants of one run by source island and epoch. Late and doubled ones change nothing: an island's emigrants of an
 /// epoch are the same whoever sends them. Of every source the last kEpochs are kept, whatever islands are here now:
@@ -84,4 +84,4 @@ class UnverifiedMigrants {
   std::map<std::string, std::deque<Migrants>> by_sender_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

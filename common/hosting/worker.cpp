@@ -8,7 +8,7 @@
 #include "protocol/faults.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline hosting {
 namespace {
 
 constexpr std::chrono::milliseconds kHeartbeat = kLease / 5, kLeastHeartbeat = kLease / 10;
@@ -266,4 +266,4 @@ void Worker::keep_alive() {
   if (now - announced_ >= kAnnouncement) announce(false);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

@@ -15,7 +15,7 @@
 #include "hosting/migrants.hpp"
 #include "transport/transport.hpp"
 
-namespace demecal {
+namespace demecal::inline hosting {
 
 struct WorkerOptions {
   std::string name;  ///< unique among all workers
@@ -76,4 +76,4 @@ class Worker {
   WaitedShare::Time announced_{}, asserted_{};
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline hosting

@@ -9,7 +9,7 @@
 #include "html/markup.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 constexpr double kWidth = 520.0, kHeight = 236.0;
@@ -286,4 +286,4 @@ std::string fitness_caption(const FitnessHistory& history, std::uint64_t joint) 
   return fmt::format("best {:.4g} in generation {:.0f}, island {}", best->best, best->generation, best_island);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

@@ -9,7 +9,7 @@
 #include "expression/tree.hpp"
 #include "report/history.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 
 /// Where a value stands in the picture, and which values are written beside it.
 struct Axis {
@@ -61,4 +61,4 @@ std::string fitness_chart(const FitnessHistory& history, std::uint64_t joint);
 /// The best of all: "best 1.23 in generation 200, island 2"; empty where the joint has no points.
 std::string fitness_caption(const FitnessHistory& history, std::uint64_t joint);
 
-}  // namespace demecal
+}  // namespace demecal::inline html

@@ -5,7 +5,7 @@
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 struct Unit {
@@ -148,4 +148,4 @@ std::string run_section(const Report& report) {
   return section("run", "The run", facts.empty() ? "" : "<div class=\"panel\"><dl>\n" + facts + "</dl></div>\n");
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

@@ -9,7 +9,7 @@
 #include "html/sections.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 /// An angle in mrad with three decimals; a dash where there is none.
@@ -151,4 +151,4 @@ std::string joints_section(const Report& report, const FitnessHistory& history) 
   return section("joint-corrections", "Joint corrections", body);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

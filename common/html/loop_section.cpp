@@ -7,7 +7,7 @@
 #include "html/sections.hpp"
 #include "report/figures.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 std::string paragraph(const std::string& markup) {
@@ -161,4 +161,4 @@ std::string loop_section(const Report& report) {
                      untestable_table(report) + decoys_table(report));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

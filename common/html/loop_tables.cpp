@@ -8,7 +8,7 @@
 #include "html/markup.hpp"
 #include "report/figures.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 constexpr const char* kRoundsHead =
@@ -209,4 +209,4 @@ std::string decoys_table(const Report& report) {
                   report.decoys.size()));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

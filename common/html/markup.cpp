@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 constexpr std::string_view kDash = "–";
@@ -225,4 +225,4 @@ std::string_view page_style() {
   return kStyle;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline html {
 
 /// `text` for use between tags and within quoted attributes: no character of it is taken for markup, and those that
 /// HTML does not allow are replaced.
@@ -42,4 +42,4 @@ std::string table_panel(const std::string& id, const std::string& head_cells, co
 /// CSS for light and dark screens and for paper.
 std::string_view page_style();
 
-}  // namespace demecal
+}  // namespace demecal::inline html

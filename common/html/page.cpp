@@ -9,7 +9,7 @@
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 std::string counted(std::uint64_t count, const std::string& set) {
@@ -139,4 +139,4 @@ std::string report_html(const Report& report, const FitnessHistory& history) {
          "</main>\n</body>\n</html>\n";
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

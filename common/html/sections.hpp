@@ -8,7 +8,7 @@
 #include "report/history.hpp"
 #include "report/report.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 
 /// The tool error from stage to stage, as table and bars.
 std::string stages_section(const Report& report);
@@ -41,4 +41,4 @@ std::string untestable_table(const Report& report);
 /// How the controls fared.
 std::string decoys_table(const Report& report);
 
-}  // namespace demecal
+}  // namespace demecal::inline html

@@ -6,7 +6,7 @@
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 
-namespace demecal {
+namespace demecal::inline html {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -188,4 +188,4 @@ std::string stages_section(const Report& report) {
                      stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + index_line(report));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline html

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -45,4 +45,4 @@ AngleBranch choose_branch(std::span<const double> angles_rad, double lower_rad, 
   return quadrants_suffice ? AngleBranch{} : AngleBranch{true, (lower_rad + upper_rad) / 2};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 
 /// `angle_rad` moved by whole turns to within half a turn of `centre_rad`.
 double wrap_near(double angle_rad, double centre_rad);
@@ -26,4 +26,4 @@ AngleBranch choose_branch(std::span<const double> angles_rad);
 /// otherwise. Limits that are equal (not given) or wider say nothing, and the data decide.
 AngleBranch choose_branch(std::span<const double> angles_rad, double lower_rad, double upper_rad);
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -5,7 +5,7 @@
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline kinematics {
 namespace {
 
 constexpr std::array<Elementary, kLinkParameters> kStandard{{{LinkParameter::theta, true, 2},
@@ -87,4 +87,4 @@ void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value
   rotation.col(second) = cosine * old_second - sine * old_first;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 
 /// The most joints an arm may have; joint vectors live on the stack.
 inline constexpr int kMaxJoints = 9;
@@ -86,4 +86,4 @@ double elementary_value(const Joint& joint, LinkParameter parameter, double q);
 /// `frame` moved by an elementary transform of the given value.
 void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value);
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -2,7 +2,7 @@
 
 #include "kinematics/rotation_vector.hpp"
 
-namespace demecal {
+namespace demecal::inline kinematics {
 namespace {
 
 constexpr auto kStays = [](int, Eigen::Isometry3d&) {};
@@ -103,4 +103,4 @@ Kinematics ScrewList::kinematics(const Chain& chain, const Eigen::Isometry3d& fl
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

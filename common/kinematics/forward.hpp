@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline kinematics {
 
 /// 6 x n: rows 0-2 linear (m per rad or m), rows 3-5 angular (rad per rad or m), in the base frame.
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxJoints>;
@@ -113,4 +113,4 @@ class ScrewList {
   std::array<Screw, kMaxJoints * kLinkParameters> screws_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 namespace {
 
 struct NewtonStep {
@@ -158,4 +158,4 @@ JointVector damped_least_squares(const PoseFunction& model, const Eigen::Isometr
   return start + problem.change;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -8,7 +8,7 @@
 #include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
 
-namespace demecal {
+namespace demecal::inline kinematics {
 
 /// Pose of the tool (base frame) and its 6 x n Jacobian by the joint values, at given joint values.
 struct PoseAndJacobian {
@@ -63,4 +63,4 @@ struct DampingOptions {
 JointVector damped_least_squares(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                                  const DampingOptions& options = {});
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

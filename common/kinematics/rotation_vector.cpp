@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 namespace {
 
 /// Angles whose cubes vanish beside one: the closed forms below would divide zero by zero.
@@ -41,4 +41,4 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad) {
          (angle - std::sin(angle)) / (square * angle) * cross * cross;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

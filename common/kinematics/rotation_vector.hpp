@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 
 /// The matrix whose product with w is v x w.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
@@ -21,4 +21,4 @@ Eigen::Vector3d rotation_between(const Eigen::Matrix3d& from, const Eigen::Matri
 /// in the frame it turns in (Chirikjian, 2012, eq. 10.86).
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad);
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

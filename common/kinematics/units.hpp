@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace demecal {
+namespace demecal::inline kinematics {
 
 constexpr double radians(double degrees) {
   return degrees * (std::numbers::pi / 180.0);
@@ -18,4 +18,4 @@ constexpr double millimetres(double metres) {
   return metres * 1e3;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline kinematics

@@ -10,7 +10,7 @@
 #include "errors/input_error.hpp"
 #include "languages/languages.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 /// The bytes of a field, without quotes and the spaces around it.
@@ -226,4 +226,4 @@ Language csv_language() {
           }};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

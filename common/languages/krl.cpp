@@ -7,7 +7,7 @@
 #include "languages/krl_frames.hpp"
 #include "languages/languages.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 constexpr int kDeepestAggregate = 20;
@@ -217,4 +217,4 @@ Language krl_language() {
           }};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

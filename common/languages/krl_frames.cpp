@@ -10,7 +10,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program_text.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 constexpr std::array<std::string_view, 6> kFrameParts{"x", "y", "z", "a", "b", "c"};
@@ -202,4 +202,4 @@ void KrlFrames::complete(Target& target) const {
   set_frame(target.frames, numbered(false, data->second.base));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -3,7 +3,7 @@
 
 #include "languages/program.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 
 /// What holds where: $TOOL and $BASE set to numbers or to TOOL_DATA[n] and BASE_DATA[n] of the file, BAS(#TOOL, n),
 /// FDAT_ACT, and for targets that no motion of the file names, the FDAT that goes with them by name (XP1 and FP1).
@@ -38,4 +38,4 @@ class KrlFrames {
   std::map<std::size_t, Motion> motions_;  ///< where each begins
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

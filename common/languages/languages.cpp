@@ -4,7 +4,7 @@
 
 #include "data/text.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 
 // One row a language, defined in its own file. Signs of CSV are words of any program: it comes last.
 Language val2_language();
@@ -110,4 +110,4 @@ std::optional<std::size_t> marked_line(std::string_view text, std::span<const La
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

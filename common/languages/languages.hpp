@@ -9,7 +9,7 @@
 
 #include "languages/program.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 
 /// What correction needs to know of a language. It is defined in the language's own file and listed in languages.cpp;
 /// nothing else knows one language from another. Corrected numbers replace the bytes of the old ones.
@@ -50,4 +50,4 @@ std::string with_mark(const std::string& text, const Language& language, const s
 /// The line (from 1) that holds a mark, in any of the languages.
 std::optional<std::size_t> marked_line(std::string_view text, std::span<const Language> among = languages());
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -8,7 +8,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/rotation_vector.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 double distance(const std::vector<double>& one, const std::vector<double>& other) {
@@ -96,4 +96,4 @@ std::vector<double> numbers_of(const Eigen::Matrix3d& rotation, OrientationForm 
   return vector_numbers(rotation, written);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -7,7 +7,7 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 /// The last setting before `offset`; null where there is none.
@@ -135,4 +135,4 @@ void require_six_joints(const Chain& arm, const std::string& file, const std::st
       "is a program in " + language + ", whose arms have 6 joints; the model's has " + std::to_string(arm.size()));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

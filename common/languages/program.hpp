@@ -13,7 +13,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program_text.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 
 /// What a target says of the joints that its pose is to be reached with.
 struct ArmHint {
@@ -145,4 +145,4 @@ void require_quaternion(const ProgramText& text, std::span<const Cell> cells);
 /// Throws InputError unless the arm has the six joints that this language's targets have.
 void require_six_joints(const Chain& arm, const std::string& file, const std::string& language);
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -7,7 +7,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 constexpr int kMostDecimals = 15;
@@ -212,4 +212,4 @@ std::optional<std::vector<double>> list_numbers(const ProgramText& text, const B
   return values;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline languages {
 
 /// Decimals that keep 0.001 mm and 0.0001 degrees; fewer are never written, unless the file counts in whole steps.
 inline constexpr int kDecimalsMm = 3, kDecimalsM = 6, kDecimalsDeg = 4, kDecimalsRad = 6, kDecimalsQuaternion = 7;
@@ -112,4 +112,4 @@ BracketItem read_list(const ProgramText& text, std::size_t begin, char opening);
 /// The values of a list of `size` numbers; nothing where it is none.
 std::optional<std::vector<double>> list_numbers(const ProgramText& text, const BracketItem& list, std::size_t size);
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -6,7 +6,7 @@
 #include "languages/languages.hpp"
 #include "languages/rapid_frames.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 constexpr std::array<std::size_t, 4> kRobtarget{3, 4, 4, 6};
@@ -164,4 +164,4 @@ Language rapid_language() {
           }};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -8,7 +8,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program_text.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 /// [[x, y, z], [q1, q2, q3, q4]].
@@ -166,4 +166,4 @@ void RapidFrames::complete(Target& target) const {
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -5,7 +5,7 @@
 
 #include "languages/program.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 
 /// tooldata and wobjdata that the file declares as numbers and assigns nowhere else; tool0 is the flange, wobj0 the
 /// base. Every Move instruction takes its tool and \WObj to the targets that it names or holds.
@@ -33,4 +33,4 @@ class RapidFrames {
   std::vector<Held> held_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

@@ -8,7 +8,7 @@
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 /// How many of its first arguments a command moves to; 0 for words that are none.
@@ -208,4 +208,4 @@ Language urscript_language() {
           }};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

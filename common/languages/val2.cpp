@@ -13,7 +13,7 @@
 #include "data/text.hpp"
 #include "languages/languages.hpp"
 
-namespace demecal {
+namespace demecal::inline languages {
 namespace {
 
 constexpr double kSixteenthMm = 1e-3 / 16.0;
@@ -259,4 +259,4 @@ Language val2_language() {
           }};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline languages

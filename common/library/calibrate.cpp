@@ -12,7 +12,7 @@
 #include "scheduling/fleet.hpp"
 #include "workflows/calibrate.hpp"
 
-namespace demecal {
+namespace demecal::inline library {
 namespace {
 
 DeclaredModel declared_model(const std::vector<std::string>& words) {
@@ -77,4 +77,4 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   return CalibratedArm(std::move(arm));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline library

@@ -15,7 +15,7 @@
 #include "workflows/diagnose.hpp"
 #include "yaml/files.hpp"
 
-namespace demecal {
+namespace demecal::inline library {
 namespace {
 
 /// The bounds that the model states of its joint corrections.
@@ -114,4 +114,4 @@ std::string CalibratedArm::correction(int joint) const {
   return correction.is_neutral() ? "0" : to_string(correction.formula());
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline library

@@ -6,7 +6,7 @@
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline library {
 namespace {
 
 JointVector to_joints(const std::vector<double>& values, const Chain& chain) {
@@ -68,4 +68,4 @@ PoseSet to_pose_set(PoseUse use) {
   return PoseSet::accept;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline library

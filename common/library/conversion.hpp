@@ -8,7 +8,7 @@
 #include "library/demecal.hpp"
 #include "programs/command_model.hpp"
 
-namespace demecal {
+namespace demecal::inline library {
 
 struct Arm::Implementation {
   Robot robot;
@@ -38,4 +38,4 @@ PoseSet to_pose_set(PoseUse use);
 CommandModel to_command_model(const CalibratedModel& model,
                               const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
 
-}  // namespace demecal
+}  // namespace demecal::inline library

@@ -30,7 +30,7 @@
 /// names file, line, value and rule. No function prints, opens a socket, or uses a clock or chance: the same
 /// measurements and settings give the same model to the last bit, on any number of threads. Objects are values, cheap
 /// to copy; one may be read by many threads.
-namespace demecal {
+namespace demecal::inline library {
 
 /// A joint and its link, by Denavit-Hartenberg parameters.
 struct ArmLink {
@@ -185,4 +185,4 @@ class CalibratedArm {
 /// model lacks, and adds those that the validation poses confirm: as `demecal calibrate` does, with the same bits.
 CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings& settings = {});
 
-}  // namespace demecal
+}  // namespace demecal::inline library

@@ -16,7 +16,7 @@
 #include "random/random_stream.hpp"
 #include "yaml/files.hpp"
 
-namespace demecal {
+namespace demecal::inline library {
 namespace {
 
 Eigen::Vector3d to_metres(const std::array<double, 3>& point_mm) {
@@ -176,4 +176,4 @@ bool Measurements::contradict_arm() const {
   return implementation_->check.verdict() == DataVerdict::contradiction;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline library

@@ -1,7 +1,7 @@
 #include "manual/described_option.hpp"
 #include "manual/manual.hpp"
 
-namespace demecal {
+namespace demecal::inline manual {
 namespace {
 
 std::string function_name(const CLI::App& program) {
@@ -126,4 +126,4 @@ std::string zsh_completion(const CLI::App& program) {
   return script + "esac\n";
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline manual

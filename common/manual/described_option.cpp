@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace demecal {
+namespace demecal::inline manual {
 namespace {
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -76,4 +76,4 @@ std::vector<DescribedOption> described_options(const CLI::App& command) {
   return options;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline manual

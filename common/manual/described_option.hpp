@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline manual {
 
 struct DescribedOption {
   std::vector<std::string> names;  ///< with their dashes; of a positional argument its one name
@@ -22,4 +22,4 @@ struct DescribedOption {
 /// The options of a command that its help lists, positional arguments first.
 std::vector<DescribedOption> described_options(const CLI::App& command);
 
-}  // namespace demecal
+}  // namespace demecal::inline manual

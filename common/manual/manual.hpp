@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline manual {
 
 /// The names of a program's commands, in the order of its help; none where it has none.
 std::vector<std::string> command_names(const CLI::App& program);
@@ -25,4 +25,4 @@ std::string zsh_completion(const CLI::App& program);
 void add_manual(CLI::App& program, const std::string& exit_status,
                 const std::function<void(const std::string&)>& print);
 
-}  // namespace demecal
+}  // namespace demecal::inline manual

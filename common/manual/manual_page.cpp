@@ -1,7 +1,7 @@
 #include "manual/described_option.hpp"
 #include "manual/manual.hpp"
 
-namespace demecal {
+namespace demecal::inline manual {
 namespace {
 
 /// Text as roff takes it: backslashes and hyphens as themselves, no line that begins with a control character.
@@ -142,4 +142,4 @@ void add_manual(CLI::App& program, const std::string& exit_status,
       ->trigger_on_parse();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline manual

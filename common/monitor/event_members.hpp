@@ -7,7 +7,7 @@
 #include "protocol/message_bytes.hpp"
 #include "report/json.hpp"
 
-namespace demecal {
+namespace demecal::inline monitor {
 
 // `Member` may be const: what is written is not changed.
 
@@ -100,4 +100,4 @@ void read_json(const JsonValue& json, OneOf<Member, Words>& one_of) {
   json.refuse("is not a word that stands there");
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline monitor

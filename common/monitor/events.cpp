@@ -6,7 +6,7 @@
 #include "errors/input_error.hpp"
 #include "monitor/event_members.hpp"
 
-namespace demecal {
+namespace demecal::inline monitor {
 namespace {
 
 constexpr std::array kStages{"preparing", "evolving", "closing", "finished", "interrupted", "failed"};
@@ -191,4 +191,4 @@ std::optional<Event> read_event(const std::string& text, const std::string& file
   }
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline monitor

@@ -6,7 +6,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline monitor {
 
 inline constexpr int kEventsVersion = 1;
 
@@ -34,4 +34,4 @@ struct Event {
 /// key where the line is no such event.
 std::optional<Event> read_event(const std::string& text, const std::string& file, int line);
 
-}  // namespace demecal
+}  // namespace demecal::inline monitor

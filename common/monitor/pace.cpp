@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-namespace demecal {
+namespace demecal::inline monitor {
 namespace {
 
 /// The islands of one worker that are not finished.
@@ -97,4 +97,4 @@ std::optional<double> time_left_s(const Watched& watched, const WatchedRun& run,
   return left * evaluations_per_generation(run) / speed;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline monitor

@@ -5,7 +5,7 @@
 
 #include "protocol/faults.hpp"
 
-namespace demecal {
+namespace demecal::inline monitor {
 namespace {
 
 constexpr std::size_t kMostKept = 8;  // runs, and calibrations
@@ -213,4 +213,4 @@ const WatchedWorker* Watched::worker(const std::string& name) const {
   return worker == workers_.end() ? nullptr : &worker->second;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline monitor

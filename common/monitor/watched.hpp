@@ -11,7 +11,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline monitor {
 
 /// Whether nothing follows this stage.
 bool is_over(LoopNews::Stage stage);
@@ -116,4 +116,4 @@ double share_done(const WatchedRun& run);
 /// Seconds until all islands have bred their generations, at the present speed; nothing where that is not known.
 std::optional<double> time_left_s(const Watched& watched, const WatchedRun& run, double now_s);
 
-}  // namespace demecal
+}  // namespace demecal::inline monitor

@@ -10,7 +10,7 @@
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -207,4 +207,4 @@ std::vector<Experiment> experiments(const DiagnosisProblem& problem, const std::
   return all;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

@@ -10,7 +10,7 @@
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 
 /// Joint values at which the nominal arm keeps to where it has been: no tool point more than 50 mm below the lowest one
 /// measured, no joint of it more than that below everything measured, and the tool point no farther from the base than
@@ -52,4 +52,4 @@ struct Experiment {
 std::vector<Experiment> experiments(const DiagnosisProblem& problem, const std::vector<Effect>& asked,
                                     RandomStream random);
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

@@ -8,7 +8,7 @@
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 namespace {
 
 constexpr int kMostProposedPoses = 9999;
@@ -243,4 +243,4 @@ std::optional<NextMeasurement> find_next_measurement(const DiagnosisProblem& pro
   return describe(all, to_string(named), rivals, separate(comparison, all, rivals.size()));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

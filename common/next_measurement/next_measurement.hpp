@@ -9,7 +9,7 @@
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 
 /// An effect that these poses cannot tell from the named one, or hardly.
 struct Rival {
@@ -52,4 +52,4 @@ struct AmbiguousEffect {
 std::vector<Stop> propose_poses(const DiagnosisProblem& problem, const DiagnosedModel& model,
                                 const std::vector<AmbiguousEffect>& ambiguous, int count, RandomStream random);
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

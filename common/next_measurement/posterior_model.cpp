@@ -8,7 +8,7 @@
 
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 namespace {
 
 /// Squared noncentrality for a one-sided test at 5 % with power 0.9: normal quantiles of 0.95 and 0.9.
@@ -205,4 +205,4 @@ RowMatrix PosteriorModel::effect_columns(const std::vector<Effect>& effects, con
   return all;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

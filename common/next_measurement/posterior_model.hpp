@@ -9,7 +9,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 
 /// Sums of products of the model's columns and of those asked about, over rows of unit variance.
 struct Products {
@@ -78,4 +78,4 @@ class PosteriorModel {
   Eigen::MatrixXd to_units_;        ///< kept x r
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

@@ -9,7 +9,7 @@
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
 
-namespace demecal {
+namespace demecal::inline next_measurement {
 namespace {
 
 constexpr int kPool = 2000;
@@ -149,4 +149,4 @@ std::vector<Stop> propose_poses(const DiagnosisProblem& problem, const Diagnosed
   return picked;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline next_measurement

@@ -7,7 +7,7 @@
 #include "preparation/results.hpp"
 #include "programs/correct_program.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 namespace {
 
 /// Decimals of tables for people: a hundredth of what any instrument sees.
@@ -120,4 +120,4 @@ WrittenFile errors_file(const Prepared& prepared, FrameKind kind) {
   return {"errors.csv", to_text(table)};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

@@ -6,7 +6,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 namespace {
 
 /// In small letters, without the mark of a precision point.
@@ -115,4 +115,4 @@ std::vector<std::vector<std::size_t>> rows_of_points(const Readings& readings, c
   return rows;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

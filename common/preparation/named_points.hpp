@@ -8,7 +8,7 @@
 #include "languages/program.hpp"
 #include "preparation/readings.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 
 /// A file of points, and its bytes.
 struct PointFile {
@@ -37,4 +37,4 @@ std::vector<NamedPoint> named_points(const Program& program, PointKind kind, con
 std::vector<std::vector<std::size_t>> rows_of_points(const Readings& readings, const std::vector<NamedPoint>& points,
                                                      const std::string& of_file);
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

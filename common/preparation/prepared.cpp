@@ -8,7 +8,7 @@
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 namespace {
 
 using PosesByKey = std::map<std::string, std::size_t>;
@@ -209,4 +209,4 @@ DataSet prepared_data_set(const RawMeasurements& raw, const Prepared& prepared, 
   return data;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

@@ -13,7 +13,7 @@
 #include "preparation/named_points.hpp"
 #include "preparation/taught_points.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 
 /// One run through a program's points while the instrument read.
 struct RawSet {
@@ -88,4 +88,4 @@ std::vector<Eigen::Vector3d> differences(const Prepared& prepared, FrameKind kin
 /// Circumstances are kept where every pose has them.
 DataSet prepared_data_set(const RawMeasurements& raw, const Prepared& prepared, std::optional<FrameKind> kind);
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

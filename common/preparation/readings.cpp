@@ -14,7 +14,7 @@
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 namespace {
 
 constexpr double kFlattest = 1e-3;  // of the longest side
@@ -233,4 +233,4 @@ std::string with_marked_names(const std::string& text, const std::string& file) 
                    "after it where a comment is meant");
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

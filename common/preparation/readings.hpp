@@ -9,7 +9,7 @@
 
 #include "data/csv.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 
 /// The sides of the triangle of the three places where the cords come out, m.
 struct CordTriangle {
@@ -98,4 +98,4 @@ AveragedReading average(const Readings& readings, const std::vector<std::size_t>
 /// where none does. Throws InputError where some rows do: they may be readings, or rows that were taken out.
 std::string with_marked_names(const std::string& text, const std::string& file);
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

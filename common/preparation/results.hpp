@@ -9,7 +9,7 @@
 #include "effects/measurement.hpp"
 #include "preparation/prepared.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 
 /// The errors of a set as one frame shows them.
 struct FrameFigures {
@@ -63,4 +63,4 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
 /// their spread, and, where the cords' standard error is stated, that of x, y, z in the instrument's frame; mm.
 WrittenFile errors_file(const Prepared& prepared, FrameKind kind);
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

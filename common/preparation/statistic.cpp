@@ -8,7 +8,7 @@
 #include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 namespace {
 
 using Indices = std::vector<std::size_t>;
@@ -169,4 +169,4 @@ std::string statistic_json(const ErrorStatistic& statistic, const std::string& n
   return json.dump() + '\n';
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

@@ -11,7 +11,7 @@
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 namespace {
 
 Eigen::Matrix3Xd columns_of(const std::vector<Eigen::Vector3d>& points) {
@@ -151,4 +151,4 @@ TaughtPoints taught_points(const RobotPoints& robot, const Readings& readings, d
   return points;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

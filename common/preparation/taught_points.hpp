@@ -10,7 +10,7 @@
 #include "data/data_set.hpp"
 #include "preparation/named_points.hpp"
 
-namespace demecal {
+namespace demecal::inline preparation {
 
 using ThreePoints = std::array<Eigen::Vector3d, 3>;
 
@@ -67,4 +67,4 @@ double largest_difference_m(const TaughtPoints& points);
 /// `tolerance_m` in the two frames: no rigid motion brings such points together.
 TaughtPoints taught_points(const RobotPoints& robot, const Readings& readings, double tolerance_m);
 
-}  // namespace demecal
+}  // namespace demecal::inline preparation

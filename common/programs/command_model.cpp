@@ -9,7 +9,7 @@
 #include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 bool is_of_instrument(const Effect& effect) {
@@ -192,4 +192,4 @@ JointVector middle_joints(const CommandModel& model) {
   return middle;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

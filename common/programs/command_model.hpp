@@ -7,7 +7,7 @@
 #include "effects/corrected_robot.hpp"
 #include "fitting/posterior.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 /// What belongs to the correction of a command, and what does not:
 /// - Not the base's place in the instrument's frame, nor any effect of that frame (registration, drift, sensor_scale):
@@ -66,4 +66,4 @@ double distance_outside_calibrated(const CorrectedRobot& robot, int joint, doubl
 /// In the middle of what was calibrated or, where that is unknown, of the joint limits.
 JointVector middle_joints(const CommandModel& model);
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -7,7 +7,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 constexpr double kAlike = 1e-3;            ///< rad or m
@@ -182,4 +182,4 @@ Configurations ConfigurationFinder::find(const Chain& arm, const Target& target,
   return settled(std::move(joints), named ? JointsFrom::stated : present_ ? JointsFrom::before : JointsFrom::given);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

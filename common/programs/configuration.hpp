@@ -8,7 +8,7 @@
 #include "languages/program.hpp"
 #include "programs/nominal_joints.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 /// Joints at which the nominal arm's tool point (axes of the flange) stands at `tool`, no two alike but for whole
 /// turns, each in the turn within its limits that is nearest to `reference`; those within the limits where there are
@@ -56,4 +56,4 @@ class ConfigurationFinder {
   std::optional<JointVector> present_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -11,7 +11,7 @@
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 constexpr double kMoved = 2e-3;  ///< rad or m: a joint that changes by less has not moved
@@ -216,4 +216,4 @@ std::string replaced(std::string_view text, const Program& program, const std::v
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -9,7 +9,7 @@
 #include "programs/command_model.hpp"
 #include "programs/target_correction.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 /// Circumstances of targets that do not state their own; none: the model's reference.
 struct Circumstances {
@@ -53,4 +53,4 @@ std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget
 /// `tool_given`: the model's tool is one that the user names.
 std::vector<std::string> warnings_of(const Program& program, const CommandModel& model, bool tool_given = false);
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -7,7 +7,7 @@
 
 #include "kinematics/angles.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
@@ -154,4 +154,4 @@ std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector
   return std::nullopt;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

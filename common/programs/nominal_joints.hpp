@@ -6,7 +6,7 @@
 #include "kinematics/inverse.hpp"
 #include "languages/program.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 /// Joints at which the nominal arm's tool point (chain.tool_m, axes of the flange) stands at `tool`; nothing where none
 /// were found. Of an arm's several configurations: those within the joint limits; of these, those that contradict the
@@ -39,4 +39,4 @@ JointVector in_hinted_turns(const Chain& arm, JointVector joints, const ArmHint&
 /// upper).
 double beyond_limits(const Joint& joint, double value);
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 constexpr double kSure = 4.0;  ///< standard deviations
@@ -127,4 +127,4 @@ InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometr
   return solution;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -6,7 +6,7 @@
 
 #include "effects/corrected_robot.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 /// A correction of position (m) or of orientation (rad), as far as it should be made.
 struct DeterminedPart {
@@ -29,4 +29,4 @@ DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::M
 /// status is `damped` where that leaves more than 5 um or 0.05 mrad.
 InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start);
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -8,7 +8,7 @@
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -150,4 +150,4 @@ std::string warning_text(const CorrectedProgram& corrected, const Remark& warnin
                      warning.sentence);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

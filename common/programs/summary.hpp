@@ -6,7 +6,7 @@
 
 #include "programs/correct_program.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 struct TargetFigures {
   std::vector<std::string> names, units;               ///< q1 .., or x, y, z
@@ -38,4 +38,4 @@ std::string summary_json(const CorrectedProgram& corrected, const Chain& arm);
 /// "FILE:12: #cp[3]: SENTENCE", a line of its own; without the number where it is about the whole program.
 std::string warning_text(const CorrectedProgram& corrected, const Remark& warning);
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

@@ -10,7 +10,7 @@
 #include "programs/nominal_joints.hpp"
 #include "programs/partial_correction.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 constexpr double kExact = 1e-9;                ///< m
@@ -145,4 +145,4 @@ std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget&
   return texts;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

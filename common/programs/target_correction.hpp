@@ -10,7 +10,7 @@
 #include "programs/command_model.hpp"
 #include "programs/configuration.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 
 /// With so many decimals.
 std::string fixed_text(double value, int decimals);
@@ -55,4 +55,4 @@ CorrectedTarget correct_target(const Target& target, const CommandModel& model, 
 /// The texts of a corrected target's cells.
 std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget& corrected);
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

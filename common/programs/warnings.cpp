@@ -8,7 +8,7 @@
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 
-namespace demecal {
+namespace demecal::inline programs {
 namespace {
 
 constexpr double kLimitRounding = 1e-4;  ///< rad or m: files round, and the ends of ranges are poses themselves
@@ -131,4 +131,4 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
   return sentences;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline programs

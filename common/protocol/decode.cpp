@@ -17,7 +17,7 @@
 
 #include "protocol/fields.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 namespace {
 
 constexpr std::size_t kMostNodes = 65535;
@@ -269,4 +269,4 @@ bool is_printable(std::string_view text) {
   return printable(text) == text;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

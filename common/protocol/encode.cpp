@@ -18,7 +18,7 @@
 
 #include "protocol/fields.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 namespace {
 
 FlatFormula flat(const Tree& tree) {
@@ -206,4 +206,4 @@ DEMECAL_ENCODE(MessagePart);
 DEMECAL_ENCODE(PlacedProgress);
 #undef DEMECAL_ENCODE
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline protocol {
 namespace {
 
 constexpr std::size_t kMostVariables = 255;
@@ -232,4 +232,4 @@ Fault find_fault(const WorkerStatus& status) {
   return std::nullopt;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

@@ -11,7 +11,7 @@
 #include "evolution/population.hpp"
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 
 /// Why a message is refused: a sentence for a log.
 using Fault = std::optional<std::string>;
@@ -50,4 +50,4 @@ Fault find_fault(const WorkerStatus& status);
 /// fitness at least 0 (infinite is allowed, NaN is not).
 Fault find_fault(const Population& population, const GpParameters& parameters, int variables);
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

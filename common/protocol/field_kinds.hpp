@@ -12,7 +12,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 
 // A field of a list is a reference to its value, within one or more of these where it is of a special kind.
 enum class FieldKind { key, required, from_one, octet };
@@ -93,4 +93,4 @@ N swapped(N number) {
   return std::bit_cast<N>(bytes);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

@@ -15,7 +15,7 @@
 #include "protocol/field_kinds.hpp"
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 
 // A list calls `visit(name, field)` for each field, in the order of idl/calibration.idl, which a test holds to the
 // lists.
@@ -257,4 +257,4 @@ concept Listed = requires(int& visitor, M& m) {
   visit_fields(visitor, m);
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

@@ -8,7 +8,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 
 // `Plain` is any message that travels, MessagePart or PlacedProgress.
 
@@ -50,4 +50,4 @@ std::size_t weight_bytes(const Message& message);
 std::string printable(std::string_view text);
 bool is_printable(std::string_view text);
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

@@ -2,7 +2,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 namespace {
 
 struct KeyOf {
@@ -100,4 +100,4 @@ RunId ended_run(const Message& message) {
   return control != nullptr && control->state != Control::State::running ? control->run : 0;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

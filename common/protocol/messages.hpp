@@ -17,7 +17,7 @@
 #include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
 
-namespace demecal {
+namespace demecal::inline protocol {
 
 /// How many epochs of an island's emigrants are kept for slower neighbours.
 /// More than neighbours can drift apart (an island waits for its sources, so along a ring of n demes by n - 1 at most)
@@ -256,4 +256,4 @@ void check_may_publish(Role role, const std::string& name, const TopicKey& key);
 /// The run that this message ends, or 0.
 RunId ended_run(const Message& message);
 
-}  // namespace demecal
+}  // namespace demecal::inline protocol

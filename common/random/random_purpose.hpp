@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace demecal {
+namespace demecal::inline random {
 
 /// The number that follows the seed in the name of a stream that serves the analysis of data. The numbers are part of
 /// every recorded result: new purposes take new ones. Islands name theirs by joint, deme and epoch.
@@ -33,4 +33,4 @@ constexpr std::uint64_t number_of(SimulationPurpose purpose) {
   return static_cast<std::uint64_t>(purpose);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline random

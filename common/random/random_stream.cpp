@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline random {
 namespace {
 
 std::mt19937_64 engine_named(std::initializer_list<std::uint64_t> name) {
@@ -36,4 +36,4 @@ double RandomStream::normal() {
   return radius * std::cos(2.0 * std::numbers::pi * real());
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline random

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <random>
 
-namespace demecal {
+namespace demecal::inline random {
 
 /// A stream named by integers, such as (seed, joint, deme, epoch): equal names give equal numbers, on any platform.
 /// Draws are made from the engine's bits directly, since the standard's distributions are not portable.
@@ -26,4 +26,4 @@ class RandomStream {
   std::mt19937_64 engine_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline random

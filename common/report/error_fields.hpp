@@ -4,7 +4,7 @@
 #include "report/json.hpp"
 #include "report/report.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 void fields(auto& visit, Like<SetErrors> auto& errors) {
   visit("mean", errors.mean_mm, "rms", errors.rms_mm, "p95", errors.p95_mm, "max", errors.max_mm);
@@ -32,4 +32,4 @@ void fields(auto& visit, Like<PoseErrorEntry> auto& pose) {
         "interval95_mm", pose.interval95_mm, "flags", pose.flags);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

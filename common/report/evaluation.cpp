@@ -8,7 +8,7 @@
 #include "kinematics/units.hpp"
 #include "report/error_fields.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 /// A circumstance that an effect may need, and whether a pose has it.
@@ -170,4 +170,4 @@ std::string to_json(const Comparison& comparison, int indent) {
   return to_text(json, indent);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

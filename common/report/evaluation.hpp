@@ -11,7 +11,7 @@
 #include "effects/measurement.hpp"
 #include "report/report.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 SetErrors set_errors(const ErrorFigures& figures);
 ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data);
@@ -80,4 +80,4 @@ struct Comparison {
 /// one line, or with an indent where that is not negative; figures that do not exist are null.
 std::string to_json(const Comparison& comparison, int indent = -1);
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -10,7 +10,7 @@
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 bool has_mean(const ErrorBySet& errors) {
@@ -290,4 +290,4 @@ std::string decoys_sentence(const std::vector<DecoyEntry>& decoys) {
   return fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

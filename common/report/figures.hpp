@@ -9,7 +9,7 @@
 
 #include "report/report.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 /// A set of poses by its name, its errors and their number.
 struct ReportPoseSet {
@@ -93,4 +93,4 @@ std::string decoys_sentence(const std::vector<DecoyEntry>& decoys);
 /// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
 std::string statistics_sentences(const Report& report);
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -12,7 +12,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 /// A worker's name comes over the network: it may hold anything, but a row is one line.
@@ -139,4 +139,4 @@ FitnessHistory read_fitness(const std::string& csv) {
   return history;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -9,7 +9,7 @@
 #include "evolution/island.hpp"
 #include "report/report.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 struct HistoryRow {
   IslandKey island;
@@ -49,4 +49,4 @@ FitnessHistory fitness_of(const std::vector<HistoryRow>& rows);
 /// and value where a column is missing or a field is no number.
 FitnessHistory read_fitness(const std::string& csv);
 
-}  // namespace demecal
+}  // namespace demecal::inline report

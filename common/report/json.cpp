@@ -7,7 +7,7 @@
 
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -119,4 +119,4 @@ std::vector<double> JsonValue::numbers() const {
   return found;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline report {
 
 /// A value of a document, or the place where it is missing; null counts as missing. All functions that return a value
 /// of some kind return nothing where it is missing, and throw InputError{file, value, "PATH must be ..."} where it is
@@ -193,4 +193,4 @@ inline std::string to_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -7,7 +7,7 @@
 #include "kinematics/units.hpp"
 #include "report/figures.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 constexpr double kAsOne = 0.98;  ///< cosine above which an effect goes by the name of its class
@@ -156,4 +156,4 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   report.noise = noise_entry(loop);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -10,7 +10,7 @@
 #include "report/evaluation.hpp"
 #include "residuals/structure.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 std::vector<std::string> ids(const DataSet& data, const std::vector<std::size_t>& poses) {
@@ -203,4 +203,4 @@ Report refusal_report(const DataSet& data, const std::string& job, const DataChe
   return report;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -14,7 +14,7 @@
 #include "report/report.hpp"
 #include "structure/structure_fit.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 struct RunFacts {
   double wall_s = 0.0;
@@ -66,4 +66,4 @@ std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vect
 /// loop did not run), candidates and permutations. `described` is the arm that the effects stand by.
 void set_loop(const LoopOutcome& loop, const Robot& described, Report& report);
 
-}  // namespace demecal
+}  // namespace demecal::inline report

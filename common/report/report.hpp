@@ -9,7 +9,7 @@
 
 #include "expression/bound.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 // Members are in the order of report.json and in the units of its keys. What may be absent there is optional here, and
 // so is a number that may not be finite: JSON knows none. Joints count from 1.
@@ -254,4 +254,4 @@ std::string to_json(const Report& report);
 /// value where the text is no report or a value is of another kind than its key asks for.
 Report read_report(const std::string& text, const std::string& file);
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -3,7 +3,7 @@
 #include "report/error_fields.hpp"
 #include "report/report.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 constexpr std::uint64_t kReportVersion = 1;
@@ -218,4 +218,4 @@ Report read_report(const std::string& text, const std::string& file) {
   return report;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

@@ -9,7 +9,7 @@
 #include "data/text.hpp"
 #include "report/json.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -148,4 +148,4 @@ std::string to_json(const Study& study, int indent) {
   return to_text(json, indent);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline report

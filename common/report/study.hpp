@@ -10,7 +10,7 @@
 #include "evolution/building_blocks.hpp"
 #include "fitting/median.hpp"
 
-namespace demecal {
+namespace demecal::inline report {
 
 /// One calibration.
 struct StudyRun {
@@ -51,4 +51,4 @@ std::string study_csv(const Study& study);
 /// Everything: runs, medians and intervals of the cells, and all blocks.
 std::string to_json(const Study& study, int indent = -1);
 
-}  // namespace demecal
+}  // namespace demecal::inline report

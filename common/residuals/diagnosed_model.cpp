@@ -8,7 +8,7 @@
 #include "fitting/scatter.hpp"
 #include "residuals/noise.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
@@ -203,4 +203,4 @@ DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, in
   return model;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

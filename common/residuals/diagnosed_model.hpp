@@ -10,7 +10,7 @@
 #include "residuals/projection.hpp"
 #include "residuals/smooth_corrections.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// One value of all the numbers of the model, and how measurements scatter about it.
 struct DiagnosedModel {
@@ -56,4 +56,4 @@ Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& m
 /// of rows taken from what is left, until neither changes; at most `steps`. Effects get standard errors.
 DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps);
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 constexpr Eigen::Index kPositionAxes = 3;  ///< of positions, the first rows of a pose
@@ -216,4 +216,4 @@ Eigen::VectorXd NullNoise::residual(RandomStream& random) const {
   return whole > 0 ? Eigen::VectorXd(std::sqrt(model_.squares() / whole) * drawn.fitted) : drawn.fitted;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -8,7 +8,7 @@
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// Columns of unit variance each: random effects, marginalised where they are believed to be zero within one.
 struct SharedErrors {
@@ -47,4 +47,4 @@ class NullNoise {
   Eigen::VectorXd belief_deviations_;                    ///< one per row of beliefs
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -11,7 +11,7 @@
 
 #include "residuals/noise.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 constexpr Eigen::Index kMostRows = 360;  ///< in an estimate: a likelihood costs their cube
@@ -282,4 +282,4 @@ DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedMo
   return model;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

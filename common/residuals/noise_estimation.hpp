@@ -8,7 +8,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// What an estimate of the noise is made from: rows before any whitening.
 struct NoiseRows {
@@ -83,4 +83,4 @@ class RestrictedLikelihood {
 /// where its residuals scatter by more than noise may: 1 mrad of a joint, 5 mm that poses share.
 DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model);
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

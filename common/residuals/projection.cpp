@@ -6,7 +6,7 @@
 
 #include "fitting/row_sums.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 /// The matrix (n x r) that makes columns with the triangular factor `factor` orthonormal, r their rank.
@@ -100,4 +100,4 @@ void Projection::add(const Trial& trial) {
   append(prior_basis_, prior);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -5,7 +5,7 @@
 
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// Of a column's square that must remain for it to count as new: less is rounding and the errors of derivatives.
 inline constexpr double kNewShare = 1e-5;
@@ -77,4 +77,4 @@ class Projection {
   Eigen::Index shared_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -9,7 +9,7 @@
 #include "errors/check.hpp"
 #include "fitting/least_squares.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 using Twists = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -270,4 +270,4 @@ RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) c
   return matrix;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

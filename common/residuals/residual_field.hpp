@@ -11,7 +11,7 @@
 #include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// Matrices whose rows are the measured numbers, pose by pose.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -111,4 +111,4 @@ class EffectColumns {
   Eigen::Index columns_ = 0;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

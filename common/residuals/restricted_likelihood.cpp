@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 /// A A': only half of it is worked out.
@@ -174,4 +174,4 @@ double RestrictedLikelihood::variance_left(const std::array<double, 3>& variance
          static_cast<double>(std::max<Eigen::Index>(freedom_, 1));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

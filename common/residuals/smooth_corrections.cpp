@@ -7,7 +7,7 @@
 #include "expression/evaluate.hpp"
 #include "residuals/projection.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 constexpr double kLeastMotion_rad = 0.052;  ///< 3 deg: less shows no shape
@@ -255,4 +255,4 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> fa
   return precision;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -7,7 +7,7 @@
 #include "effects/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// One term of one joint's correction: a formula in theta of size about 1.
 struct SmoothTerm {
@@ -48,4 +48,4 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
 /// included; `families`: of each term, small numbers from 0; `rows`: their number.
 Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> families, double rows);
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -11,7 +11,7 @@
 #include "fitting/distributions.hpp"
 #include "residuals/noise.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 namespace {
 
 constexpr std::size_t kMostPosesTested = 1000;
@@ -210,4 +210,4 @@ double lack_of_fit_p_value(const PureError& pure, double squares_m2, double free
   return fisher_p_value(ratio, more, pure.freedom);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

@@ -6,7 +6,7 @@
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
 
-namespace demecal {
+namespace demecal::inline residuals {
 
 /// The p-value of an omnibus test for dependence. The residual of every pose is taken as an error of each joint in
 /// turn; for each joint and each circumstance (every joint's value, approach, torque, payload, temperature, time, and
@@ -30,4 +30,4 @@ std::optional<PureError> pure_error(const DataSet& data, std::span<const std::si
 /// of squares of the position residuals with `freedom` degrees of freedom.
 double lack_of_fit_p_value(const PureError& pure, double squares_m2, double freedom);
 
-}  // namespace demecal
+}  // namespace demecal::inline residuals

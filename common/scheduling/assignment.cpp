@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 Assignment::Assignment(const std::vector<IslandKey>& islands) {
   for (const IslandKey island : islands) islands_[island];
@@ -124,4 +124,4 @@ void Quarantine::begin(Time now, std::chrono::milliseconds patience) {
   until_ = now + patience * (1 << std::min(times_++, kMostDoublings));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -9,7 +9,7 @@
 
 #include "evolution/archipelago.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 /// One decision: this island belongs to that worker from now on.
 struct Move {
@@ -108,4 +108,4 @@ class Quarantine {
   bool is_active_ = false;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -6,7 +6,7 @@
 #include "protocol/faults.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
@@ -248,4 +248,4 @@ void EvolutionRun::renew_assignment(IslandKey key) {
   assign(key, std::string(island.worker));
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

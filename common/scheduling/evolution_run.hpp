@@ -13,7 +13,7 @@
 #include "scheduling/run_state.hpp"
 #include "transport/transport.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 /// Is called with what happens, as it happens; of messages, with those that bring something new.
 class RunObserver {
@@ -102,4 +102,4 @@ class EvolutionRun {
   Clock::time_point last_news_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

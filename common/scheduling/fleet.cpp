@@ -4,7 +4,7 @@
 
 #include "hosting/worker.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 namespace {
 
 constexpr const char* kWorkerName = "in-process";
@@ -34,4 +34,4 @@ void InProcessFleet::launch(RunId) {
   });
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

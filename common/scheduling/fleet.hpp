@@ -9,7 +9,7 @@
 
 #include "transport/transport.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 /// How a calibration reaches its workers: opens the transport, and keeps the workers that it starts alive from one run
 /// to the next.
@@ -43,4 +43,4 @@ class InProcessFleet final : public Fleet {
   std::thread worker_;  ///< takes the worker's messages; its slots are threads of their own
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -6,7 +6,7 @@
 #include "errors/input_error.hpp"
 #include "protocol/faults.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 namespace {
 
 constexpr std::chrono::milliseconds kDismissTimeout{2000};
@@ -178,4 +178,4 @@ void IslandEvolver::count(RunResult& result, int generations, bool shown) {
   fronts_ = std::move(result.fronts);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -15,7 +15,7 @@
 #include "scheduling/fleet.hpp"
 #include "scheduling/run_journal.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 /// Told what happens in the runs of an evolver, as it happens.
 class EvolutionObserver : public RunObserver {
@@ -83,4 +83,4 @@ class IslandEvolver final : public Evolver {
   std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

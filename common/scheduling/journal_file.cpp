@@ -15,7 +15,7 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 namespace {
 
 std::string reason(int number) {
@@ -190,4 +190,4 @@ JournalRecords read_records(std::string_view journal) {
   return records;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 class JournalFile {
  public:
@@ -71,4 +71,4 @@ struct JournalRecords {
 /// head (none among them) are a torn journal without records; other bytes that do not begin with a head a corrupt one.
 JournalRecords read_records(std::string_view journal);
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

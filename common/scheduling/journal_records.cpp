@@ -7,7 +7,7 @@
 #include "protocol/faults.hpp"
 #include "protocol/message_bytes.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 namespace {
 
 // What a record's content begins with; an evolution's number follows, but in the first.
@@ -173,4 +173,4 @@ bool same_evolution(const CalibrationData& a, const CalibrationData& b) {
   return a.seed == b.seed && a.parameters == b.parameters && a.archipelago == b.archipelago && a.tables == b.tables;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

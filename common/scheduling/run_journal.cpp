@@ -7,7 +7,7 @@
 
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 namespace {
 
 constexpr std::chrono::milliseconds kSnapshotInterval{250};
@@ -140,4 +140,4 @@ void RunJournal::shorten() {
   shortened_bytes_ = file_.size();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

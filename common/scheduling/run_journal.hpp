@@ -14,7 +14,7 @@
 #include "scheduling/journal_file.hpp"
 #include "scheduling/run_state.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 /// What a result is a function of: a journal serves nothing else.
 struct JobIdentity {
@@ -114,4 +114,4 @@ class RunJournal : public RunObserver {
   Clock::time_point next_snapshot_{}, next_sync_{};
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

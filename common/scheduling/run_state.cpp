@@ -5,7 +5,7 @@
 
 #include "protocol/faults.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 RunState::RunState(CalibrationData data) : data_(std::move(data)) {
   for (const IslandKey key : islands(data_.archipelago)) islands_[key];
@@ -116,4 +116,4 @@ RunResult RunState::result(RunEnd end) const {
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -9,7 +9,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline scheduling {
 
 enum class RunEnd {
   finished,
@@ -77,4 +77,4 @@ class RunState {
   std::size_t finished_ = 0;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline scheduling

@@ -12,7 +12,7 @@
 #include "kinematics/units.hpp"
 #include "simulation/stance.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 namespace {
 
 constexpr int kTargets = 400;         ///< tool poses tried until one can be reached
@@ -150,4 +150,4 @@ std::vector<JointVector> draw_poses(const Scenario& scenario, int count, RandomS
   return poses;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

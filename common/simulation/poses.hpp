@@ -6,7 +6,7 @@
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 
 /// Joint values (rad or m) of `count` random poses, all within the robot's limits. By joints: uniform within the
 /// ranges. In the cuboid: the nominal tool point is uniform in it and the orientation that of `home`, tilted at random,
@@ -15,4 +15,4 @@ namespace demecal {
 /// a bounded number of attempts.
 std::vector<JointVector> draw_poses(const Scenario& scenario, int count, RandomStream& random);
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

@@ -3,7 +3,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 namespace {
 
 void require(bool holds, const std::string& value, const std::string& rule) {
@@ -88,4 +88,4 @@ void check(const Scenario& scenario) {
           "temperature: the period must be positive");
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

@@ -11,7 +11,7 @@
 #include "data/data_set.hpp"
 #include "simulation/truth.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 
 /// What is wrong with it is its TrueErrors.
 struct Scenario : TrueErrors {
@@ -47,4 +47,4 @@ struct Scenario : TrueErrors {
 /// Throws InputError where the scenario contradicts itself or its robot, naming the key and the rule.
 void check(const Scenario& scenario);
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

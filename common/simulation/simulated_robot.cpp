@@ -4,7 +4,7 @@
 #include "simulation/poses.hpp"
 #include "simulation/stance.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 namespace {
 
 Eigen::Vector3d normal_vector(double deviation, RandomStream& random) {
@@ -166,4 +166,4 @@ DataSet simulate(const Scenario& scenario) {
   return data;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

@@ -5,7 +5,7 @@
 #include "simulation/scenario.hpp"
 #include "simulation/truth.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 
 /// One stop of the robot: the command and its circumstances.
 struct Visit {
@@ -55,4 +55,4 @@ class SimulatedRobot {
 /// Throws InputError where the scenario contradicts itself or its poses cannot be reached.
 DataSet simulate(const Scenario& scenario);
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

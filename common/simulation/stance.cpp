@@ -3,7 +3,7 @@
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 namespace {
 
 /// Whether the transform `parameter` is the first along or about the joint's axis: Rz in either convention.
@@ -76,4 +76,4 @@ std::vector<JointLoad> gravity_loads(const Robot& robot, const JointVector& q, d
   return loads;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

@@ -9,7 +9,7 @@
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 
 /// Frames of a standing arm in the base frame.
 struct Stance {
@@ -44,4 +44,4 @@ struct Situation {
 /// the sum over all links the joint carries of weight and of lever x weight. Unknown masses weigh nothing.
 std::vector<JointLoad> gravity_loads(const Robot& robot, const JointVector& q, double payload_kg);
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

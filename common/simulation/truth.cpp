@@ -7,7 +7,7 @@
 #include "expression/evaluate.hpp"
 #include "simulation/stance.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 namespace {
 
 double harmonic(double angle, double cosine, double sine) {
@@ -109,4 +109,4 @@ Eigen::Vector3d scaled(const Eigen::Vector3d& point_m, const SensorScale& scale)
   return (1.0 + scale.share) * point_m;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

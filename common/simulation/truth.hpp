@@ -9,7 +9,7 @@
 #include "expression/tree.hpp"
 #include "simulation/stance.hpp"
 
-namespace demecal {
+namespace demecal::inline simulation {
 
 // An error says by visit_fields() which keys a scenario's file has for it; joints count from 0 inside. `visit` has
 //   number(key, value), optional(key, value)     a plain number; 0 where it is left out
@@ -258,4 +258,4 @@ struct TemperatureCourse {
 /// degC, `time_s` after the first pose.
 double temperature_celsius(const TemperatureCourse& course, double time_s);
 
-}  // namespace demecal
+}  // namespace demecal::inline simulation

@@ -4,7 +4,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 namespace {
 
 Gene random_gene(RandomStream& random) {
@@ -68,4 +68,4 @@ std::size_t gene_count(const Genome& genome) {
   return count;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

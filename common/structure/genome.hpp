@@ -6,7 +6,7 @@
 
 #include "random/random_stream.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 
 /// An elementary transform whose amount is not yet known.
 struct Gene {
@@ -41,4 +41,4 @@ Genome expressed(const Genome& genome);
 /// How many genes it has.
 std::size_t gene_count(const Genome& genome);
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

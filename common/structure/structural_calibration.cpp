@@ -9,7 +9,7 @@
 #include "fitting/parameter_space.hpp"
 #include "structure/structured_arm.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 namespace {
 
 constexpr int kTriesAtNew = 5;
@@ -213,4 +213,4 @@ StructuralCalibration calibrate_structure(const DataSet& data, const DeclaredMod
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

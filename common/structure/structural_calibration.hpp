@@ -7,7 +7,7 @@
 #include "fitting/fit.hpp"
 #include "structure/structure_fit.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 
 /// After thesis appendix B 3, whose populations of 15 settle early.
 struct StructureOptions {
@@ -52,4 +52,4 @@ StructuralCalibration calibrate_structure(const DataSet& data, const DeclaredMod
                                           const CorrectedRobot& registered, const StructureOptions& options,
                                           RandomStream& random, const StructureWatch& watch = {});
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

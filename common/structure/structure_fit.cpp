@@ -10,7 +10,7 @@
 
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 namespace {
 
 constexpr double kMountedOtherwise_rad = 0.1;
@@ -244,4 +244,4 @@ std::vector<FoundTransform> found_transforms(const StructureProblem& problem, co
   return found;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

@@ -9,7 +9,7 @@
 #include "effects/measurement.hpp"
 #include "structure/structured_arm.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 
 /// What structures are fitted to and selected by.
 struct StructureProblem {
@@ -63,4 +63,4 @@ struct FoundTransform {
 /// In the order in which they stand along the arm.
 std::vector<FoundTransform> found_transforms(const StructureProblem& problem, const StructureFit& fit);
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

@@ -6,7 +6,7 @@
 #include "kinematics/forward.hpp"
 #include "kinematics/rotation_vector.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 namespace {
 
 /// The flange in the base's frame; every gene's screw, in their order, goes to `visit`.
@@ -164,4 +164,4 @@ CorrectedRobot equivalent_robot(const StructuredArm& arm) {
   return robot;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

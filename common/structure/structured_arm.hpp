@@ -6,7 +6,7 @@
 #include "effects/corrected_robot.hpp"
 #include "structure/genome.hpp"
 
-namespace demecal {
+namespace demecal::inline structure {
 
 /// The links of `robot` are held as they are; what follows them, its base and its tools are what can be fitted.
 struct StructuredArm {
@@ -48,4 +48,4 @@ StructuredArm changed(const StructuredArm& arm, const StructureFreedom& freedom,
 /// line goes on to the next joint, and what is left at the flange to the tools. The base stays.
 CorrectedRobot equivalent_robot(const StructuredArm& arm);
 
-}  // namespace demecal
+}  // namespace demecal::inline structure

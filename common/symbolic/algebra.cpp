@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "symbolic/rules.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 namespace {
 
 /// Gathers what stands by equal expressions, in the order of their ids; what comes to nothing goes.
@@ -223,4 +223,4 @@ Expression larger(Expression a, Expression b) {
   return a.algebra().function(Function::maximum, {a, b});
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -13,7 +13,7 @@
 
 #include "expression/tree.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 enum class ExpressionKind { constant, symbol, sum, product, function };
 
@@ -130,4 +130,4 @@ Expression square_root(Expression a);
 Expression smaller(Expression a, Expression b);
 Expression larger(Expression a, Expression b);
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -13,7 +13,7 @@
 #include "expression/tree.hpp"
 #include "symbolic/rules.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 namespace {
 
 double term_value(const ExpressionNode& term, const SymbolValues& symbols,
@@ -190,4 +190,4 @@ Expression derivative(Expression expression, const std::string& symbol) {
   return Differentiation(expression.algebra().symbol(symbol))(expression);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -8,7 +8,7 @@
 
 #include "symbolic/algebra.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 using SymbolValues = std::map<std::string, double>;
 
@@ -23,4 +23,4 @@ std::vector<Expression> terms_of(std::span<const Expression> expressions);
 /// beside it. Protected quotients and roots give 0 where their divisor or argument is 0.
 Expression derivative(Expression expression, const std::string& symbol);
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -9,7 +9,7 @@
 #include "symbolic/calculus.hpp"
 #include "symbolic/printing.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 namespace {
 
 struct SupportFunction {
@@ -270,4 +270,4 @@ std::string code_of(const Listing& listing, CodeLanguage language) {
   return file.text();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -8,7 +8,7 @@
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/printing.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 /// What is written. Joint i (from 1) is commanded to the symbol qi; `actual[i - 1]` says in terms of it where the joint
 /// then is, and `pose` may refer to that as the symbol actual_joint(i), and of all q.
@@ -30,4 +30,4 @@ Listing derivative(const Listing& listing, int joint);
 /// share is computed once, in t1, t2 ...
 std::string code_of(const Listing& listing, CodeLanguage language);
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

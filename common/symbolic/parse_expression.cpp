@@ -13,7 +13,7 @@
 #include "expression/text.hpp"
 #include "symbolic/calculus.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 namespace {
 
 constexpr int kDeepestNesting = 256;              // the parser calls itself, and text comes from strangers
@@ -257,4 +257,4 @@ std::vector<Expression> elements(const SymbolicMatrix& matrix) {
   return all;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

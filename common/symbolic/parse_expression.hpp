@@ -10,7 +10,7 @@
 
 #include "symbolic/algebra.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 /// What names in text stand for; where there are none, every name is a symbol of its own.
 using SymbolNames = std::map<std::string, Expression>;
@@ -40,4 +40,4 @@ SymbolicMatrix derivative(const SymbolicMatrix& matrix, const std::string& symbo
 /// Its elements row by row.
 std::vector<Expression> elements(const SymbolicMatrix& matrix);
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -12,7 +12,7 @@
 #include "expression/tree.hpp"
 #include "symbolic/calculus.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 namespace {
 
 constexpr int kLongestPower = 3;  // written as repeated factors where a language has no operator for it
@@ -295,4 +295,4 @@ Steps plan_steps(const std::vector<Expression>& expressions, const ExpressionPri
   return steps;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -11,7 +11,7 @@
 #include "expression/tree.hpp"
 #include "symbolic/algebra.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 enum class CodeLanguage { text, c, python, matlab };
 
@@ -49,4 +49,4 @@ struct Steps {
 Steps plan_steps(const std::vector<Expression>& expressions, const ExpressionPrinter& printer,
                  const std::string& stem = "t");
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -11,7 +11,7 @@
 #include "expression/elementary.hpp"
 #include "expression/primitive.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 double value_of(Function function, std::span<const double> arguments) {
   const double a = arguments[0];
@@ -241,4 +241,4 @@ std::optional<Expression> combined_with_one(Expression term, double ratio) {
   return joined_squares({}, factors_of(term), ratio, term.algebra());
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

@@ -7,7 +7,7 @@
 
 #include "symbolic/algebra.hpp"
 
-namespace demecal {
+namespace demecal::inline symbolic {
 
 /// The value of a function (not an evolved formula) at the values of its arguments.
 double value_of(Function function, std::span<const double> arguments);
@@ -28,4 +28,4 @@ std::optional<Expression> combined_with_one(Expression term, double ratio);
 /// Bases and exponents of a product; of anything else, itself once.
 std::vector<Part> factors_of(Expression expression);
 
-}  // namespace demecal
+}  // namespace demecal::inline symbolic

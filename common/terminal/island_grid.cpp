@@ -8,7 +8,7 @@
 
 #include "terminal/text.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 constexpr std::size_t kLabel = 7;  // "joint 1"
@@ -199,4 +199,4 @@ std::vector<std::string> island_grid(const WatchedRun& run, const std::vector<co
   return Grid(run, workers, options).lines();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -6,7 +6,7 @@
 
 #include "monitor/watched.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 
 struct GridOptions {
   std::size_t columns = 100;  ///< of the terminal; at least 40
@@ -21,4 +21,4 @@ struct GridOptions {
 std::vector<std::string> island_grid(const WatchedRun& run, const std::vector<const WatchedWorker*>& workers,
                                      const GridOptions& options);
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -7,7 +7,7 @@
 #include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 constexpr std::size_t kMostKinds = 5;
@@ -124,4 +124,4 @@ std::string limits_to_terminal(const Report& report) {
          (report.noise ? wrapped("  noise:", noise_sentence(*report.noise), 4) : "") + decoys_line(report);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

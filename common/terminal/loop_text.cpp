@@ -8,7 +8,7 @@
 #include "report/figures.hpp"
 #include "terminal/text.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 constexpr std::size_t kIndent = 7;          // of what is said of one effect
@@ -179,4 +179,4 @@ std::string loop_to_terminal(const Report& report) {
          wrapped(" ", closing, 4) + limits_to_terminal(report);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -9,7 +9,7 @@
 #include "terminal/island_grid.hpp"
 #include "terminal/text.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -251,4 +251,4 @@ std::vector<std::string> monitor_page(const Watched& watched, const PageOptions&
   return Page(watched, options).lines();
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -6,7 +6,7 @@
 
 #include "monitor/watched.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 
 struct PageOptions {
   std::size_t columns = 100;  ///< of the terminal; fewer than 40 count as 40
@@ -32,4 +32,4 @@ std::vector<std::string> worker_lines(const Watched& watched, double now_s, cons
 std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options);
 std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options);
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -8,7 +8,7 @@
 #include "report/figures.hpp"
 #include "terminal/text.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 constexpr std::size_t kStageColumns = 42, kSetColumns = 38;  // of what heads a line of figures
@@ -168,4 +168,4 @@ std::string to_terminal(const DataCheckEntry& check) {
   return text;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -7,7 +7,7 @@
 #include "report/report.hpp"
 #include "report/study.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 
 /// Mean, rms, P95 and max in mm of every stage on every set that has poses; the joints' errors in rad; what the poses
 /// could not see; what was named. At most 100 columns wide.
@@ -39,4 +39,4 @@ std::string blocks_table(const Study& study, std::size_t most);
 /// A line per method: validation and accept error, numbers identified, time. At most 100 columns wide.
 std::string comparison_table(const Comparison& comparison);
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

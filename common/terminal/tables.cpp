@@ -6,7 +6,7 @@
 
 #include "terminal/text.hpp"
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 constexpr std::size_t kWidestForm = 56;
@@ -166,4 +166,4 @@ std::string comparison_table(const Comparison& comparison) {
   return text;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

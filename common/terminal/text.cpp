@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-namespace demecal {
+namespace demecal::inline terminal {
 namespace {
 
 bool begins_letter(char byte) {
@@ -107,4 +107,4 @@ BarParts bar_parts(double share, std::size_t columns) {
   return {repeated("━", letters), repeated("─", columns - letters)};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace demecal {
+namespace demecal::inline terminal {
 
 inline constexpr std::size_t kTerminalColumns = 100;
 
@@ -46,4 +46,4 @@ struct BarParts {
 };
 BarParts bar_parts(double share, std::size_t columns);
 
-}  // namespace demecal
+}  // namespace demecal::inline terminal

@@ -14,7 +14,7 @@
 #include "transport/mailbox.hpp"
 #include "transport/run_owners.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 
 /// What the exchange knows of a participant.
 struct InMemoryMember {
@@ -192,4 +192,4 @@ std::unique_ptr<Transport> join(std::shared_ptr<Exchange> exchange, Role role, c
   return std::make_unique<InMemoryTransport>(std::move(exchange), role, name);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -6,7 +6,7 @@
 #include "protocol/message_bytes.hpp"
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 namespace {
 
 constexpr std::size_t kMostSources = 64;
@@ -89,4 +89,4 @@ std::uint64_t RejectionLog::count() const {
   return count_;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -14,7 +14,7 @@
 #include "protocol/messages.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 
 /// First in, first out for each source; between sources turn by turn, so that one that floods makes the others wait for
 /// one message at a time. Between any number of threads.
@@ -63,4 +63,4 @@ class RejectionLog {
   std::set<std::string> logged_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -5,7 +5,7 @@
 
 #include "transport/mailbox.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 namespace {
 
 constexpr std::uint64_t kShows = 1ULL << 63;
@@ -117,4 +117,4 @@ void CalibrationPresence::departed(const WriterId& writer) {
   if (gone) mailbox_.put(participant_of(writer), CalibrationLost{gone.mapped()});
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

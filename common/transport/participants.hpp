@@ -12,7 +12,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 
 class Mailbox;
 
@@ -86,4 +86,4 @@ class CalibrationPresence {
   std::map<WriterId, std::uint64_t> calibrations_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -5,7 +5,7 @@
 
 #include "protocol/message_bytes.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 namespace {
 
 constexpr std::ptrdiff_t kMostRuns = 48;  ///< of one owner at a time
@@ -188,4 +188,4 @@ void RunOwners::forget_first_of_many() {
   runs_.erase(first);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -12,7 +12,7 @@
 #include "transport/mailbox.hpp"
 #include "transport/participants.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 
 /// Puts data, tasks and control into a mailbox. A run belongs to the participant that its number shows, or else to the
 /// one whose data come first; what others publish about it is rejected. Tasks and control that come before the data
@@ -79,4 +79,4 @@ class RunOwners {
   std::map<ParticipantId, Early> early_;
 };
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -9,7 +9,7 @@
 
 #include "protocol/messages.hpp"
 
-namespace demecal {
+namespace demecal::inline transport {
 
 /// One participant. publish() and receive() may be called from different threads; each of them from one at a time.
 /// Every message is delivered to all participants whose role reads it, never to the sender. Those who come late get the
@@ -54,4 +54,4 @@ std::shared_ptr<Exchange> make_exchange();
 /// `leaving`, the others receive WorkerLost{name}.
 std::unique_ptr<Transport> join(std::shared_ptr<Exchange> exchange, Role role, const std::string& name);
 
-}  // namespace demecal
+}  // namespace demecal::inline transport

@@ -10,7 +10,7 @@
 #include "random/random_purpose.hpp"
 #include "structure/structural_calibration.hpp"
 
-namespace demecal {
+namespace demecal::inline workflows {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -196,4 +196,4 @@ CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, cons
   return result;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline workflows

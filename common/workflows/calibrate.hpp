@@ -14,7 +14,7 @@
 #include "scheduling/island_evolver.hpp"
 #include "structure/structure_fit.hpp"
 
-namespace demecal {
+namespace demecal::inline workflows {
 
 /// Told what happens in a calibration, as it happens. The result does not depend on it.
 class CalibrationObserver : public EvolutionObserver {
@@ -67,4 +67,4 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& 
 CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
                                        const CalibrateOptions& options);
 
-}  // namespace demecal
+}  // namespace demecal::inline workflows

@@ -9,7 +9,7 @@
 #include "closed_calibration/loop_passes.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline workflows {
 namespace {
 
 bool determines(const DataSet& data, const DeclaredModel& declared) {
@@ -101,4 +101,4 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   return {std::move(result), std::move(ends.after)};
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline workflows

@@ -7,7 +7,7 @@
 #include "closed_calibration/closing.hpp"
 #include "workflows/calibrate.hpp"
 
-namespace demecal {
+namespace demecal::inline workflows {
 
 /// What is declared where the user says nothing: registration, tool, joint offsets and geometry, or as much of it as
 /// leaves twice as many measured numbers as parameters.
@@ -29,4 +29,4 @@ void require_same_arm(const CalibratedModel& model, const DataSet& data);
 /// The same, and where its maker's figures are not those that the model was made from.
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data);
 
-}  // namespace demecal
+}  // namespace demecal::inline workflows

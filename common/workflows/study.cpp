@@ -4,7 +4,7 @@
 
 #include "report/evaluation.hpp"
 
-namespace demecal {
+namespace demecal::inline workflows {
 
 StudyRun figures_of(const DataSet& data, const CalibrateResult& result) {
   const ErrorBySet errors = errors_by_set(result.model.robot, data);
@@ -44,4 +44,4 @@ StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span
   return outcome;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline workflows

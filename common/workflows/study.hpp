@@ -11,7 +11,7 @@
 #include "report/study.hpp"
 #include "workflows/calibrate.hpp"
 
-namespace demecal {
+namespace demecal::inline workflows {
 
 struct StudyOutcome {
   RunEnd end = RunEnd::finished;
@@ -30,4 +30,4 @@ StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span
                        const MakeFleet& make_fleet, const std::atomic<bool>& interrupt, const CalibrateOptions& options,
                        const std::function<void(const StudyOutcome&)>& on_run);
 
-}  // namespace demecal
+}  // namespace demecal::inline workflows

@@ -10,7 +10,7 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal {
+namespace demecal::inline yaml {
 namespace {
 
 std::string reason(int number) {
@@ -68,4 +68,4 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace demecal {
+namespace demecal::inline yaml {
 
 /// The bytes of the file. Throws InputError naming the file and the reason where it cannot be read.
 std::string read_file(const std::filesystem::path& path);
@@ -20,4 +20,4 @@ std::filesystem::path resolve(const std::filesystem::path& file, const std::stri
 /// SHA-256 (FIPS 180-4) of the bytes, 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

@@ -8,7 +8,7 @@
 #include "errors/input_error.hpp"
 #include "yaml/files.hpp"
 
-namespace demecal {
+namespace demecal::inline yaml {
 namespace {
 
 constexpr int kDeepest = 32;                // an alias within its own anchor would have no end
@@ -147,4 +147,4 @@ YamlNode read_yaml(const std::filesystem::path& path) {
   return parse_yaml(read_file(path), path.string());
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

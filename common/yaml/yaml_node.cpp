@@ -7,7 +7,7 @@
 #include "data/columns.hpp"
 #include "data/text.hpp"
 
-namespace demecal {
+namespace demecal::inline yaml {
 namespace {
 
 constexpr std::string_view kVersionPrefix = "demecal_";
@@ -211,4 +211,4 @@ double measured_or_zero(const YamlNode& map, const std::string& stem, JointType 
   return measured ? measured->number() : 0.0;
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

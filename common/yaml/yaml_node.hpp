@@ -16,7 +16,7 @@
 #include "kinematics/chain.hpp"
 #include "yaml/files.hpp"
 
-namespace demecal {
+namespace demecal::inline yaml {
 
 /// A key that its map may not have, beside those that it may: tests ask readers in this way what they accept.
 class UnknownKey : public InputError {
@@ -132,4 +132,4 @@ double measured_at(const YamlNode& map, const std::string& stem, JointType joint
 /// The same, 0 where it is missing.
 double measured_or_zero(const YamlNode& map, const std::string& stem, JointType joint);
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

@@ -7,7 +7,7 @@
 #include "data/text.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal {
+namespace demecal::inline yaml {
 namespace {
 
 bool is_letter(char c) {
@@ -75,4 +75,4 @@ std::string millimetres_text(double length_m) {
   return number_text(length_m, millimetres, metres);
 }
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

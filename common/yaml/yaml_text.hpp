@@ -8,7 +8,7 @@
 
 #include "data/text.hpp"
 
-namespace demecal {
+namespace demecal::inline yaml {
 
 /// A text as a YAML scalar that reads back the same: plain where it is a simple word, in double quotes otherwise.
 std::string yaml_text(std::string_view text);
@@ -28,4 +28,4 @@ std::string yaml_mm(const Eigen::Vector3d& lengths_m);
 std::string degrees_text(double angle_rad);
 std::string millimetres_text(double length_m);
 
-}  // namespace demecal
+}  // namespace demecal::inline yaml

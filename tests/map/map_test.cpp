@@ -67,6 +67,10 @@ TEST(SourceTree, KeepsFilesThreadsAndClocksOutOfPureRooms) {
   EXPECT_THAT(over_the_tree(check_pure_calls), IsEmpty());
 }
 
+TEST(TheTree, EveryRoomHasItsNamespace) {
+  EXPECT_THAT(over_the_tree(check_namespace), IsEmpty());
+}
+
 TEST(SourceTree, HasShortFilesThatSayWhatTheyAreFor) {
   EXPECT_THAT(over_the_tree(check_shape), IsEmpty());
 }

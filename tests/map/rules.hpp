@@ -45,6 +45,10 @@ Violations check_pure_calls(const Source& source);
 /// At most 300 lines; headers and tests begin with a // comment that says what they are for.
 Violations check_shape(const Source& source);
 
+/// What a room declares stands in the room's own namespace, which is inline: demecal::effects::Robot may be written
+/// demecal::Robot.
+Violations check_namespace(const Source& source);
+
 /// No file or folder is called util, helper, manager, misc, or, below common/, common.
 Violations check_names(const Source& source);
 

@@ -117,6 +117,14 @@ TEST(PureCallRule, TakesNoLikenessForTheThing) {
   }
 }
 
+TEST(NamespaceRule, HoldsARoomToItsOwn) {
+  const auto with = [](const std::string& line) { return Source{"common/data/pose.cpp", line + "\n"}; };
+  EXPECT_THAT(check_namespace(with("namespace demecal::inline data {")), IsEmpty());
+  EXPECT_THAT(check_namespace(with("namespace demecal {")), SizeIs(1));
+  EXPECT_THAT(check_namespace(with("namespace demecal::inline effects {")), SizeIs(1));
+  EXPECT_THAT(check_namespace({"tests/data/pose_test.cpp", "namespace demecal {\n"}), IsEmpty());
+}
+
 TEST(ShapeRule, AllowsThreeHundredLinesAndNoMore) {
   std::string text = "// A file.\n";
   for (int line = 2; line <= 300; ++line) text += "\n";

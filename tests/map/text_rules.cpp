@@ -53,6 +53,19 @@ Violations check_shape(const Source& source) {
   return found;
 }
 
+Violations check_namespace(const Source& source) {
+  if (!source.path.starts_with("common/")) return {};
+  const std::string room = std::filesystem::path(source.path).parent_path().filename().string();
+  Violations found;
+  int number = 0;
+  for (const std::string& line : lines_of(source.text)) {
+    ++number;
+    if (line.starts_with("namespace demecal") && line != "namespace demecal::inline " + room + " {")
+      found.push_back({source.path, number, "not the namespace of the room " + room});
+  }
+  return found;
+}
+
 Violations check_names(const Source& source) {
   Violations found;
   bool below_common = false;
