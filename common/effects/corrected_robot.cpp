@@ -26,7 +26,7 @@ StandingArm kinematics_at(const CorrectedRobot& robot, const Stop& stop, const s
   if (robot.effects.empty()) return {differential_kinematics(robot.chain, corrected, point_m), robot.sensor_from_base};
   const Displacement displaced = displacement(robot.chain, robot.effects, robot.motions(stop, target));
   return {differential_kinematics(robot.chain, corrected + displaced.joints, point_m, displaced.places).kinematics,
-          moved(Eigen::Isometry3d::Identity(), displaced.sensor) * robot.sensor_from_base};
+          kinematics::moved(Eigen::Isometry3d::Identity(), displaced.sensor) * robot.sensor_from_base};
 }
 
 /// rad or m. Errors are thousandths; commands that need more would turn the wrist over to mend an angle of that size.
@@ -125,7 +125,7 @@ Eigen::Isometry3d CorrectedRobot::predict(const JointVector& corrected, const st
                                           const std::string& target) const {
   if (motions.empty()) return sensor_from_base * forward(chain, corrected) * tool(target);
   const Displacement displaced = displacement(chain, effects, motions);
-  const Eigen::Isometry3d base = moved(Eigen::Isometry3d::Identity(), displaced.sensor) * sensor_from_base;
+  const Eigen::Isometry3d base = kinematics::moved(Eigen::Isometry3d::Identity(), displaced.sensor) * sensor_from_base;
   return base * forward(chain, corrected + displaced.joints, displaced.places) * tool(target);
 }
 

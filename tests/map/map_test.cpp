@@ -67,7 +67,7 @@ TEST(SourceTree, KeepsFilesThreadsAndClocksOutOfPureRooms) {
   EXPECT_THAT(over_the_tree(check_pure_calls), IsEmpty());
 }
 
-TEST(TheTree, EveryRoomHasItsNamespace) {
+TEST(SourceTree, GivesEveryRoomItsNamespace) {
   EXPECT_THAT(over_the_tree(check_namespace), IsEmpty());
 }
 
