@@ -18,7 +18,7 @@
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
 #include "terminal/report_text.hpp"
-#include "workflows/diagnose.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal {
 namespace {

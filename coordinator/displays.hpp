@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "monitor/watched.hpp"
-#include "workflows/calibrate.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal {
 

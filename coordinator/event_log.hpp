@@ -13,7 +13,7 @@
 #include "diagnosis/outcome.hpp"
 #include "monitor/events.hpp"
 #include "transport/transport.hpp"
-#include "workflows/calibrate.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal {
 

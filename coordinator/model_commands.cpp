@@ -12,7 +12,7 @@
 #include "fitting/fit.hpp"
 #include "formulas/corrected_arm.hpp"
 #include "terminal/report_text.hpp"
-#include "workflows/diagnose.hpp"
+#include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 

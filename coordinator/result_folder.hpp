@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "workflows/calibrate.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal {
 

@@ -12,7 +12,7 @@
 #include "coordinator/result_folder.hpp"
 #include "errors/input_error.hpp"
 #include "terminal/report_text.hpp"
-#include "workflows/study.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "calibration/calibration.hpp"
 #include "errors/input_error.hpp"
-#include "fitting/scatter.hpp"
+#include "fitting/least_squares.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline calibration {

@@ -10,8 +10,7 @@
 #include "diagnosis/loop.hpp"
 #include "effects/measurement.hpp"
 #include "fitting/distributions.hpp"
-#include "fitting/median.hpp"
-#include "fitting/scatter.hpp"
+#include "fitting/least_squares.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline closed_calibration {

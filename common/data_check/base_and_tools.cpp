@@ -7,8 +7,8 @@
 
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
-#include "fitting/median.hpp"
-#include "kinematics/rotation_vector.hpp"
+#include "fitting/distributions.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {

@@ -10,7 +10,6 @@
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
 #include "fitting/distributions.hpp"
-#include "fitting/median.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {

@@ -4,7 +4,7 @@
 
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {

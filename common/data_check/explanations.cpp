@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinematics/rotation_vector.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {

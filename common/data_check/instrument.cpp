@@ -5,7 +5,7 @@
 #include <span>
 
 #include "data_check/explanations.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 #include "kinematics/forward.hpp"
 
 namespace demecal::inline data_check {

@@ -7,7 +7,7 @@
 
 #include "data_check/explanations.hpp"
 #include "fitting/base_search.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 #include "kinematics/forward.hpp"
 
 namespace demecal::inline data_check {

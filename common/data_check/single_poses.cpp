@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "data_check/searches.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {

@@ -9,9 +9,8 @@
 #include <set>
 
 #include "fitting/distributions.hpp"
-#include "fitting/median.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
-#include "kinematics/rotation_vector.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "effects/measurement.hpp"
+#include "fitting/distributions.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/median.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

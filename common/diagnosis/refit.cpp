@@ -7,7 +7,7 @@
 
 #include "diagnosis/candidates.hpp"
 #include "effects/measurement.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -7,8 +7,8 @@
 #include "errors/input_error.hpp"
 #include "fitting/base_search.hpp"
 #include "fitting/identifiable.hpp"
+#include "fitting/least_squares.hpp"
 #include "fitting/row_sums.hpp"
-#include "fitting/scatter.hpp"
 
 namespace demecal::inline fitting {
 namespace {

@@ -1,5 +1,5 @@
 // Minimises the scaled residuals of many poses over a subspace of the parameters (Levenberg-Marquardt), with what is
-// believed of them beforehand.
+// believed of them beforehand; how far the residuals then scatter, and which poses lie farther out than that allows.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,6 @@
 #include "fitting/parameter_space.hpp"
 
 namespace demecal::inline fitting {
-
 /// Independent normal beliefs about the parameters of a space, in changes from its reference.
 struct Prior {
   Eigen::VectorXd precision;  ///< one over the standard deviation of each, 1/rad or 1/m; 0: nothing is believed of it
@@ -56,5 +55,23 @@ double huber_threshold(int rows);
 /// The root of the chi-squared quantile with `rows` degrees of freedom at which a normal variable has `normal_quantile`
 /// (Wilson and Hilferty, 1931).
 double norm_quantile(int rows, double normal_quantile);
+
+struct Scatter {
+  RowScales deviation{};         ///< standard deviation per kind, sqrt(2 cost / dof); 0 for kinds not in use
+  RowScales median_deviation{};  ///< the same from the median of absolute residuals, which outliers cannot move
+  Eigen::MatrixXd
+      covariance;  ///< of z, r x r: the pseudo-inverse of the information in rows over `deviation`, and prior
+  std::vector<std::size_t> outliers;  ///< poses (in the data set), ascending
+};
+
+/// The scatter at `change` of the problem's rows. Every kind has the degrees of freedom that are left after those the
+/// parameters took from it (the leverages of its rows: Foerstner's estimator of variance components, 1979). Where the
+/// problem is robust, poses count by their Huber weights. Deviations are at least 1e-9 m or rad, so that exact data do
+/// not divide by zero. Outliers are poses that clean data would have once in a hundred fits.
+Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change);
+
+/// The deviation per kind from the median alone, nothing fitted: a first scale.
+RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
+                            const std::vector<Observation>& observations);
 
 }  // namespace demecal::inline fitting

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "kinematics/rotation_vector.hpp"
+#include "kinematics/angles.hpp"
 
 namespace demecal::inline fitting {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/candidates.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 #include "formula_search/rewrite.hpp"
 #include "residuals/noise.hpp"
 

@@ -1,10 +1,11 @@
-// Joint angles without jumps: where a joint's data straddle +-pi they are moved onto one side (thesis 6.2.2).
+// Joint angles without jumps: where a joint's data straddle +-pi they are moved onto one side (thesis 6.2.2). Rotations
+// as vectors (axis times angle), and how they change with them.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <span>
 
 namespace demecal::inline kinematics {
-
 /// `angle_rad` moved by whole turns to within half a turn of `centre_rad`.
 double wrap_near(double angle_rad, double centre_rad);
 
@@ -25,5 +26,21 @@ AngleBranch choose_branch(std::span<const double> angles_rad);
 /// however its data happen to be spread: it does not wrap if they lie within [-pi, pi], and is centred between them
 /// otherwise. Limits that are equal (not given) or wider say nothing, and the data decide.
 AngleBranch choose_branch(std::span<const double> angles_rad, double lower_rad, double upper_rad);
+
+/// The matrix whose product with w is v x w.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+
+/// The matrix that turns about `vector_rad` by its length.
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector_rad);
+
+/// The vector of a rotation, rad, of length at most pi.
+Eigen::Vector3d vector_of(const Eigen::Matrix3d& rotation);
+
+/// The rotation vector (rad, in the frame both are given in) that takes `from` to `to`.
+Eigen::Vector3d rotation_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to);
+
+/// The left Jacobian of SO(3): a small change dw of `vector_rad` turns rotation_of(vector_rad) by left_jacobian * dw,
+/// in the frame it turns in (Chirikjian, 2012, eq. 10.86).
+Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad);
 
 }  // namespace demecal::inline kinematics

@@ -1,6 +1,6 @@
 #include "kinematics/forward.hpp"
 
-#include "kinematics/rotation_vector.hpp"
+#include "kinematics/angles.hpp"
 
 namespace demecal::inline kinematics {
 namespace {

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <functional>
 
+#include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
-#include "kinematics/rotation_vector.hpp"
 
 namespace demecal::inline kinematics {
 

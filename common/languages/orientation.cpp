@@ -6,7 +6,6 @@
 
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
-#include "kinematics/rotation_vector.hpp"
 
 namespace demecal::inline languages {
 namespace {

@@ -10,7 +10,7 @@
 #include "errors/input_error.hpp"
 #include "library/conversion.hpp"
 #include "scheduling/fleet.hpp"
-#include "workflows/calibrate.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal::inline library {
 namespace {

@@ -12,7 +12,7 @@
 #include "library/conversion.hpp"
 #include "programs/correct_program.hpp"
 #include "programs/summary.hpp"
-#include "workflows/diagnose.hpp"
+#include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal::inline library {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "errors/check.hpp"
-#include "kinematics/rotation_vector.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline programs {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "kinematics/rotation_vector.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 #include "languages/orientation.hpp"
 #include "programs/nominal_joints.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
 #include "report/error_fields.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evolution/building_blocks.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 
 namespace demecal::inline report {
 

@@ -1,4 +1,4 @@
-#include "simulation/poses.hpp"
+#include "simulation/simulated_robot.hpp"
 
 #include <algorithm>
 #include <cmath>

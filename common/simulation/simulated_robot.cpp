@@ -1,7 +1,6 @@
 #include "simulation/simulated_robot.hpp"
 
 #include "random/random_purpose.hpp"
-#include "simulation/poses.hpp"
 #include "simulation/stance.hpp"
 
 namespace demecal::inline simulation {

@@ -1,12 +1,12 @@
-// A robot whose errors we chose: goes where it is commanded, wrongly, and is measured with noise.
+// A robot whose errors we chose: goes where it is commanded, wrongly, and is measured with noise; and where it is sent.
 #pragma once
 
+#include <vector>
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/truth.hpp"
 
 namespace demecal::inline simulation {
-
 /// One stop of the robot: the command and its circumstances.
 struct Visit {
   JointVector commanded;  ///< rad or m
@@ -54,5 +54,12 @@ class SimulatedRobot {
 /// nothing of the truth is in it. Its frame is `base` where sensor_from_base is the identity.
 /// Throws InputError where the scenario contradicts itself or its poses cannot be reached.
 DataSet simulate(const Scenario& scenario);
+
+/// Joint values (rad or m) of `count` random poses, all within the robot's limits. By joints: uniform within the
+/// ranges. In the cuboid: the nominal tool point is uniform in it and the orientation that of `home`, tilted at random,
+/// among those that the arm reaches away from singularities; arms of fewer than 6 joints cannot hold an orientation,
+/// and stand at random joints that bring their tool point into the cuboid. Throws InputError where no pose was found in
+/// a bounded number of attempts.
+std::vector<JointVector> draw_poses(const Scenario& scenario, int count, RandomStream& random);
 
 }  // namespace demecal::inline simulation

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
-#include "kinematics/rotation_vector.hpp"
 
 namespace demecal::inline structure {
 namespace {

@@ -1,4 +1,4 @@
-#include "terminal/island_grid.hpp"
+#include "terminal/monitor_page.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,6 @@
 
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
-#include "terminal/island_grid.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {

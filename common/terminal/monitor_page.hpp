@@ -1,4 +1,4 @@
-// All that a watcher has seen as one page of text for a terminal.
+// All that a watcher has seen as one page of text for a terminal, and its islands as a grid.
 #pragma once
 
 #include <string>
@@ -7,7 +7,6 @@
 #include "monitor/watched.hpp"
 
 namespace demecal::inline terminal {
-
 struct PageOptions {
   std::size_t columns = 100;  ///< of the terminal; fewer than 40 count as 40
   std::size_t lines = 0;      ///< to stay within, where that can be; 0: as many as it takes
@@ -31,5 +30,18 @@ std::vector<std::string> worker_lines(const Watched& watched, double now_s, cons
 /// `calibration` may be null.
 std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options);
 std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options);
+
+struct GridOptions {
+  std::size_t columns = 100;  ///< of the terminal; at least 40
+  std::size_t lines = 0;      ///< to stay within, where that can be; 0: as many as it takes
+  bool colours = false;
+};
+
+/// Lines without ends, a heading first, none wider than `columns`. Every island shows as many of its figures as there
+/// is room for: generation, best and median fitness, diversity, evaluations/s, migrants sent and taken, share of
+/// waiting, and its worker as the place in `workers`, from 1: "w1". Where even the least does not fit, the last line
+/// says how many islands are left out.
+std::vector<std::string> island_grid(const WatchedRun& run, const std::vector<const WatchedWorker*>& workers,
+                                     const GridOptions& options);
 
 }  // namespace demecal::inline terminal

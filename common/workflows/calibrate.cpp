@@ -1,4 +1,4 @@
-#include "workflows/calibrate.hpp"
+#include "workflows/workflows.hpp"
 
 #include <chrono>
 #include <utility>

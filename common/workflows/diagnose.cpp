@@ -1,4 +1,4 @@
-#include "workflows/diagnose.hpp"
+#include "workflows/workflows.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "workflows/study.hpp"
+#include "workflows/workflows.hpp"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "effects/random_robot.hpp"
-#include "kinematics/rotation_vector.hpp"
+#include "kinematics/angles.hpp"
 #include "programs/correct_program.hpp"
 
 namespace demecal {

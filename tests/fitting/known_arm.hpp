@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fitting/fit.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/random_arm.hpp"
-#include "kinematics/rotation_vector.hpp"
 
 namespace demecal {
 

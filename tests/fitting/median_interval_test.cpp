@@ -1,5 +1,5 @@
 // The interval of a median: its probability counted over all ways in which values may fall, and tried on samples.
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 
 #include <gtest/gtest.h>
 

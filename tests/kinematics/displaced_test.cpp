@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/random_arm.hpp"
-#include "kinematics/rotation_vector.hpp"
 
 namespace demecal {
 namespace {

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "data/text.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/random_arm.hpp"
-#include "kinematics/rotation_vector.hpp"
 #include "kinematics/units.hpp"
 #include "languages/named_languages.hpp"
 

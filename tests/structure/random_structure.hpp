@@ -1,8 +1,8 @@
 // Arms with random structures after their links, and what is measured of them.
 #pragma once
 
+#include "kinematics/angles.hpp"
 #include "kinematics/random_arm.hpp"
-#include "kinematics/rotation_vector.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "made_up_run.hpp"
-#include "terminal/island_grid.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal {

@@ -1,5 +1,5 @@
 // A diagnosis tells what a declared model lacks, and takes up a model that was found before.
-#include "workflows/diagnose.hpp"
+#include "workflows/workflows.hpp"
 
 #include <gtest/gtest.h>
 

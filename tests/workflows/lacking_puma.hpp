@@ -5,7 +5,7 @@
 #include "effects/measurement.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "simulation/simulated_robot.hpp"
-#include "workflows/calibrate.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal {
 

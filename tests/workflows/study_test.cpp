@@ -1,5 +1,5 @@
 // A study's runs are the calibrations that its jobs give alone, and what was reached outlasts an interruption.
-#include "workflows/study.hpp"
+#include "workflows/workflows.hpp"
 
 #include <gtest/gtest.h>
 

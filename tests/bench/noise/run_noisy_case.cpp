@@ -15,7 +15,7 @@
 #include "engine/thread_seconds.hpp"
 #include "errors/input_error.hpp"
 #include "noisy_measurement.hpp"
-#include "workflows/diagnose.hpp"
+#include "workflows/workflows.hpp"
 
 namespace demecal::bench {
 namespace {

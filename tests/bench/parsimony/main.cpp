@@ -10,7 +10,7 @@
 #include "config/job_file.hpp"
 #include "effects/measurement.hpp"
 #include "evolution/island.hpp"
-#include "fitting/median.hpp"
+#include "fitting/distributions.hpp"
 
 namespace {
 

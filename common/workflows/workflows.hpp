@@ -1,5 +1,5 @@
-// The main job, everything but files and terminals: from measured poses and a job to a model and what is to be said of
-// it.
+// The main jobs, everything but files and terminals: calibration, diagnosis and study, from measured poses and a job to
+// a model and what is to be said of it.
 #pragma once
 
 #include <atomic>
@@ -7,15 +7,23 @@
 #include <string>
 #include <vector>
 
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
 #include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "closed_calibration/closing.hpp"
 #include "data/data_set.hpp"
 #include "distal/steps.hpp"
+#include "evolution/building_blocks.hpp"
 #include "report/make_report.hpp"
+#include "report/study.hpp"
 #include "scheduling/island_evolver.hpp"
 #include "structure/structure_fit.hpp"
 
 namespace demecal::inline workflows {
-
 /// Told what happens in a calibration, as it happens. The result does not depend on it.
 class CalibrationObserver : public EvolutionObserver {
  public:
@@ -66,5 +74,42 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& 
 /// the best structure so far.
 CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
                                        const CalibrateOptions& options);
+
+struct StudyOutcome {
+  RunEnd end = RunEnd::finished;
+  std::vector<StudyRun> runs;       ///< those that came to their end
+  std::vector<IslandFront> fronts;  ///< of the runs' islands
+};
+
+/// The figures of a calibration that came to its end; cell and seed are left to the caller. Where validation poses had
+/// a part in the last fit, what they said before.
+StudyRun figures_of(const DataSet& data, const CalibrateResult& result);
+
+/// Runs every job with every seed: all jobs with the first seed, then all with the second, so that what an interruption
+/// leaves compares them alike. `on_run` is told of each run that came to its end, after it was added. Ends with the
+/// first that does not. Throws InputError for data that a job cannot be fitted to.
+StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span<const std::uint64_t> seeds,
+                       const MakeFleet& make_fleet, const std::atomic<bool>& interrupt, const CalibrateOptions& options,
+                       const std::function<void(const StudyOutcome&)>& on_run);
+
+/// What is declared where the user says nothing: registration, tool, joint offsets and geometry, or as much of it as
+/// leaves twice as many measured numbers as parameters.
+DeclaredModel declared_by_default(const DataSet& data);
+
+struct Diagnosis {
+  CalibrateResult result;  ///< as of a calibration
+  DiagnosedModel model;    ///< the same model, as the loop left it
+};
+
+/// Runs the loop on `known`, a model found before, its numbers fitted again; without it on the job's declared model.
+/// Ends early when `watch` returns false. Throws InputError for data that the model cannot be fitted to.
+Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
+                   const RoundWatcher& watch);
+
+/// Throws InputError where the model has another number of joints than the data set's arm, or no tool for a target.
+void require_same_arm(const CalibratedModel& model, const DataSet& data);
+
+/// The same, and where its maker's figures are not those that the model was made from.
+void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data);
 
 }  // namespace demecal::inline workflows
