@@ -78,14 +78,14 @@ void refuse_corrected(const ApplyRequest& request, const std::string& text) {
 
 std::vector<std::string> language_names() {
   std::vector<std::string> names;
-  for (const Language& language : languages()) names.emplace_back(language.name);
+  for (const Language& language : all_languages()) names.emplace_back(language.name);
   return names;
 }
 
 /// What `part` is of every language, separated by commas.
 std::string listed_languages(std::string_view Language::*part) {
   std::string text;
-  for (const Language& language : languages()) text += (text.empty() ? "" : ", ") + std::string(language.*part);
+  for (const Language& language : all_languages()) text += (text.empty() ? "" : ", ") + std::string(language.*part);
   return text;
 }
 

@@ -49,7 +49,7 @@ double seconds_since(Clock::time_point begin) {
 
 /// All but our own, each timed with the registration that it starts from.
 void compare_baselines(const DataSet& data, const Job& job, Comparison& comparison) {
-  for (const Baseline& baseline : baselines()) {
+  for (const Baseline& baseline : all_baselines()) {
     const Clock::time_point begin = Clock::now();
     const BaselineFit fit = baseline.fit(registered_arm(data, job.declared));
     const double wall_s = seconds_since(begin);

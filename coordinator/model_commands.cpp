@@ -24,7 +24,7 @@ struct ExportRequest {
   int derivative = 0;  ///< by this joint, from 1; 0: none
 };
 
-const std::map<std::string, CodeLanguage>& languages() {
+const std::map<std::string, CodeLanguage>& code_languages() {
   static const std::map<std::string, CodeLanguage> all{{"text", CodeLanguage::text},
                                                        {"c", CodeLanguage::c},
                                                        {"python", CodeLanguage::python},
@@ -80,7 +80,7 @@ ExitCode run(const ExportRequest& request) {
                      "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
   }
   if (request.derivative > 0) listing = derivative(listing, request.derivative);
-  const std::string code = code_of(listing, languages().at(request.format));
+  const std::string code = code_of(listing, code_languages().at(request.format));
   if (request.out.empty()) {
     fmt::print("{}", code);
   } else {

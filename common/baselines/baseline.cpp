@@ -141,7 +141,7 @@ RegisteredArm registered_arm(const DataSet& data, const DeclaredModel& declared)
   return arm;
 }
 
-const std::vector<Baseline>& baselines() {
+const std::vector<Baseline>& all_baselines() {
   static const std::vector<Baseline> all{
       {"registration", "base and tool alone", registration_alone},
       {"linear_joints", "gain and offset per joint", linear_joints},

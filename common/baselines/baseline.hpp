@@ -39,7 +39,7 @@ struct Baseline {
 /// In the order of a table: registration alone, gain and offset of each joint, polynomials (Shamma), Fourier series of
 /// order 1 to 3 on all geometric parameters (Everett, Vincze), a radial-basis network on the position's error,
 /// Levenberg-Marquardt on offsets and geometry.
-const std::vector<Baseline>& baselines();
+const std::vector<Baseline>& all_baselines();
 
 /// Figures on calibration, validation and accept poses; NaN where a set is empty.
 std::array<ErrorFigures, 3> figures_by_set(const BaselineFit& fit, const DataSet& data);

@@ -13,7 +13,7 @@ Language krl_language();
 Language urscript_language();
 Language csv_language();
 
-std::span<const Language> languages() {
+std::span<const Language> all_languages() {
   static const std::vector<Language> all{val2_language(), rapid_language(), krl_language(), urscript_language(),
                                          csv_language()};
   return all;

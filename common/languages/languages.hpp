@@ -28,13 +28,13 @@ struct Language {
 };
 
 /// All languages, in the order in which programs are searched for their signs.
-std::span<const Language> languages();
+std::span<const Language> all_languages();
 
 /// The one of this name in any letter case; null where there is none.
-const Language* find_language(std::string_view name, std::span<const Language> among = languages());
+const Language* find_language(std::string_view name, std::span<const Language> among = all_languages());
 /// That of a program by its file's ending or, where that is not known, by its signs; null where neither says.
 const Language* recognize_language(std::string_view text, const std::string& file,
-                                   std::span<const Language> among = languages());
+                                   std::span<const Language> among = all_languages());
 
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm);
 
@@ -48,6 +48,6 @@ std::string correction_mark(const std::string& version, const std::string& job, 
 std::string with_mark(const std::string& text, const Language& language, const std::string& mark);
 
 /// The line (from 1) that holds a mark, in any of the languages.
-std::optional<std::size_t> marked_line(std::string_view text, std::span<const Language> among = languages());
+std::optional<std::size_t> marked_line(std::string_view text, std::span<const Language> among = all_languages());
 
 }  // namespace demecal::inline languages

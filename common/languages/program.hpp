@@ -70,7 +70,7 @@ struct Remark {
 };
 
 struct Program {
-  std::string language{};           ///< the name of its row in languages()
+  std::string language{};           ///< the name of its row in all_languages()
   std::string file;                 ///< as named to the user
   std::vector<Target> targets;      ///< in the order of the text
   std::vector<Remark> uncorrected;  ///< what looks like a target but cannot be corrected, and why

@@ -71,7 +71,7 @@ struct FigureOr {
 
 template <class Member>
 nlohmann::ordered_json json_of(const FigureOr<Member>& figure_or) {
-  return json_of(figure_or.scale * figure_or.figure);
+  return report::json_of(figure_or.scale * figure_or.figure);
 }
 template <class Member>
 void read_json(const JsonValue& json, FigureOr<Member>& figure_or) {

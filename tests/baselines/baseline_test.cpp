@@ -31,7 +31,7 @@ DataSet measured(RandomStream& stream, int calibration, int validation, const Tr
 }
 
 const Baseline& baseline(const std::string& key) {
-  for (const Baseline& one : baselines()) {
+  for (const Baseline& one : all_baselines()) {
     if (one.key == key) return one;
   }
   throw std::out_of_range(key);
@@ -103,7 +103,7 @@ TEST(Baselines, NoneBreaksDownOnThirtyPosesOrOnAnArmThatLacksNothing) {
   for (const Truth& law : {Truth(gain_and_offset), Truth([](const JointVector&, Chain&) {})}) {
     const DataSet data = measured(stream, 30, 100, law, 1e-4);
     const double alone = validation_rms_mm("registration", data);
-    for (const Baseline& one : baselines()) {
+    for (const Baseline& one : all_baselines()) {
       EXPECT_LT(validation_rms_mm(one.key, data), 1.5 * alone) << one.key;
     }
   }
@@ -124,7 +124,7 @@ TEST(Baselines, CountTheirNumbersAndFitTheCalibrationPosesAlone) {
     if (pose.set == PoseSet::validation) *pose.position_m += Eigen::Vector3d(1, 2, 3);
   }
   const RegisteredArm other = registered_arm(spoilt, kBaseAndTool);
-  for (const Baseline& one : baselines()) {
+  for (const Baseline& one : all_baselines()) {
     const Eigen::Vector3d a = one.fit(arm).predict(data.poses[70]).translation();
     EXPECT_EQ(a, one.fit(other).predict(data.poses[70]).translation()) << one.key;
   }

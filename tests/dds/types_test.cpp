@@ -75,20 +75,20 @@ TEST(Types, MakeNothingOfBytesThatAreNoSample) {
   }
 }
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 
 /// A DDS program that has idl/calibration.idl and nothing else of the project.
 class Tool {
  public:
   Tool() {
-    auto* factory = dds::DomainParticipantFactory::get_instance();
+    auto* factory = fastdds::DomainParticipantFactory::get_instance();
     const DdsOptions options = local_options();
     participant_ = factory->create_participant(options.domain, participant_qos(options, Role::watcher, "tool"));
-    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(fastdds::SUBSCRIBER_QOS_DEFAULT);
   }
   ~Tool() {
     participant_->delete_contained_entities();
-    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+    fastdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
   }
   Tool(const Tool&) = delete;
   Tool& operator=(const Tool&) = delete;
@@ -96,20 +96,20 @@ class Tool {
   /// The first sample of the topic.
   template <class Generated>
   typename Generated::type read(Topic topic) {
-    const dds::TypeSupport type(new Generated);
+    const fastdds::TypeSupport type(new Generated);
     type.register_type(participant_);
-    dds::DataReader* reader = subscriber_->create_datareader(
-        participant_->create_topic(topic_name(topic), type.get_type_name(), dds::TOPIC_QOS_DEFAULT), reader_qos(topic));
+    fastdds::DataReader* reader = subscriber_->create_datareader(
+        participant_->create_topic(topic_name(topic), type.get_type_name(), fastdds::TOPIC_QOS_DEFAULT), reader_qos(topic));
     typename Generated::type sample;
-    dds::SampleInfo info;
+    fastdds::SampleInfo info;
     EXPECT_TRUE(reader->wait_for_unread_message({static_cast<std::int32_t>(kDeadline.count()), 0}));
     EXPECT_EQ(reader->take_next_sample(&sample, &info), ReturnCode_t::RETCODE_OK);
     return sample;
   }
 
  private:
-  dds::DomainParticipant* participant_;
-  dds::Subscriber* subscriber_;
+  fastdds::DomainParticipant* participant_;
+  fastdds::Subscriber* subscriber_;
 };
 
 TEST(Dds, SamplesAreReadByAnyProgramWithTheDocumentsTypes) {

@@ -69,7 +69,7 @@ TEST(MadeUpLanguage, IsCorrectedMarkedAndSummedUp) {
 }
 
 TEST(Languages, HaveRowsThatNoOtherLanguageContradicts) {
-  for (const Language& language : languages()) {
+  for (const Language& language : all_languages()) {
     SCOPED_TRACE(language.name);
     EXPECT_EQ(find_language(language.name), &language);
     EXPECT_FALSE(language.title.empty());

@@ -11,7 +11,7 @@
 namespace demecal {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fastdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
@@ -21,7 +21,7 @@ struct Raw {
 };
 
 /// Goes by the name of another type and sends bytes as they are.
-class RawType final : public dds::TopicDataType {
+class RawType final : public fastdds::TopicDataType {
  public:
   explicit RawType(const std::string& name) {
     setName(name.c_str());
@@ -51,19 +51,19 @@ class RawType final : public dds::TopicDataType {
 }  // namespace
 
 RawWriters::RawWriters(const DdsOptions& options, const std::string& name) {
-  auto* factory = dds::DomainParticipantFactory::get_instance();
+  auto* factory = fastdds::DomainParticipantFactory::get_instance();
   participant_ = factory->create_participant(options.domain, participant_qos(options, Role::coordinator, name));
   if (participant_ == nullptr) throw std::runtime_error("no participant");
-  publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+  publisher_ = participant_->create_publisher(fastdds::PUBLISHER_QOS_DEFAULT);
 }
 
-dds::DataWriter* RawWriters::writer_of(Topic topic, std::uint32_t joint) {
+fastdds::DataWriter* RawWriters::writer_of(Topic topic, std::uint32_t joint) {
   const std::string name = topic_name(topic, joint);
-  dds::DataWriter*& writer = writers_[name];
+  fastdds::DataWriter*& writer = writers_[name];
   if (writer == nullptr) {
     const std::string type = topic_type(topic).get_type_name();
-    if (participant_->find_type(type).empty()) dds::TypeSupport(new RawType(type)).register_type(participant_);
-    writer = publisher_->create_datawriter(participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT),
+    if (participant_->find_type(type).empty()) fastdds::TypeSupport(new RawType(type)).register_type(participant_);
+    writer = publisher_->create_datawriter(participant_->create_topic(name, type, fastdds::TOPIC_QOS_DEFAULT),
                                            writer_qos(topic));
   }
   if (writer == nullptr) throw std::runtime_error("no writer of " + name);
