@@ -27,21 +27,26 @@ template <typename Problem>
 void levenberg_marquardt(Problem& problem, const LevenbergMarquardtOptions& options) {
   double damping = options.initial_damping;
   int successful = 0;
-  std::optional<double> cost;
+  bool linearized = false;
+  double cost = 0.0;
   for (int i = 0; i < options.max_iterations && successful < options.max_successful_steps; ++i) {
-    if (!cost) cost = problem.linearize(damping);
-    if (!cost) return;
+    if (!linearized) {
+      const std::optional<double> here = problem.linearize(damping);
+      if (!here) return;
+      cost = *here;
+      linearized = true;
+    }
     const std::optional<double> ahead = problem.try_step(damping);
-    if (!ahead || !(*ahead < *cost)) {
+    if (!ahead || !(*ahead < cost)) {
       damping = std::max(options.min_increased_damping, options.increase_factor * damping);
       if (damping > options.max_damping) return;
       continue;
     }
     problem.accept();
     ++successful;
-    if (*cost - *ahead <= options.function_tolerance * *cost) return;
+    if (cost - *ahead <= options.function_tolerance * cost) return;
     damping *= options.decrease_factor;
-    cost.reset();
+    linearized = false;
   }
 }
 

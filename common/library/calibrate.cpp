@@ -21,7 +21,7 @@ DeclaredModel declared_model(const std::vector<std::string>& words) {
     if (std::ranges::find(known, word) == known.end())
       throw InputError({}, word, "cannot be declared; the nearest that can is '" + nearest_name(word, known) + "'");
   }
-  return declared_model(words);
+  return config::declared_model(words);
 }
 
 Job to_job(const CalibrationSettings& settings) {

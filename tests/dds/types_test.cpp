@@ -99,7 +99,8 @@ class Tool {
     const fastdds::TypeSupport type(new Generated);
     type.register_type(participant_);
     fastdds::DataReader* reader = subscriber_->create_datareader(
-        participant_->create_topic(topic_name(topic), type.get_type_name(), fastdds::TOPIC_QOS_DEFAULT), reader_qos(topic));
+        participant_->create_topic(topic_name(topic), type.get_type_name(), fastdds::TOPIC_QOS_DEFAULT),
+        reader_qos(topic));
     typename Generated::type sample;
     fastdds::SampleInfo info;
     EXPECT_TRUE(reader->wait_for_unread_message({static_cast<std::int32_t>(kDeadline.count()), 0}));
