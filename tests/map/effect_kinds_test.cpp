@@ -38,7 +38,8 @@ bool means_something_else(const std::string& kind, const std::string& path) {
       {"common/baselines/baseline.cpp", {"registration", "geometry"}},  // names of baselines
       {"common/data_check/finding.cpp", {"joint_offset"}}};             // kinds of findings
   const auto words = elsewhere.find(path);
-  const bool of_a_robot_language = path.starts_with("common/languages/") && kind == "tool";
+  const bool of_a_robot_language =
+      (path.starts_with("common/languages/") || path.starts_with("common/programs/")) && kind == "tool";
   return of_a_robot_language || (words != elsewhere.end() && words->second.contains(kind));
 }
 
