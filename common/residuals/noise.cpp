@@ -51,10 +51,10 @@ RowMatrix columns_of_repeats(double size, const ResidualField& field) {
 
 /// Functions of the place in the order of measuring whose sum, each with a coefficient of unit variance, has the
 /// covariance size^2 correlation^|difference| (exact at the knots, by the nearest Gaussian process between them).
-class Drift {
+class SharedInOrder {
  public:
   /// `places` ascend.
-  Drift(const NoiseModel& noise, std::span<const std::size_t> places) : noise_(noise) {
+  SharedInOrder(const NoiseModel& noise, std::span<const std::size_t> places) : noise_(noise) {
     const Eigen::Index knots = std::min(std::ssize(places), kMostKnots);
     places_.resize(knots);
     for (Eigen::Index i = 0; i < knots; ++i)
@@ -86,7 +86,7 @@ class Drift {
   Eigen::MatrixXd functions_;  ///< knots x functions
 };
 
-RowMatrix columns_of_drift(const Drift& drift, const ResidualField& field) {
+RowMatrix columns_of_drift(const SharedInOrder& drift, const ResidualField& field) {
   RowMatrix result = RowMatrix::Zero(field.rows(), kPositionAxes * drift.size());
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
     const Eigen::RowVectorXd values = drift.at(static_cast<double>(field.poses[pose]));
@@ -142,7 +142,7 @@ Eigen::Vector3d variances_found(const Projection& model, double fitted_rows) {
 
 double unfollowed_variance(const NoiseModel& noise, std::span<const std::size_t> places) {
   if (noise.order <= 0.0 || places.empty()) return 0.0;
-  const Drift drift(noise, places);
+  const SharedInOrder drift(noise, places);
   double followed = 0.0;
   for (const std::size_t place : places) followed += drift.at(static_cast<double>(place)).squaredNorm();
   return std::max(0.0, noise.order * noise.order - followed / static_cast<double>(places.size()));
@@ -155,7 +155,7 @@ SharedErrors shared_errors(const NoiseModel& noise, const ResidualField& fitted,
     shared.validation = RowMatrix::Zero(validation.rows(), shared.fitted.cols());
   }
   if (noise.order > 0.0 && !fitted.poses.empty()) {
-    const Drift drift(noise, fitted.poses);
+    const SharedInOrder drift(noise, fitted.poses);
     shared.fitted = beside(shared.fitted, columns_of_drift(drift, fitted));
     shared.validation = beside(shared.validation, columns_of_drift(drift, validation));
   }

@@ -52,8 +52,8 @@ Violations check_namespace(const Source& source);
 /// No file or folder is called util, helper, manager, misc, or, below common/, common.
 Violations check_names(const Source& source);
 
-/// No class, struct, union or enumeration has the full name of another in the sources, those of anonymous namespaces
-/// aside: where two files that meet in one program define a name differently, the linker takes one of both unasked.
+/// No class, struct, union or enumeration of the sources has the name of another, whatever their namespaces, anonymous
+/// ones too: a reader who looks a name up finds one thing, and the linker never takes one of two.
 Violations check_types_once(const std::vector<Source>& sources);
 
 }  // namespace demecal::map

@@ -158,7 +158,8 @@ TEST(TypeRule, FindsATypeThatTwoFilesDefine) {
        {"namespace demecal { struct Inbox { int a; }; }",
         "namespace demecal {\nstruct Before {};\nenum class Inbox { a };\n}",
         "namespace demecal { template <class T, class Rows = List<T>> class Inbox {}; }",
-        "namespace demecal { union Inbox {}; }",
+        "namespace demecal { union Inbox {}; }", "namespace demecal::inline data { struct Inbox {}; }",
+        "namespace demecal { namespace { class Inbox {}; } }", "namespace demecal::map { class Inbox {}; }",
         "namespace demecal {\n#define OPEN {\nint f() { return 1; }\nenum Inbox : int { a };\n}"}) {
     EXPECT_THAT(check_types_once({{"worker/inbox.hpp", kInbox}, {"common/transport/inbox.hpp", other}}), SizeIs(1))
         << other;
@@ -167,8 +168,7 @@ TEST(TypeRule, FindsATypeThatTwoFilesDefine) {
 
 TEST(TypeRule, LeavesApartWhatNoLinkerMixesUp) {
   for (const char* const other :
-       {"namespace demecal { class Inbox; }", "namespace demecal { namespace { class Inbox {}; } }",
-        "namespace demecal::map { class Inbox {}; }", "namespace demecal { struct Outbox { struct Inbox {}; }; }",
+       {"namespace demecal { class Inbox; }", "namespace demecal { struct Outbox { struct Inbox {}; }; }",
         "namespace demecal { void f() { struct Inbox {}; } }", "namespace demecal { // class Inbox {};\n}",
         "namespace demecal { struct Entry {}; }", "namespace demecal { template <class Inbox> struct Box {}; }"}) {
     EXPECT_THAT(check_types_once({{"worker/inbox.hpp", kInbox}, {"common/transport/inbox.hpp", other}}), IsEmpty())

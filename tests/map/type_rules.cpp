@@ -6,7 +6,7 @@
 namespace demecal::map {
 namespace {
 
-/// A class, struct, union or enumeration defined at namespace scope, its name with the namespaces before it.
+/// A class, struct, union or enumeration defined at namespace scope, an anonymous one too; its name without namespaces.
 struct TypeDefinition {
   std::string name;
   int line = 0;
@@ -54,28 +54,22 @@ class TypeScan {
   }
 
  private:
-  struct Scope {
-    std::string prefix;  ///< of the names within
-    bool shared = true;  ///< named namespaces only, so that other files see the names
-  };
-
   void open() {
-    static const std::regex space(R"(^\s*(?:inline\s+)?namespace\b\s*([\w:]*)\s*$)");
+    static const std::regex space(R"(^\s*(?:inline\s+)?namespace\b(?:\s|::|\w)*$)");
     static const std::regex type(
         R"(^\s*(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:\[\[[^\]]*\]\]\s*)?([\w:]+(?:\s*<[^{]*>)?)\s*(?:final\s*)?(?::[^:].*)?$)");
-    const Scope outer = scopes_.empty() ? Scope{} : scopes_.back();
+    const bool within_namespaces = scopes_.empty() || scopes_.back();
     std::smatch match;
-    if (std::regex_match(head_, match, space)) {
-      const std::string name = match[1].str();
-      scopes_.push_back({outer.prefix + name + "::", outer.shared && !name.empty()});
+    if (std::regex_match(head_, space)) {
+      scopes_.push_back(within_namespaces);
       return;
     }
     const std::string head = without_template(head_);
-    if (outer.shared && std::regex_match(head, match, type)) found_.push_back({outer.prefix + match[1].str(), line_});
-    scopes_.push_back({"", false});
+    if (within_namespaces && std::regex_match(head, match, type)) found_.push_back({match[1].str(), line_});
+    scopes_.push_back(false);
   }
 
-  std::vector<Scope> scopes_;
+  std::vector<bool> scopes_;  ///< whether each that is open is a namespace within namespaces
   std::vector<TypeDefinition> found_;
   std::string head_;
   int line_ = 1;
