@@ -1,3 +1,5 @@
+#include "preparation/results.hpp"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
