@@ -6,6 +6,7 @@
 
 #include "evolution/tree_generation.hpp"
 #include "expression/shared_function.hpp"
+#include "expression/text.hpp"
 
 namespace demecal {
 namespace {
