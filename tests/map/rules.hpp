@@ -32,7 +32,8 @@ Violations check_rooms(const Source& source, const Map& map);
 /// A third-party header belongs to a library that the room or program links to.
 Violations check_libraries(const Source& source, const Map& map);
 
-/// Whatever the build says: yaml-cpp only in yaml, Fast DDS only in dds, the types generated from the IDL only in tests.
+/// Whatever the build says: yaml-cpp only in yaml, Fast DDS only in dds, the types generated from the IDL only in
+/// tests.
 Violations check_owners(const Source& source);
 
 /// A pure room includes no header of files, threads, clocks, streams to the terminal or the environment.
