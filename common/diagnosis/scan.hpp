@@ -38,7 +38,7 @@ class Scan {
   /// beyond the model too; `products`: columns^T direction; `square`: its squared length.
   std::vector<double> cosines(const Eigen::MatrixXd& products, double square) const;
 
-  /// The largest gain_nats of any candidate, ascending, over `count` draws of independent noise in place of the
+  /// The largest gain_nats of any candidate, ascending, over `count` draws of the noise in place of the
   /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005).
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
                                   int count, RandomStream random) const;
