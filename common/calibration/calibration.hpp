@@ -57,8 +57,8 @@ Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, con
 /// the fit of the declared model did not use are not used.
 Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot);
 
-/// What the joints of the calibration poses do beyond `model` without its corrections. Where the preparation wants
-/// posterior targets, its corrections are the errors learnt so far.
+/// What the joints of the calibration poses without gross errors do beyond `model` without its corrections. Where the
+/// preparation wants posterior targets, its corrections are the errors learnt so far.
 JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model);
 
 /// What the validation poses said of a model while they were unseen: before the last fit took them in too.
@@ -82,8 +82,13 @@ struct Calibration {
 Calibration conclude(const DataSet& data, const Job& job, const Preparation& preparation,
                      const std::vector<JointCandidates>& candidates, const FitOptions& options = {});
 
-/// The poses that select between models: those that validate or, where there are none, those that calibrate.
-std::vector<std::size_t> selection_poses(const DataSet& data);
+/// The poses of `set` that targets and choices may rest on: without those that `declared` leaves more than three times
+/// as far out as nine of ten of all poses that calibrate and validate. A pose wrong by metres would decide alone.
+std::vector<std::size_t> without_gross_errors(const DataSet& data, PoseSet set, const CorrectedRobot& declared);
+
+/// The poses that select between models: of those that validate or, where there are none, of those that calibrate the
+/// ones without gross errors.
+std::vector<std::size_t> selection_poses(const DataSet& data, const CorrectedRobot& declared);
 
 /// Performance index (thesis eq. 4.6): the sum of squared tool errors over `poses`, mm^2.
 double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "calibration/calibration.hpp"
+#include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
@@ -11,6 +12,8 @@ namespace {
 
 /// A jump smaller than this moves a tool a metre away by less than a hundredth of a millimetre.
 constexpr double kSmallestJumpRad = 1e-5;
+/// Times what nine poses of ten keep within; noise alone exceeds 2.3 times that once in a million.
+constexpr double kGrossError = 3.0;
 
 /// Mean absolute of the joint's target error less `correction`, over poses that have one.
 double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrection& correction) {
@@ -63,9 +66,29 @@ std::vector<JointSummary> joint_summaries(const JointTargets& declared, const Jo
   return summaries;
 }
 
-std::vector<std::size_t> selection_poses(const DataSet& data) {
-  std::vector<std::size_t> selecting = poses_of(data, PoseSet::validation);
-  return selecting.empty() ? poses_of(data, PoseSet::calibration) : selecting;
+std::vector<std::size_t> without_gross_errors(const DataSet& data, PoseSet set, const CorrectedRobot& declared) {
+  const auto errors_of = [&](PoseSet some) {
+    const std::vector<std::size_t> poses = poses_of(data, some);
+    return PoseEvaluator(data, poses, declared).squared_errors(declared);
+  };
+  SquaredErrors errors = errors_of(PoseSet::calibration);
+  const SquaredErrors validation = errors_of(PoseSet::validation);
+  errors.insert(errors.end(), validation.begin(), validation.end());
+  std::vector<std::size_t> poses = poses_of(data, set);
+  if (errors.empty()) return poses;
+  const auto ninth = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 9 / 10);
+  std::ranges::nth_element(errors, ninth);
+  const double limit_mm = kGrossError * std::sqrt(*ninth);
+  const auto is_gross = [&](std::size_t pose) {
+    return millimetres(tool_error_m(declared, data, data.poses[pose])) > limit_mm;
+  };
+  std::erase_if(poses, is_gross);
+  return poses;
+}
+
+std::vector<std::size_t> selection_poses(const DataSet& data, const CorrectedRobot& declared) {
+  const bool validated = !poses_of(data, PoseSet::validation).empty();
+  return without_gross_errors(data, validated ? PoseSet::validation : PoseSet::calibration, declared);
 }
 
 double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {
@@ -82,9 +105,10 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
                      const std::vector<JointCandidates>& evolved, const FitOptions& options) {
   std::vector<JointCandidates> candidates = evolved;
   for (JointCandidates& joint : candidates) add_short_forms(joint, job.gp);
-  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
-  const std::vector<std::size_t> selecting = selection_poses(data);
-  const Selection selection = select_corrections(data, fitted, selecting, preparation.declared.robot, candidates);
+  const CorrectedRobot& declared = preparation.declared.robot;
+  const std::vector<std::size_t> selecting = selection_poses(data, declared);
+  const Selection selection = select_corrections(data, without_gross_errors(data, PoseSet::calibration, declared),
+                                                 selecting, declared, candidates);
   Calibration result{.robot = with_shortened_corrections(selection.robot),
                      .estimates = preparation.declared.estimates,
                      .joints = {},
@@ -98,7 +122,8 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   for (JointSummary& summary : result.joints) {
     if (!summary.kept) summary.note = why_neutral(job, selection, data, summary.joint);
   }
-  result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
+  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  result.index_before_mm2 = performance_index_mm2(declared, data, fitted);
   result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);
   return result;
 }

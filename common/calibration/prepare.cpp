@@ -73,7 +73,7 @@ Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& r
 }
 
 JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model) {
-  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  const std::vector<std::size_t> poses = without_gross_errors(data, PoseSet::calibration, preparation.declared.robot);
   return joint_targets(
       data, poses, without_corrections(model),
       {preparation.target_options, residual_scales(data, poses, preparation.declared, model), model.corrections});

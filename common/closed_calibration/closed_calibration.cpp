@@ -23,7 +23,7 @@ class LoopPasses {
         functions_(functions),
         preparation_(preparation),
         first_(first),
-        selection_poses_(selection_poses(data)),
+        selection_poses_(selection_poses(data, preparation.declared.robot)),
         closed_{first.robot, first, {}} {}
 
   ClosedCalibration run(const RoundWatcher& watch);

@@ -57,7 +57,7 @@ CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, 
   if (!declared.joint_corrections || !has_corrections(robot)) return robot;
   const DiagnosisProblem problem{data, declared, poses_of(data, PoseSet::calibration),
                                  poses_of(data, PoseSet::validation)};
-  const std::vector<std::size_t> poses = selection_poses(data);
+  const std::vector<std::size_t> poses = selection_poses(data, fit.robot);
   const auto index_mm2 = [&](const CorrectedRobot& start) {
     const DiagnosedModel model = diagnosed_model(problem, loop_start(data, fit, start));
     return performance_index_mm2(refined(problem, model, kSteps).robot, data, poses);

@@ -101,11 +101,11 @@ double description_nats(const CorrectedRobot& robot, const DataSet& data, std::s
 
 bool describes_better(const CorrectedRobot& robot, const CorrectedRobot& present, const DataSet& data,
                       const std::vector<Candidate>& candidates) {
-  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  const std::vector<std::size_t> fitted = without_gross_errors(data, PoseSet::calibration, present);
   if (!(description_nats(robot, data, fitted, candidates) < description_nats(present, data, fitted, candidates))) {
     return false;
   }
-  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+  const std::vector<std::size_t> validation = without_gross_errors(data, PoseSet::validation, present);
   const PairedDifference behind = paired(PoseEvaluator(data, validation, robot).squared_errors(robot),
                                          PoseEvaluator(data, validation, present).squared_errors(present));
   return validation.empty() || behind.mean <= kSignificantDeviations * behind.standard_error;

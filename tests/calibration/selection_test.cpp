@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/calibration.hpp"
 #include "effects/measurement.hpp"
 #include "erring_arm.hpp"
 
@@ -94,6 +95,37 @@ TEST(Selection, CorrectionsFromElsewhereCompeteAndBelongTogether) {
   EXPECT_EQ(selection.robot.corrections[1].formula(), joints[0].alternatives[0].formula());
   EXPECT_EQ(selection.robot.corrections[2].formula(), joints[1].alternatives[0].formula());
   EXPECT_EQ(selection.choices[0].candidates, 3U);
+}
+
+TEST(GrossErrors, AreLeftOutOfTheSetTheyAreIn) {
+  DataSet data = measure(true_puma({"", "0.001", "", "", "", ""}), 90, 5e-5, 6, false);
+  const CorrectedRobot nominal = nominal_robot(data);
+  const std::vector<std::size_t> calibrating = poses_of(data, PoseSet::calibration);
+  EXPECT_EQ(without_gross_errors(data, PoseSet::calibration, nominal), calibrating);
+  data.poses[2].position_m->x() += 1.0;
+  data.poses[5].position_m->z() -= 0.05;
+  EXPECT_EQ(without_gross_errors(data, PoseSet::calibration, nominal), calibrating);
+  std::vector<std::size_t> validating = poses_of(data, PoseSet::validation);
+  validating.erase(validating.begin(), validating.begin() + 2);
+  EXPECT_EQ(without_gross_errors(data, PoseSet::validation, nominal), validating);
+  EXPECT_EQ(selection_poses(data, nominal), validating);
+}
+
+TEST(GrossErrors, DoNotDecideWhichCorrectionIsKept) {
+  DataSet data = measure(true_puma({"", "0.001*SIN(theta)", "", "", "", ""}), 90, 5e-5, 7, false);
+  Job job;
+  job.declared = DeclaredModel{};
+  job.declared.joint_corrections = true;
+  const std::vector<JointCandidates> joints{candidates(1, {"0.001*SIN(theta)", "0.001*COS(7*theta)"})};
+  const auto kept = [&] {
+    Preparation preparation;
+    preparation.nominal = preparation.registered.robot = preparation.declared.robot = nominal_robot(data);
+    return conclude(data, job, preparation, joints).robot.corrections[1].formula();
+  };
+  const Tree without = kept();
+  EXPECT_EQ(without.size(), 6U);
+  for (const std::size_t wrong : {std::size_t{0}, std::size_t{2}}) data.poses[wrong].position_m->y() += 2.0;
+  EXPECT_EQ(kept(), without);
 }
 
 CorrectedRobot model_of(const DataSet& data) {
