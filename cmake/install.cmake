@@ -37,8 +37,11 @@ foreach(folder data grids jobs matrices preparation robots scenarios)
 endforeach()
 install(FILES ${CMAKE_SOURCE_DIR}/idl/calibration.idl DESTINATION ${shared}/idl COMPONENT programs)
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/scripts/security ${CMAKE_SOURCE_DIR}/scripts/workers DESTINATION ${shared}/scripts COMPONENT programs)
-install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/docs/FORMATS.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
-install(FILES ${CMAKE_SOURCE_DIR}/configs/dds/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME dds.md COMPONENT programs)
+# Documents stand to each other as in the source tree, so that their links lead somewhere.
+foreach(document README.md docs/GUIDE.md docs/FORMATS.md docs/EVALUATION.md docs/ARCHITECTURE.md docs/CONTRIBUTING.md configs/dds/README.md scripts/README.md idl/calibration.idl)
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES ${CMAKE_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT programs)
+endforeach()
 
 # The unit starts the worker from where it is installed.
 set(DEMECAL_WORKER_PROGRAM ${CMAKE_INSTALL_FULL_BINDIR}/demecal-worker)

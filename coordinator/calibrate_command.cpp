@@ -170,7 +170,7 @@ ExitCode run(CalibrateRequest request) {
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
   const FilesBeingWritten events(request.out, {"events.jsonl"});
-  EventLog event_log(request.out, !request.resume.empty(), job.name, join_as_herald(request.fleet));
+  EventLog event_log(request.out, !request.resume.empty(), job.name, join_as_reporter(request.fleet));
   ConsoleObserver console(request.quiet);
   ObserverPair observer(console, event_log);
   options.observer = &observer;

@@ -9,8 +9,8 @@
 #include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
-#include "effects/measurement.hpp"
 #include "html/page.hpp"
+#include "prediction/measurement.hpp"
 #include "report/make_report.hpp"
 #include "terminal/report_text.hpp"
 

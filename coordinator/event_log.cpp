@@ -99,8 +99,8 @@ std::vector<Event> read_events(const std::string& path) {
   return events;
 }
 
-EventLog::EventLog(const std::string& folder, bool resume, std::string job, std::unique_ptr<Transport> herald)
-    : file_(folder + "/" + kEventFile, resume), herald_(std::move(herald)) {
+EventLog::EventLog(const std::string& folder, bool resume, std::string job, std::unique_ptr<Transport> reporter)
+    : file_(folder + "/" + kEventFile, resume), reporter_(std::move(reporter)) {
   stage_.calibration = new_calibration();
   stage_.job = std::move(job);
   publish_stage(Stage::preparing, "fitting what is declared");
@@ -124,7 +124,7 @@ void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Prog
   for (const Progress& progress : reached) last[progress.island] = progress;
   for (const auto& [island, progress] : last) {
     file_.note(progress);
-    herald_->publish(progress);
+    reporter_->publish(progress);
   }
 }
 
@@ -172,7 +172,7 @@ void EventLog::on_round(const Round& round, const Robot& described) {
 
 void EventLog::finish(LoopNews::Stage stage, const std::string& text) {
   publish_stage(stage, text);
-  herald_->flush(kShutdownTimeout);
+  reporter_->flush(kShutdownTimeout);
 }
 
 void EventLog::publish_stage(LoopNews::Stage stage, const std::string& text) {
@@ -183,7 +183,7 @@ void EventLog::publish_stage(LoopNews::Stage stage, const std::string& text) {
 
 void EventLog::publish(const LoopNews& news) {
   file_.note(news);
-  herald_->publish(news);
+  reporter_->publish(news);
 }
 
 }  // namespace demecal

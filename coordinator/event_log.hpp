@@ -40,8 +40,9 @@ std::vector<Event> read_events(const std::string& path);
 /// Nothing depends on it. Workers publish themselves how their islands fare; of them it only records.
 class EventLog final : public CalibrationObserver {
  public:
-  /// `herald` has the role of that name. Events go to the file in `folder`, after those that are there where `resume`.
-  EventLog(const std::string& folder, bool resume, std::string job, std::unique_ptr<Transport> herald);
+  /// `reporter` has the role of that name. Events go to the file in `folder`, after those that are there where
+  /// `resume`.
+  EventLog(const std::string& folder, bool resume, std::string job, std::unique_ptr<Transport> reporter);
   /// Says that the calibration failed, unless finish() has said how it ended.
   ~EventLog() override;
   EventLog(const EventLog&) = delete;
@@ -62,7 +63,7 @@ class EventLog final : public CalibrationObserver {
   void publish(const LoopNews& news);
 
   EventFile file_;
-  std::unique_ptr<Transport> herald_;
+  std::unique_ptr<Transport> reporter_;
   LoopNews stage_;
   std::uint32_t evolutions_ = 0;
   std::map<std::string, WorkerStatus> workers_;  ///< as recorded

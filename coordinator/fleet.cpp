@@ -128,10 +128,10 @@ MakeFleet fleet_maker(const FleetArguments& arguments) {
   };
 }
 
-std::unique_ptr<Transport> join_as_herald(const FleetArguments& arguments) {
-  constexpr const char* kName = "chronicle";
-  return arguments.in_process ? join(make_exchange(), Role::herald, kName)
-                              : join_dds(*arguments.dds, Role::herald, kName);
+std::unique_ptr<Transport> join_as_reporter(const FleetArguments& arguments) {
+  constexpr const char* kName = "reporter";
+  return arguments.in_process ? join(make_exchange(), Role::reporter, kName)
+                              : join_dds(*arguments.dds, Role::reporter, kName);
 }
 
 std::string to_string(const FleetArguments& arguments, double worker_timeout_s) {

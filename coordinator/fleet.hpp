@@ -30,7 +30,7 @@ void add_fleet_arguments(CLI::App& command, FleetArguments& fleet);
 /// What makes the fleets that the arguments ask for; they outlive it.
 MakeFleet fleet_maker(const FleetArguments& arguments);
 /// What publishes a calibration to watchers: on the network, or where nobody listens, if no socket is to be opened.
-std::unique_ptr<Transport> join_as_herald(const FleetArguments& arguments);
+std::unique_ptr<Transport> join_as_reporter(const FleetArguments& arguments);
 /// For people: "DDS domain 0, 2 local workers"; `worker_timeout_s` is how long workers are waited for.
 std::string to_string(const FleetArguments& arguments, double worker_timeout_s);
 

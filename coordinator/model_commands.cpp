@@ -10,7 +10,7 @@
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "formulas/corrected_arm.hpp"
+#include "prediction/corrected_arm.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"

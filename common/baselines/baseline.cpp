@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "baselines/regression.hpp"
-#include "effects/measurement.hpp"
 #include "errors/input_error.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline baselines {
 namespace {

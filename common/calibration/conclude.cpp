@@ -4,8 +4,8 @@
 #include "calibration/calibration.hpp"
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
-#include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {
 namespace {

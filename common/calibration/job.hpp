@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "evolution/archipelago.hpp"
-#include "evolution/parameters.hpp"
 #include "expression/tree.hpp"
+#include "fitness/parameters.hpp"
 #include "fitting/declared_model.hpp"
 
 namespace demecal::inline calibration {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "calibration/joint_targets.hpp"
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {
 namespace {

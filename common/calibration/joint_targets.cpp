@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "calibration/job.hpp"
-#include "effects/corrected_robot.hpp"
 #include "fitting/observation.hpp"
 #include "kinematics/inverse.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "calibration/training.hpp"
-#include "effects/corrected_robot.hpp"
-#include "effects/measurement.hpp"
-#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
+#include "fitness/parameters.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {
 

@@ -8,8 +8,8 @@
 
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
-#include "effects/corrected_robot.hpp"
 #include "expression/shared_function.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {
 

@@ -6,7 +6,7 @@
 
 #include "errors/check.hpp"
 #include "expression/simplify.hpp"
-#include "fitting/distributions.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline calibration {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
-#include "effects/corrected_robot.hpp"
-#include "evolution/fitness.hpp"
+#include "fitness/fitness.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {
 

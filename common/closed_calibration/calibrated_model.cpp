@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "diagnosis/loop.hpp"
-#include "effects/measurement.hpp"
-#include "fitting/distributions.hpp"
 #include "fitting/least_squares.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline closed_calibration {

@@ -6,7 +6,7 @@
 #include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/loop.hpp"
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline closed_calibration {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibration/job.hpp"
-#include "evolution/parameters.hpp"
+#include "fitness/parameters.hpp"
 #include "fitting/declared_model.hpp"
 #include "yaml/yaml_node.hpp"
 

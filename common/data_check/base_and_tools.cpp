@@ -7,9 +7,9 @@
 
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
-#include "fitting/distributions.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -9,8 +9,8 @@
 #include "data/read_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
-#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
-#include "effects/corrected_robot.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline data_check {
 

@@ -4,8 +4,8 @@
 
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
-#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

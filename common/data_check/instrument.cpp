@@ -5,8 +5,8 @@
 #include <span>
 
 #include "data_check/explanations.hpp"
-#include "fitting/distributions.hpp"
 #include "kinematics/forward.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "data_check/explanations.hpp"
 #include "fitting/base_search.hpp"
-#include "fitting/distributions.hpp"
 #include "kinematics/forward.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "data_check/searches.hpp"
-#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <set>
 
-#include "fitting/distributions.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {

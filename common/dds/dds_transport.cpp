@@ -37,7 +37,7 @@ class DdsTransport final : public Transport {
  public:
   DdsTransport(const DdsOptions& options, Role role, const std::string& name)
       : role_(role), name_(name), inbox_(role), participant_(options, role, name), writers_(name) {
-    // A coordinator knows what its own herald repeats of a run that goes on.
+    // A coordinator knows what its own reporter repeats of a run that goes on.
     inbox_.is_own = [this](const auto& publication) {
       return participant_.is_own(publication) ||
              (role_ == Role::coordinator && participant_.is_of_this_process(publication));
@@ -130,12 +130,12 @@ std::optional<WorkerStatus> DdsTransport::status_due() {
   return steady_clock::now() - status_published_ >= kLease ? status_ : std::nullopt;
 }
 
-/// A herald has nothing but news to wait for.
+/// A reporter has nothing but news to wait for.
 bool DdsTransport::flush(milliseconds patience) {
   const auto deadline = steady_clock::now() + patience;
   bool arrived = true;
   for (const auto& [topic, writer] : writers_.all()) {
-    if (!is_awaited(topic) && role_ != Role::herald) continue;
+    if (!is_awaited(topic) && role_ != Role::reporter) continue;
     const auto left = std::chrono::duration_cast<milliseconds>(deadline - steady_clock::now());
     arrived &=
         writer->wait_for_acknowledgments(dds_duration(std::max(left, milliseconds{0}))) == ReturnCode_t::RETCODE_OK;

@@ -47,7 +47,7 @@ eprosima::fastdds::dds::DataReaderQos reader_qos(Topic topic, bool reliably = tr
 /// A length of time as Fast DDS takes it.
 eprosima::fastrtps::Duration_t dds_duration(std::chrono::milliseconds time);
 
-/// The name of the certificate by which a role takes part: a herald publishes for its coordinator.
+/// The name of the certificate by which a role takes part: a reporter publishes for its coordinator.
 std::string certificate_name(Role role);
 
 /// A worker's participant is the one that its name stands for (participant_of). Throws InputError where a peer or the
@@ -56,12 +56,12 @@ eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsOptions& o
                                                              const std::string& name);
 
 /// A participant's listener, called on Fast DDS's threads. A sentence goes to standard error for each participant with
-/// which this one does not talk because of certificates; from a herald none, since its coordinator logs the same.
+/// which this one does not talk because of certificates; from a reporter none, since its coordinator logs the same.
 class PeerLog final : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   using Clock = std::chrono::steady_clock;
 
-  PeerLog(bool secured, Role role) : secured_(secured), silent_(role == Role::herald) {}
+  PeerLog(bool secured, Role role) : secured_(secured), silent_(role == Role::reporter) {}
 
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& found) override;

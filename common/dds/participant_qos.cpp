@@ -125,7 +125,7 @@ void set_security(fastdds::DomainParticipantQos& qos, const std::string& folder,
 std::string certificate_name(Role role) {
   switch (role) {
     case Role::coordinator:
-    case Role::herald:
+    case Role::reporter:
       return "coordinator";
     case Role::worker:
       return "worker";

@@ -58,7 +58,7 @@ MessagePart vacant_part(std::uint32_t place, std::uint32_t index, std::uint64_t 
 
 MessageAssembler::Result MessageAssembler::take(const WriterId& writer, MessagePart part) {
   gone_.erase(writer);
-  const Place place{writer, part.place};
+  const WriterPlace place{writer, part.place};
   const auto known = unfinished_.find(place);
   if (known != unfinished_.end() && known->second.message < part.message) forget(known);
   if (part.count == 0) return {part.bytes.empty() && part.message > 0 ? Verdict::waits : Verdict::malformed, {}};
@@ -67,7 +67,7 @@ MessageAssembler::Result MessageAssembler::take(const WriterId& writer, MessageP
   return add(place, std::move(part));
 }
 
-MessageAssembler::Result MessageAssembler::add(const Place& place, MessagePart part) {
+MessageAssembler::Result MessageAssembler::add(const WriterPlace& place, MessagePart part) {
   const auto [known, is_new] = unfinished_.try_emplace(place);
   Unfinished& message = known->second;
   std::size_t& kept = bytes_[participant_of(place.first)];

@@ -46,16 +46,16 @@ class MessageAssembler {
   void departed(const WriterId& writer, Time now);
 
  private:
-  using Place = std::pair<WriterId, std::uint32_t>;
+  using WriterPlace = std::pair<WriterId, std::uint32_t>;
   struct Unfinished {
     std::uint64_t message = 0;
     std::vector<std::optional<std::string>> parts;
     std::size_t missing = 0;
     std::size_t bytes = 0;
   };
-  using UnfinishedMessages = std::map<Place, Unfinished>;
+  using UnfinishedMessages = std::map<WriterPlace, Unfinished>;
 
-  Result add(const Place& place, MessagePart part);
+  Result add(const WriterPlace& place, MessagePart part);
   void forget(UnfinishedMessages::iterator unfinished);
   void forget_all_of(const WriterId& writer);
 

@@ -65,7 +65,7 @@ class Delivery : public fastdds::DataReaderListener {
     if constexpr (requires { inbox_.owners.receive(source, "", std::move(message), Time()); }) {
       inbox_.owners.receive(source, inbox_.name_of(source), std::move(message), std::chrono::steady_clock::now());
     } else if constexpr (std::is_same_v<Plain, LoopNews>) {
-      if (!inbox_.heralds.receive(writer, std::move(message)))
+      if (!inbox_.reporters.receive(writer, std::move(message)))
         reject(writer, "news of a calibration that is another's");
     } else if (!may_publish_for(source, message)) {
       reject(writer, "it publishes as worker " + message.worker);
@@ -194,7 +194,7 @@ class LoopReceiver final : public Receiver<LoopNews> {
   using Receiver::Receiver;
 
   void on_subscription_matched(fastdds::DataReader*, const fastdds::SubscriptionMatchedStatus& status) override {
-    if (status.current_count_change < 0) inbox_.heralds.departed(writer_id(status.last_publication_handle));
+    if (status.current_count_change < 0) inbox_.reporters.departed(writer_id(status.last_publication_handle));
   }
 };
 

@@ -22,7 +22,7 @@ struct Inbox {
   Mailbox mailbox;
   RejectionLog rejections;
   Presence presence{mailbox};
-  CalibrationPresence heralds{mailbox};
+  CalibrationPresence reporters{mailbox};
   RunOwners owners{mailbox, rejections, role == Role::worker};
   /// Whether a publication is this participant's own, which is not delivered.
   std::function<bool(const eprosima::fastrtps::rtps::InstanceHandle_t&)> is_own;

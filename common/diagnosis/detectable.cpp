@@ -128,7 +128,7 @@ std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vect
   const Scan scan(loop.columns, naming_costs_nats(loop.candidates), loop.linearization.fitted, beyond);
   std::vector<double> maxima = null_maxima;
   if (!set_aside.empty())
-    maxima = scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.permutations, random);
+    maxima = scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.null_draws, random);
   const double variance = beyond.squares() / beyond.freedom();
   const std::vector<Score> scores = scan.scores();
   std::vector<DetectableCandidate> candidates;

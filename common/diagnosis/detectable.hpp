@@ -50,7 +50,7 @@ struct FinishedLoop {
 };
 struct BoundOptions {
   double family_error = 0.05;
-  int permutations = 999;
+  int null_draws = 999;
 };
 
 /// smallest_detectable() of the candidates at a loop's end, beside what the joints' smooth corrections could absorb

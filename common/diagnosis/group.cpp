@@ -122,7 +122,7 @@ void Group::update_null_maxima(std::size_t index) {
   const bool evident = !null_maxima_.empty() && scores_[index].gain_nats > kEvident * null_maxima_.back();
   const bool first = outcome_.rounds.empty();
   if (!null_maxima_.empty() && (evident || !first)) return;
-  null_maxima_ = scan_.null_maxima(columns_, linearization_.fitted, projection_, rules_.permutations,
+  null_maxima_ = scan_.null_maxima(columns_, linearization_.fitted, projection_, rules_.null_draws,
                                    random(RandomPurpose::null_distribution));
 }
 
@@ -137,7 +137,7 @@ Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
       tool_errors_mm(linearization_.validation, projection_.validation_residual(), model_.scales, problem_.data);
   const auto after = tool_errors_mm(linearization_.validation, trial.validation_residual, model_.scales, problem_.data);
   const Resampled draws = resampled(linearization_.fitted, trial, projection_.residual(), rules_.resamples,
-                                    random(RandomPurpose::resampled_effect));
+                                    random(RandomPurpose::effect_scatter));
   Round round;
   round.number = rules_.first_round + static_cast<int>(outcome_.rounds.size());
   round.group = rules_.group;
@@ -146,12 +146,12 @@ Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
   round.p_structure = rules_.p_structure;
   const std::vector<double>& null = found_by_search(index) ? rules_.evolved_null_gains : null_maxima_;
   round.p_family = family_p_value(null, scores_[index].gain_nats);
-  round.permutations = static_cast<int>(null.size());
+  round.null_draws = static_cast<int>(null.size());
   round.gain_nats = scores_[index].gain_nats;
   round.validation_before_mm = mean(before);
   round.validation_after_mm = mean(after);
   const Confirmation borne_out =
-      confirmation_of(projection_.validation_residual(), trial.validation_residual, RandomPurpose::gain_of_effect);
+      confirmation_of(projection_.validation_residual(), trial.validation_residual, RandomPurpose::effect_gain);
   round.confirmed = borne_out.share;
   round.confirmed_lower = borne_out.lower;
   round.sign_stability = draws.sign_stability;
@@ -188,7 +188,7 @@ void Group::add(Round round, const Projection::Trial& trial) {
   scan_.follow(columns_, linearization_.fitted, projection_);
   scores_ = scan_.scores();
   const Eigen::VectorXd& left = projection_.validation_residual();
-  const Confirmation since = confirmation_of(confirmed_residual_, left, RandomPurpose::gain_of_group);
+  const Confirmation since = confirmation_of(confirmed_residual_, left, RandomPurpose::group_gain);
   if (!linearization_.validation.poses.empty() && (since.share <= kGains || since.lower <= 0.0)) return;
   confirmed_residual_ = left;
   confirmed_rounds_ = outcome_.rounds.size();

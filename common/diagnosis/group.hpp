@@ -16,7 +16,7 @@ namespace demecal::inline diagnosis {
 /// What the evaluation of a candidate takes.
 struct GroupRules {
   double family_error = 0.05;
-  int permutations = 999;
+  int null_draws = 999;
   int resamples = 400;
   int most = 12;  ///< effects in one group
   std::uint64_t seed = 1;

@@ -7,9 +7,9 @@
 #include <map>
 #include <numeric>
 
-#include "effects/measurement.hpp"
-#include "fitting/distributions.hpp"
 #include "fitting/fit.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -48,7 +48,7 @@ class ClosedLoop {
   }
   double structure(const Linearization& linearization) const {
     return structure_p_value(linearization.fitted, linearization.projection, problem_.data.robot.chain,
-                             options_.permutations, random(RandomPurpose::structure_test));
+                             options_.null_draws, random(RandomPurpose::structure_test));
   }
 
   const DiagnosisProblem& problem_;
@@ -133,7 +133,7 @@ void ClosedLoop::measure_pure_error(const Linearization& linearization) {
 
 GroupRules ClosedLoop::rules() const {
   return {.family_error = options_.family_error,
-          .permutations = options_.permutations,
+          .null_draws = options_.null_draws,
           .resamples = options_.resamples,
           .most = std::min(options_.group_size, options_.max_effects - static_cast<int>(model_.robot.effects.size())),
           .seed = options_.seed,
@@ -203,7 +203,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   Linearization linearization = linearize(problem_, model_);
   make_candidates(linearization);
   measure_pure_error(linearization);
-  outcome_.permutations = options_.permutations;
+  outcome_.null_draws = options_.null_draws;
   outcome_.stopped = StopReason::no_gain;
   p_structure_ = structure(linearization);
   for (group_ = 1; group_ <= kMostGroups; ++group_) {
@@ -252,7 +252,7 @@ void ClosedLoop::find_next_measurements() {
   for (Round& round : outcome_.rounds) {
     if (!is_ambiguous(round, outcome_.rounds) || asked == kMost) continue;
     round.next_measurement =
-        find_next_measurement(problem_, model_, round.effect, round.rivals, random(RandomPurpose::further_measurement));
+        find_next_measurement(problem_, model_, round.effect, round.rivals, random(RandomPurpose::next_measurement));
     ++asked;
   }
 }
@@ -278,7 +278,7 @@ void ClosedLoop::finish(const Linearization& linearization) {
   find_next_measurements();
   outcome_.not_found = not_found_beyond(
       {problem_.data.robot, model_, linearization, candidates_, columns_, outcome_.rounds}, null_maxima_,
-      {options_.family_error, options_.permutations}, random(RandomPurpose::null_distribution));
+      {options_.family_error, options_.null_draws}, random(RandomPurpose::null_distribution));
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
     if (linearization.fitted.root_weight[i] < kOutlier) outcome_.outliers.push_back(linearization.fitted.poses[i]);
   }

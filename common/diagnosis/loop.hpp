@@ -16,7 +16,7 @@ struct LoopOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue to consider; empty: all
   int max_effects = 100;
   double family_error = 0.05;  ///< chance of adding anything to a model that lacks nothing
-  int permutations = 999;
+  int null_draws = 999;
   int resamples = 400;
   int group_size = 24;                ///< effects that may be added between two joint refits
   double least_gain = 0.005;          ///< share of the validation error that a group must win for another to follow

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
 #include "effects/effect.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline diagnosis {
@@ -18,7 +18,7 @@ enum class Verdict { added, rejected, none };
 /// One step of the loop: the best candidate, and what became of it.
 struct Round {
   int number = 0;  ///< from 1
-  int group = 0;   ///< rounds of one group were held against the same permutations and refitted together; from 1
+  int group = 0;   ///< rounds of one group were held against the same draws of the noise and refitted together; from 1
   Verdict verdict = Verdict::none;
   Effect effect;              ///< with its values at the end of its group; of the best candidate where none was added
   std::string diagnosis;      ///< one sentence for an engineer
@@ -28,7 +28,7 @@ struct Round {
   std::vector<Rival> rivals;  ///< nearest first
   double p_structure = 1.0;   ///< of the omnibus test for dependence before this group
   double p_family = 1.0;      ///< family-wise, over all candidates or, of an evolved formula, over whole searches
-  int permutations = 0;       ///< behind p_family; of an evolved formula: evolutions on permuted residuals
+  int null_draws = 0;         ///< behind p_family; of an evolved formula: searches in permuted poses
   double gain_nats = 0.0;     ///< of the description length
   double confirmed = 0.0;     ///< share of it that the validation poses bear out; above 0.5 they gain by it
   double confirmed_lower = 0.0;                 ///< one-sided 95 % bound of that share
@@ -79,7 +79,7 @@ struct LoopOutcome {
   bool noise_estimated = false;            ///< else poses were taken to scatter independently
   double independent_m = 0.0;              ///< standard deviation of the positions' independent noise
   int candidates = 0;                      ///< effects tried in every round
-  int permutations = 0;
+  int null_draws = 0;
 };
 
 /// Whether the effect of this one of `rounds` was added, or considered last, and has rivals.

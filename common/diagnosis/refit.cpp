@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "diagnosis/candidates.hpp"
-#include "effects/measurement.hpp"
-#include "fitting/distributions.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -10,7 +10,7 @@
 namespace demecal::inline diagnosis {
 namespace {
 
-constexpr Eigen::Index kAtATime = 64;  ///< permutations in memory
+constexpr Eigen::Index kAtATime = 64;  ///< draws in memory
 
 constexpr double kRivalCosine = 0.9;
 constexpr double kRelated = 0.5;

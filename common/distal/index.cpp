@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "calibration/calibration.hpp"
-#include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline distal {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
 #include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline distal {
 

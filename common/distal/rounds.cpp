@@ -3,7 +3,7 @@
 #include "calibration/shared_functions.hpp"
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
-#include "evolution/fitness.hpp"
+#include "fitness/fitness.hpp"
 
 namespace demecal::inline distal {
 namespace {

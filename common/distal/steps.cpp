@@ -7,7 +7,7 @@
 
 #include "calibration/training.hpp"
 #include "distal/index.hpp"
-#include "evolution/fitness.hpp"
+#include "fitness/fitness.hpp"
 
 namespace demecal::inline distal {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "evolution/parameters.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::inline evolution {
 

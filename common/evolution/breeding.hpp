@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "evolution/constant_fit.hpp"
-#include "evolution/fitness.hpp"
-#include "evolution/parameters.hpp"
 #include "evolution/variation.hpp"
 #include "expression/node_store.hpp"
 #include "expression/tree.hpp"
+#include "fitness/constant_fit.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal::inline evolution {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/primitive.hpp"
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline evolution {
 namespace {

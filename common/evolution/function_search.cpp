@@ -1,5 +1,5 @@
 #include "evolution/building_blocks.hpp"
-#include "expression/primitive.hpp"
+#include "primitives/primitive.hpp"
 
 #include <algorithm>
 #include <array>

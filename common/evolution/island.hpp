@@ -8,10 +8,10 @@
 
 #include "evolution/archipelago.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/fitness.hpp"
-#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
 #include "expression/tree.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal::inline evolution {

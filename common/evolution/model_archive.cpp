@@ -6,9 +6,9 @@
 #include <span>
 
 #include "errors/check.hpp"
-#include "expression/columns.hpp"
 #include "expression/node_store.hpp"
-#include "expression/primitive.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline evolution {
 

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "evolution/constant_fit.hpp"
-#include "evolution/fitness.hpp"
-#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
+#include "fitness/constant_fit.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::inline evolution {
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "evolution/parameters.hpp"
-#include "expression/primitive.hpp"
 #include "expression/shared_function.hpp"
 #include "expression/tree.hpp"
+#include "fitness/parameters.hpp"
+#include "primitives/primitive.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal::inline evolution {

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "evolution/parameters.hpp"
 #include "evolution/tree_generation.hpp"
 #include "expression/node_store.hpp"
 #include "expression/tree.hpp"
+#include "fitness/parameters.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal::inline evolution {

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "errors/check.hpp"
-#include "expression/elementary.hpp"
+#include "primitives/elementary.hpp"
 
 namespace demecal::inline expression {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/node_store.hpp"
-#include "expression/primitive.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "expression/columns.hpp"
 #include "expression/constant_model.hpp"
-#include "expression/elementary.hpp"
-#include "expression/primitive.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/elementary.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 

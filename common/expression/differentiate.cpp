@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "expression/elementary.hpp"
-#include "expression/primitive.hpp"
 #include "expression/simplify.hpp"
+#include "primitives/elementary.hpp"
+#include "primitives/primitive.hpp"
 
 #include "expression/tree.hpp"
 

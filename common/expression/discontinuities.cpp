@@ -11,10 +11,10 @@
 
 #include "errors/check.hpp"
 #include "expression/bound.hpp"
-#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
-#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 namespace {

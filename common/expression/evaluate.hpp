@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "expression/columns.hpp"
 #include "expression/node_store.hpp"
 #include "expression/tree.hpp"
+#include "primitives/columns.hpp"
 
 namespace demecal::inline expression {
 

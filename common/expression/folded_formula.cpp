@@ -1,5 +1,5 @@
-#include "expression/primitive.hpp"
 #include "expression/shared_function.hpp"
+#include "primitives/primitive.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "expression/columns.hpp"
-#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 

@@ -4,8 +4,8 @@
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
-#include "expression/primitive.hpp"
 #include "expression/text.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 namespace {

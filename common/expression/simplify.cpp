@@ -6,10 +6,10 @@
 #include <span>
 #include <utility>
 
-#include "expression/columns.hpp"
 #include "expression/evaluate.hpp"
-#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 namespace {

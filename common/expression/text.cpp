@@ -11,8 +11,8 @@
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
-#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "expression/primitive.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline expression {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
-#include "effects/measurement.hpp"
 #include "fitting/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {
 

@@ -6,8 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include "fitting/distributions.hpp"
 #include "fitting/row_sums.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline fitting {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "effects/measurement.hpp"
 #include "fitting/parameter_space.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
 #include "fitting/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <vector>
 
-#include "effects/measurement.hpp"
 #include "errors/check.hpp"
-#include "fitting/distributions.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline fitting {
 namespace {

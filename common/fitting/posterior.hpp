@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "effects/corrected_robot.hpp"
 #include "fitting/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
 

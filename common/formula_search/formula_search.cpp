@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "diagnosis/candidates.hpp"
-#include "fitting/distributions.hpp"
 #include "formula_search/rewrite.hpp"
+#include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 
 namespace demecal::inline formula_search {

@@ -8,8 +8,8 @@
 
 #include "calibration/evolver.hpp"
 #include "diagnosis/candidates.hpp"
-#include "evolution/fitness.hpp"
 #include "evolution/population.hpp"
+#include "fitness/fitness.hpp"
 #include "formula_search/misfit.hpp"
 #include "residuals/diagnosed_model.hpp"
 

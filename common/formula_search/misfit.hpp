@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "evolution/fitness.hpp"
+#include "fitness/fitness.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline formula_search {

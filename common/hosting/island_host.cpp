@@ -76,7 +76,7 @@ std::shared_ptr<HostedIsland> IslandHost::host(const IslandTask& task) {
   return island;
 }
 
-std::shared_ptr<HostedIsland> IslandHost::release(const Place& place) {
+std::shared_ptr<HostedIsland> IslandHost::release(const IslandOfRun& place) {
   const auto held = islands_.extract(place);
   if (held.empty()) return nullptr;
   const auto busy = busy_.find(held.mapped());
@@ -85,7 +85,7 @@ std::shared_ptr<HostedIsland> IslandHost::release(const Place& place) {
   return nullptr;
 }
 
-std::shared_ptr<HostedIsland> IslandHost::find(const Place& place) const {
+std::shared_ptr<HostedIsland> IslandHost::find(const IslandOfRun& place) const {
   const auto found = islands_.find(place);
   return found == islands_.end() ? nullptr : found->second;
 }

@@ -154,7 +154,7 @@ struct IslandHostOptions {
 /// Publishes nothing and reads no messages: that is its worker's part, from whose thread all calls come.
 class IslandHost {
  public:
-  using Islands = std::map<Place, std::shared_ptr<HostedIsland>>;
+  using Islands = std::map<IslandOfRun, std::shared_ptr<HostedIsland>>;
   /// Whether an island of another worker waits for this one's migrants.
   using IsAwaited = std::function<bool(const HostedIsland&)>;
 
@@ -173,10 +173,10 @@ class IslandHost {
   std::shared_ptr<HostedIsland> host(const IslandTask& task);
   /// Hosts the island no longer. Returns it where no slot is at it; otherwise its batch ends soon, and collect()
   /// returns that.
-  std::shared_ptr<HostedIsland> release(const Place& place);
+  std::shared_ptr<HostedIsland> release(const IslandOfRun& place);
   const Islands& islands() const { return islands_; }
   /// Nothing where it is not hosted here.
-  std::shared_ptr<HostedIsland> find(const Place& place) const;
+  std::shared_ptr<HostedIsland> find(const IslandOfRun& place) const;
   bool is_busy(const std::shared_ptr<HostedIsland>& island) const { return busy_.contains(island); }
   /// Whether an island of the run is left to breed, or bred.
   bool has_unfinished(RunId run) const;

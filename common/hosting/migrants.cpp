@@ -71,12 +71,12 @@ bool IslandOwners::assign(const IslandTask& task) {
   return true;
 }
 
-bool IslandOwners::is_elsewhere(const Place& place, const std::string& worker) const {
+bool IslandOwners::is_elsewhere(const IslandOfRun& place, const std::string& worker) const {
   const auto owner = owners_.find(place);
   return owner != owners_.end() && owner->second.attempt > 0 && owner->second.worker != worker;
 }
 
-bool IslandOwners::was_assigned(const Place& place, const std::string& worker) const {
+bool IslandOwners::was_assigned(const IslandOfRun& place, const std::string& worker) const {
   const auto owner = owners_.find(place);
   return owner != owners_.end() && owner->second.assigned.contains(worker);
 }

@@ -41,7 +41,7 @@ class MigrantStore {
 };
 
 /// An island of a run.
-using Place = std::pair<RunId, IslandKey>;
+using IslandOfRun = std::pair<RunId, IslandKey>;
 
 class IslandOwners {
  public:
@@ -52,9 +52,9 @@ class IslandOwners {
   /// did.
   bool assign(const IslandTask& task);
   /// Whether another than `worker` owns the island, as far as is known.
-  bool is_elsewhere(const Place& place, const std::string& worker) const;
+  bool is_elsewhere(const IslandOfRun& place, const std::string& worker) const;
   /// Whether `worker` was ever assigned the island.
-  bool was_assigned(const Place& place, const std::string& worker) const;
+  bool was_assigned(const IslandOfRun& place, const std::string& worker) const;
   /// Returns all who were ever assigned an island of the run.
   std::set<std::string> forget(RunId run);
 
@@ -64,7 +64,7 @@ class IslandOwners {
     std::string worker;
     std::set<std::string> assigned;  ///< ever
   };
-  std::map<Place, Owner> owners_;
+  std::map<IslandOfRun, Owner> owners_;
 };
 
 /// Migrants whose sender no task has named yet, kept until one does. Of each sender as many as are kept of an island:

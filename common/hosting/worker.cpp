@@ -67,7 +67,7 @@ void Worker::take(const CalibrationData& data) {
 }
 
 void Worker::take(const IslandTask& task) {
-  const Place place{task.run, task.island};
+  const IslandOfRun place{task.run, task.island};
   if (ended_.contains(task.run)) return;
   const CalibrationData* data = host_.data(task.run);
   if (data == nullptr) return keep_for_later(task);
@@ -81,7 +81,7 @@ void Worker::take(const IslandTask& task) {
 }
 
 /// Whoever goes on with the island need not breed again what this worker has bred.
-void Worker::hand_over(const Place& place) {
+void Worker::hand_over(const IslandOfRun& place) {
   if (const auto island = host_.release(place)) publish_state(*island);
 }
 
@@ -92,13 +92,13 @@ void Worker::publish_state(HostedIsland& island) {
 }
 
 /// Of the islands here that are of the run, one.
-std::optional<Place> Worker::any_place_of(RunId run) const {
+std::optional<IslandOfRun> Worker::any_island_of(RunId run) const {
   const auto first = host_.islands().lower_bound({run, {}});
   return first != host_.islands().end() && first->first.first == run ? std::optional(first->first) : std::nullopt;
 }
 
 void Worker::hand_over_all() {
-  while (!host_.islands().empty()) hand_over(Place(host_.islands().begin()->first));
+  while (!host_.islands().empty()) hand_over(IslandOfRun(host_.islands().begin()->first));
 }
 
 /// They end soon, but a slot that hangs is not waited for long.
@@ -114,7 +114,7 @@ void Worker::finish_batches() {
 }
 
 /// Joins the migrants' topics that the owner of an island and this worker's islands need, and sends what it may lack.
-void Worker::exchange_with_new_owner(const Place& place) {
+void Worker::exchange_with_new_owner(const IslandOfRun& place) {
   const auto [run, key] = place;
   for (const auto& [own, island] : host_.islands()) {
     if (own.first != run) continue;
@@ -183,7 +183,7 @@ void Worker::take(const Control& control) {
   if (control.state == Control::State::running) return;
   if (ended_.try_emplace(control.run, control.state).second) ended_in_order_.push_back(control.run);
   if (control.state == Control::State::cancelled)
-    while (const std::optional<Place> place = any_place_of(control.run)) hand_over(*place);
+    while (const std::optional<IslandOfRun> place = any_island_of(control.run)) hand_over(*place);
   if (ended_in_order_.size() > kMostEnded) {
     ended_.erase(ended_in_order_.front());
     ended_in_order_.pop_front();
@@ -198,7 +198,7 @@ void Worker::report(const EpochBatch& batch) {
 /// What a batch made of one of its islands.
 void Worker::report(const EpochBatch::Member& member) {
   HostedIsland& island = *member.island;
-  const Place place{island.run(), island.island()};
+  const IslandOfRun place{island.run(), island.island()};
   const auto hosted = host_.find(place);
   if (hosted != member.island) {
     // Handed over meanwhile: whoever goes on with it need not breed this again.

@@ -17,7 +17,7 @@ std::string paragraph(const std::string& markup) {
 std::string search_sentence(const Report& report) {
   if (report.candidates == 0) return {};
   const std::string against =
-      report.permutations > 0 ? " against " + grouped_digits(report.permutations) + " draws of the noise" : "";
+      report.null_draws > 0 ? " against " + grouped_digits(report.null_draws) + " draws of the noise" : "";
   const auto added = std::ranges::count_if(report.rounds, &RoundEntry::added);
   return fmt::format("{} effects were tried in every round{}; {} {} added. ", grouped_digits(report.candidates),
                      against, added == 0 ? std::string("none") : std::to_string(added), added == 1 ? "was" : "were");

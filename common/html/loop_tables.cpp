@@ -66,7 +66,8 @@ bool grouped_rounds(const std::vector<RoundEntry>& rounds) {
 
 std::string group_row(const RoundEntry& round) {
   return fmt::format(
-      "<tr class=\"group\"><th colspan=\"9\" scope=\"row\">group {}: judged against the same permutations and fitted "
+      "<tr class=\"group\"><th colspan=\"9\" scope=\"row\">group {}: judged against the same draws of the noise and "
+      "fitted "
       "together; structure before it, p = {}</th></tr>\n",
       round.group, probability(round.p_structure));
 }
@@ -133,7 +134,8 @@ std::string rounds_table(const Report& report) {
     rows += round_row(round);
   }
   return table_panel("rounds", kRoundsHead, rows, report.rounds.size()) +
-         "<p class=\"note\">Before and after: mean tool error on the validation poses. p: the share of permutations in "
+         "<p class=\"note\">Before and after: mean tool error on the validation poses. p: the share of draws of the "
+         "noise in "
          "which the best of all candidates did as well.</p>\n";
 }
 

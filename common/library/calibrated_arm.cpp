@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "config/model_file.hpp"
-#include "effects/corrected_robot.hpp"
 #include "effects/effect.hpp"
-#include "effects/measurement.hpp"
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"
 #include "languages/languages.hpp"
 #include "library/conversion.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 #include "programs/correct_program.hpp"
 #include "programs/summary.hpp"
 #include "workflows/workflows.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 #include "preparation/prepared.hpp"
 
 namespace demecal::inline preparation {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline preparation {
 namespace {

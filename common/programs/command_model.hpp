@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
 #include "fitting/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline programs {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "effects/corrected_robot.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline programs {
 

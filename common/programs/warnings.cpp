@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/corrected_robot.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 

@@ -1,5 +1,5 @@
-#include "expression/primitive.hpp"
 #include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
 #include "protocol/field_kinds.hpp"
 #include "protocol/message_bytes.hpp"
 

@@ -1,9 +1,9 @@
 #include "protocol/faults.hpp"
 
 #include "evolution/archipelago.hpp"
-#include "evolution/fitness.hpp"
 #include "evolution/island.hpp"
 #include "expression/tree.hpp"
+#include "fitness/fitness.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
+#include "fitness/parameters.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal::inline protocol {

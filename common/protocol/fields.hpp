@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "evolution/archipelago.hpp"
-#include "evolution/fitness.hpp"
 #include "evolution/island.hpp"
-#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
 #include "expression/shared_function.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 #include "protocol/field_kinds.hpp"
 #include "protocol/messages.hpp"
 

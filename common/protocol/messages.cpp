@@ -46,7 +46,7 @@ bool writes(Role role, Topic topic) {
       return of_coordinator;
     case Role::worker:
       return !of_coordinator && topic != Topic::loop;
-    case Role::herald:
+    case Role::reporter:
       return topic == Topic::loop || topic == Topic::progress;
     case Role::watcher:
       break;
@@ -62,7 +62,7 @@ bool reads(Role role, Topic topic) {
       return writes(Role::coordinator, topic) || topic == Topic::migrants;
     case Role::watcher:
       return topic == Topic::control || topic == Topic::worker || reads_reliably(role, topic);
-    case Role::herald:
+    case Role::reporter:
       break;
   }
   return false;

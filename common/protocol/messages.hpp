@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "evolution/archipelago.hpp"
-#include "evolution/fitness.hpp"
 #include "evolution/island.hpp"
-#include "evolution/parameters.hpp"
 #include "evolution/population.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::inline protocol {
 
@@ -210,10 +210,10 @@ template <class Plain>
 inline constexpr bool kTravels = !std::is_same_v<Plain, WorkerLost> && !std::is_same_v<Plain, CalibrationLost>;
 
 /// What a participant reads and writes: coordinators write data, tasks and control and read the rest but migrants;
-/// workers the reverse, with migrants both ways; a herald writes a calibration's loop news, and progress where no
+/// workers the reverse, with migrants both ways; a reporter writes a calibration's loop news, and progress where no
 /// worker will, and reads nothing; watchers read data, control, progress, worker status and loop news and write
 /// nothing.
-enum class Role { coordinator, worker, herald, watcher };
+enum class Role { coordinator, worker, reporter, watcher };
 
 enum class Topic { data, task, control, migrants, progress, checkpoint, outcome, worker, loop };
 inline constexpr std::array kTopics{Topic::data,       Topic::task,    Topic::control, Topic::migrants, Topic::progress,

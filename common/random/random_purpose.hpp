@@ -10,12 +10,12 @@ namespace demecal::inline random {
 enum class RandomPurpose : std::uint64_t {
   shuffled_approach = 1,     ///< of decoys
   shuffled_temperature = 2,  ///< of decoys
-  gain_of_effect = 3,        ///< bootstrap bound of what one effect gains on the validation poses
-  resampled_effect = 4,      ///< scatter of an effect's coefficients
-  null_distribution = 5,     ///< permutations behind an effect's p-value
-  structure_test = 6,        ///< permutations behind the test for structure
-  gain_of_group = 7,         ///< bootstrap bound of what a group's effects gain together
-  further_measurement = 8,   ///< poses that would tell rivals apart
+  effect_gain = 3,           ///< bootstrap bound of what one effect gains on the validation poses
+  effect_scatter = 4,        ///< scatter of an effect's coefficients
+  null_distribution = 5,     ///< draws of the noise behind an effect's p-value
+  structure_test = 6,        ///< draws of the noise behind the test for structure
+  group_gain = 7,            ///< bootstrap bound of what a group's effects gain together
+  next_measurement = 8,      ///< poses that would tell rivals apart
   formula_null = 31,         ///< permuted poses in which formulas are sought as in the measured ones
   proposed_poses = 32,       ///< poses worth measuring next
   distal_sequence = 406,     ///< distal learning, one joint at a time

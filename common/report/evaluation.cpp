@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "fitting/distributions.hpp"
 #include "kinematics/units.hpp"
+#include "random/distributions.hpp"
 #include "report/error_fields.hpp"
 
 namespace demecal::inline report {

@@ -8,7 +8,7 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data_check/finding.hpp"
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline report {

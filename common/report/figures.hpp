@@ -72,7 +72,7 @@ std::string amount(double value, const std::string& unit);
 /// The same with two digits, and small angles in arc seconds: "8 arcsec".
 std::string limit_amount(double value, const std::string& unit);
 
-/// A probability of a permutation test: "0.001", "0.24"; a dash where there is none.
+/// A p-value: "0.001", "0.24"; a dash where there is none.
 std::string probability(std::optional<double> p);
 
 /// "link geometry of joints 2 and 3 or instrument scale", "backlash or friction hysteresis of joint 2".

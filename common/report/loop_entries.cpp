@@ -59,7 +59,7 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
                    .rivals = {},
                    .p_structure = if_finite(round.p_structure),
                    .p_family = if_finite(round.p_family),
-                   .permutations = count_of(round.permutations),
+                   .null_draws = count_of(round.null_draws),
                    .gain_nats = if_finite(round.gain_nats),
                    .confirmed = if_finite(round.confirmed),
                    .confirmed_lower = if_finite(round.confirmed_lower),
@@ -150,7 +150,7 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   report.lack_of_fit_p = if_any(loop.lack_of_fit_p);
   report.explained_share = if_any(loop.explained_share);
   report.candidates = count_of(loop.candidates);
-  report.permutations = count_of(loop.permutations);
+  report.null_draws = count_of(loop.null_draws);
   if (!report.loop_ran()) return;
   report.structure_left_p = if_finite(loop.p_structure_left);
   report.noise = noise_entry(loop);

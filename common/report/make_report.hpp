@@ -63,7 +63,7 @@ EffectEntry effect_entry(const Effect& effect, const Robot& robot);
 std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vector<RivalEntry>& rivals);
 
 /// Sets rounds, dropped, not_found, unseen, decoys, stopped, the tests of the whole model, noise (nothing where the
-/// loop did not run), candidates and permutations. `described` is the arm that the effects stand by.
+/// loop did not run), candidates and draws of the noise. `described` is the arm that the effects stand by.
 void set_loop(const LoopOutcome& loop, const Robot& described, Report& report);
 
 }  // namespace demecal::inline report

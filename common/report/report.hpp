@@ -125,7 +125,7 @@ struct RoundEntry {
   std::string class_sentence;
   std::vector<RivalEntry> rivals;
   std::optional<double> p_structure, p_family;
-  std::uint64_t permutations = 0;
+  std::uint64_t null_draws = 0;
   std::optional<double> gain_nats, confirmed, confirmed_lower, sign_stability;
   std::vector<NamedInterval> interval;
   std::optional<double> validation_before_mm, validation_after_mm;
@@ -234,7 +234,7 @@ struct Report {
   std::string stopped = "not_run";
   std::optional<double> lack_of_fit_p, explained_share, structure_left_p;
   std::optional<NoiseEntry> noise;
-  std::uint64_t candidates = 0, permutations = 0;
+  std::uint64_t candidates = 0, null_draws = 0;
   BeforeAfter performance_index_mm2;
   std::vector<JointEntry> joints;
   std::optional<std::vector<SharedFunctionEntry>> shared_functions;  ///< where the job asked for any

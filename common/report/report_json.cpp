@@ -99,7 +99,7 @@ void fields(auto& visit, Like<RoundEntry> auto& round) {
   visit("round", round.round, "group", round.group, "verdict", round.verdict, "effect", round.effect, "diagnosis",
         round.diagnosis, "formula", round.formula, "reason", round.reason, "implausible", round.implausible, "class",
         round.members, "class_sentence", round.class_sentence, "rivals", round.rivals, "p_structure", round.p_structure,
-        "p_family", round.p_family, "permutations", round.permutations, "fall_nats", round.gain_nats, "confirmed",
+        "p_family", round.p_family, "permutations", round.null_draws, "fall_nats", round.gain_nats, "confirmed",
         round.confirmed, "confirmed_lower", round.confirmed_lower, "sign_stability", round.sign_stability, "interval",
         round.interval, "validation_before_mm", round.validation_before_mm, "validation_after_mm",
         round.validation_after_mm, "further", round.next_measurement);
@@ -164,7 +164,7 @@ void loop_fields(auto& visit, Like<Report> auto& report) {
   visit("rounds", report.rounds, "dropped", report.dropped, "not_found", report.not_found, "unseen", report.untestable,
         "decoys", report.decoys, "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p, "explained_share",
         report.explained_share, "structure_left_p", report.structure_left_p, "noise", report.noise, "candidates",
-        report.candidates, "permutations", report.permutations);
+        report.candidates, "permutations", report.null_draws);
 }
 
 void fields(auto& visit, Like<Report> auto& report) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evolution/building_blocks.hpp"
-#include "fitting/distributions.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline report {
 

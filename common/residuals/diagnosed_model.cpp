@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/distributions.hpp"
 #include "fitting/least_squares.hpp"
 #include "fitting/row_sums.hpp"
+#include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 
 namespace demecal::inline residuals {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {

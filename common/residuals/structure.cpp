@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "fitting/distributions.hpp"
+#include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 
 namespace demecal::inline residuals {

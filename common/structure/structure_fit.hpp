@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal::inline structure {

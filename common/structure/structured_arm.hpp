@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "effects/corrected_robot.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "structure/genome.hpp"
 
 namespace demecal::inline structure {

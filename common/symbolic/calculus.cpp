@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/elementary.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
+#include "primitives/elementary.hpp"
 #include "symbolic/rules.hpp"
 
 namespace demecal::inline symbolic {

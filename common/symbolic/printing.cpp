@@ -7,9 +7,9 @@
 #include <cstddef>
 
 #include "errors/check.hpp"
-#include "expression/primitive.hpp"
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
 #include "symbolic/calculus.hpp"
 
 namespace demecal::inline symbolic {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "errors/check.hpp"
-#include "expression/elementary.hpp"
-#include "expression/primitive.hpp"
+#include "primitives/elementary.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline symbolic {
 

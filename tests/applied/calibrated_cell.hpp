@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "closed_calibration/calibrated_model.hpp"
-#include "effects/random_robot.hpp"
 #include "kinematics/angles.hpp"
+#include "prediction/random_robot.hpp"
 #include "programs/correct_program.hpp"
 
 namespace demecal {

@@ -7,8 +7,8 @@
 #include "closed_loop/scene.hpp"
 #include "closed_loop/summary.hpp"
 #include "closed_loop/truth.hpp"
-#include "effects/measurement.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "calibration/joint_targets.hpp"
-#include "effects/corrected_robot.hpp"
 #include "expression/text.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "calibration/calibration.hpp"
-#include "effects/measurement.hpp"
 #include "erring_arm.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal {
 namespace {

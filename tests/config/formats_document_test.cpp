@@ -16,8 +16,8 @@
 #include "config/robot_file.hpp"
 #include "config/scenario_file.hpp"
 #include "config/study_grid.hpp"
-#include "effects/random_effects.hpp"
 #include "formats_document.hpp"
+#include "prediction/random_effects.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal {

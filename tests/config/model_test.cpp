@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "config/model_file.hpp"
-#include "effects/random_effects.hpp"
 #include "fitting/fit.hpp"
+#include "prediction/random_effects.hpp"
 #include "temporary_folder.hpp"
 
 namespace demecal {

@@ -75,9 +75,9 @@ const WatchedCalibration& shown(Watched& watched, const std::string& path) {
 
 TEST_F(EventFiles, TellOfARunThatWasBrokenOffAndResumed) {
   const auto exchange = make_exchange();
-  const auto herald = [&] { return join(exchange, Role::herald, "herald"); };
+  const auto reporter = [&] { return join(exchange, Role::reporter, "reporter"); };
   {
-    EventLog broken(folder, false, "job", herald());
+    EventLog broken(folder, false, "job", reporter());
     broken.on_run_begins(small_run(5), {}, true);
     // What a killed process leaves.
     std::filesystem::copy_file(path, path + ".killed");
@@ -88,7 +88,7 @@ TEST_F(EventFiles, TellOfARunThatWasBrokenOffAndResumed) {
   Watched unended;
   EXPECT_TRUE(shown(unended, path).is_live());
   const auto watcher = join(exchange, Role::watcher, "watcher");
-  EventLog resumed(folder, true, "job", herald());
+  EventLog resumed(folder, true, "job", reporter());
   const CalibrationData data = small_run(6);
   Progress reached;
   reached.run = data.run;

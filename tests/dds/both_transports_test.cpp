@@ -61,14 +61,14 @@ TEST_P(Transports, DeliverEveryMessageEqualToAllWhoseRoleReadsIt) {
 TEST_P(Transports, GiveWatchersWhoComeLateDataProgressAndNews) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");
-  const auto herald = network->join(Role::herald, "herald");
+  const auto reporter = network->join(Role::reporter, "reporter");
   RandomMessages random(47);
   std::vector<Message> told;
   for (int i = 0; i < 5; ++i) {
     told.insert(told.end(), {random.data(), random.progress(), random.news()});
     coordinator->publish(told[told.size() - 3]);
     worker->publish(told[told.size() - 2]);
-    herald->publish(told[told.size() - 1]);
+    reporter->publish(told[told.size() - 1]);
     worker->publish(random.checkpoint());
     coordinator->publish(random.task());
   }
@@ -89,13 +89,13 @@ TEST_P(Transports, GiveWatchersWhatWorkersRepeat) {
   });
 }
 
-TEST_P(Transports, ReportACalibrationLostWhenItsHeraldGoes) {
+TEST_P(Transports, ReportACalibrationLostWhenItsReporterGoes) {
   const auto watcher = network->join(Role::watcher, "watcher");
-  auto herald = network->join(Role::herald, "herald");
+  auto reporter = network->join(Role::reporter, "reporter");
   const LoopNews news = RandomMessages(5).news();
-  herald->publish(news);
+  reporter->publish(news);
   receive_up_to(*watcher, news);
-  herald.reset();
+  reporter.reset();
   expect_exactly(*watcher, {CalibrationLost{news.calibration}});
 }
 

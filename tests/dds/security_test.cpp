@@ -42,7 +42,7 @@ DdsOptions secured_options() {
 /// Whether the certificate that a role shows is one by which a role may do that.
 template <class May>
 bool any_of_certificate(Role role, May may) {
-  for (const Role other : {Role::coordinator, Role::worker, Role::herald, Role::watcher})
+  for (const Role other : {Role::coordinator, Role::worker, Role::reporter, Role::watcher})
     if (certificate_name(other) == certificate_name(role) && may(other)) return true;
   return false;
 }

@@ -117,7 +117,7 @@ TEST(Dds, SamplesAreReadByAnyProgramWithTheDocumentsTypes) {
   DdsNetwork network;
   const auto coordinator = network.join(Role::coordinator, "coordinator");
   const auto worker = network.join(Role::worker, "worker");
-  const auto herald = network.join(Role::herald, "herald");
+  const auto reporter = network.join(Role::reporter, "reporter");
   RandomMessages random(7);
   const WorkerStatus status = random.status();
   const Progress progress = random.progress();
@@ -126,7 +126,7 @@ TEST(Dds, SamplesAreReadByAnyProgramWithTheDocumentsTypes) {
   worker->publish(status);
   worker->publish(progress);
   coordinator->publish(control);
-  herald->publish(news);
+  reporter->publish(news);
   Tool tool;
   EXPECT_EQ(decode<WorkerStatus>(tool.read<wire::WorkerStatusPubSubType>(Topic::worker)), status);
   EXPECT_EQ(decode<Progress>(tool.read<wire::PlacedProgressPubSubType>(Topic::progress).progress()), progress);

@@ -63,7 +63,7 @@ TEST(ClosedLoop, HoldsEvolvedFormulasAgainstWhatTheSameSearchFindsByLuck) {
   options.evolved_null_gains = {0.0, 1.0, 2.0};
   const LoopOutcome rare = run_loop(data, kZeroed, options).outcome;
   ASSERT_FALSE(rare.rounds.empty());
-  EXPECT_EQ(rare.rounds[0].permutations, 3);
+  EXPECT_EQ(rare.rounds[0].null_draws, 3);
   EXPECT_DOUBLE_EQ(rare.rounds[0].p_family, 0.25);
   EXPECT_EQ(rare.rounds[0].verdict, Verdict::rejected);  // 3 searches cannot show 5 %
   options.evolved_null_gains.assign(19, 1.0);

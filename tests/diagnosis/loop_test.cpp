@@ -139,7 +139,7 @@ TEST(ClosedLoop, StatesWhatItCouldHaveFound) {
   EXPECT_THAT(outcome.untestable, IsEmpty());
   EXPECT_EQ(outcome.decoys.size(), 18u);
   for (const Decoy& decoy : outcome.decoys) EXPECT_FALSE(decoy.won);
-  EXPECT_EQ(outcome.permutations, 99);
+  EXPECT_EQ(outcome.null_draws, 99);
   EXPECT_GT(outcome.candidates, 100);
 }
 

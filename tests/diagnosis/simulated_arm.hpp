@@ -30,10 +30,10 @@ inline Scenario perfect_scenario(const Chain& chain, std::uint64_t seed) {
   return scenario;
 }
 
-/// Quick: few permutations, few ratios.
+/// Quick: few draws, few ratios.
 inline LoopOptions quick() {
   LoopOptions options;
-  options.permutations = 99;
+  options.null_draws = 99;
   options.resamples = 100;
   options.highest_ratio = 12;
   options.formulas = false;

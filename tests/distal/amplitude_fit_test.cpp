@@ -59,7 +59,7 @@ double index_by_hand(const std::vector<LinearizedPose>& poses, const std::vector
 
 const std::vector<std::vector<std::size_t>> kChoices{{}, {1}, {0, 3}, {5, 1, 2}, {0, 2, 4}};
 
-TEST(AmplitudeFit, TellsTheLinearisedIndex) {
+TEST(AmplitudeFit, TellsTheLinearizedIndex) {
   RandomStream random{41};
   for (int trial = 0; trial < 50; ++trial) {
     const auto poses = random_poses(random);

@@ -4,7 +4,7 @@
 #include "calibration/island_evolution.hpp"
 #include "distal/learning.hpp"
 #include "distal_arm.hpp"
-#include "evolution/fitness.hpp"
+#include "fitness/fitness.hpp"
 
 namespace demecal {
 namespace {
@@ -52,7 +52,7 @@ TEST_P(DistalLearning, LinearisesTheIndexForSmallCorrections) {
   }
 }
 
-TEST_P(DistalLearning, TableOfAJointIsItsPartOfTheLinearisedIndex) {
+TEST_P(DistalLearning, TableOfAJointIsItsPartOfTheLinearizedIndex) {
   RandomStream random{32};
   const CorrectedRobot robot = corrected_puma(1e-3, random), other = corrected_puma(2e-3, random);
   const std::vector<LinearizedPose> poses = index.linearized(robot);

@@ -9,7 +9,7 @@
 
 #include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
-#include "lessons.hpp"
+#include "fitness/lessons.hpp"
 
 namespace demecal {
 namespace {

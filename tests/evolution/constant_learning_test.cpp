@@ -9,7 +9,7 @@
 #include "allocation_count.hpp"
 #include "evolution/island.hpp"
 #include "evolution/tree_generation.hpp"
-#include "lessons.hpp"
+#include "fitness/lessons.hpp"
 
 namespace demecal {
 namespace {

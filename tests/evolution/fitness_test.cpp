@@ -5,9 +5,9 @@
 
 #include "allocation_count.hpp"
 #include "evolution/breeding.hpp"
-#include "evolution/fitness.hpp"
 #include "evolution/tree_generation.hpp"
-#include "lessons.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/lessons.hpp"
 
 namespace demecal {
 namespace {

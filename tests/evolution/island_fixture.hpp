@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evolution/island.hpp"
-#include "lessons.hpp"
+#include "fitness/lessons.hpp"
 
 namespace demecal {
 

@@ -7,7 +7,7 @@
 
 #include "evolution/island.hpp"
 #include "expression/text.hpp"
-#include "lessons.hpp"
+#include "fitness/lessons.hpp"
 
 namespace demecal {
 namespace {

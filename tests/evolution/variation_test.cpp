@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "lessons.hpp"
+#include "fitness/lessons.hpp"
 #include "prefix_variation.hpp"
 
 namespace demecal {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "effects/random_effects.hpp"
 #include "fitting/known_arm.hpp"
 #include "fitting/observation.hpp"
+#include "prediction/random_effects.hpp"
 
 namespace demecal {
 namespace {

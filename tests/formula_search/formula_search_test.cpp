@@ -103,7 +103,7 @@ TEST(EvolvedFormula, ComesBackAsAPersonWritesItInPlaceOfTheSumsThatImitateIt) {
     sums += round.effect.kind == "symbolic" && round.reason.starts_with("taken back") ? 1 : 0;
     if (round.verdict != Verdict::added) continue;
     ++added;
-    EXPECT_EQ(round.permutations, 19);
+    EXPECT_EQ(round.null_draws, 19);
     EXPECT_DOUBLE_EQ(round.p_family, 0.05);
   }
   EXPECT_EQ(added, 1);

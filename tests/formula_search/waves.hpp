@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "evolution/fitness.hpp"
 #include "expression/text.hpp"
+#include "fitness/fitness.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "config/scenario_file.hpp"
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "workflows/lacking_puma.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "effects/random_effects.hpp"
+#include "prediction/random_effects.hpp"
 #include "programs/correct_program.hpp"
 
 namespace demecal {

@@ -10,7 +10,7 @@
 namespace demecal {
 namespace {
 
-constexpr Role kRoles[]{Role::coordinator, Role::worker, Role::herald, Role::watcher};
+constexpr Role kRoles[]{Role::coordinator, Role::worker, Role::reporter, Role::watcher};
 
 TEST(Topics, EveryTopicIsWrittenByOneRoleAndReadByAnother) {
   for (const Topic topic : kTopics) {
@@ -20,14 +20,14 @@ TEST(Topics, EveryTopicIsWrittenByOneRoleAndReadByAnother) {
   }
 }
 
-TEST(Topics, ProgressIsWrittenByHeraldsToo) {
+TEST(Topics, ProgressIsWrittenByReportersToo) {
   EXPECT_TRUE(writes(Role::worker, Topic::progress));
-  EXPECT_TRUE(writes(Role::herald, Topic::progress));
+  EXPECT_TRUE(writes(Role::reporter, Topic::progress));
 }
 
-TEST(Topics, HeraldsReadNothingAndWatchersWriteNothing) {
+TEST(Topics, ReportersReadNothingAndWatchersWriteNothing) {
   for (const Topic topic : kTopics) {
-    EXPECT_FALSE(reads(Role::herald, topic));
+    EXPECT_FALSE(reads(Role::reporter, topic));
     EXPECT_FALSE(writes(Role::watcher, topic));
   }
 }

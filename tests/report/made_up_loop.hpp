@@ -117,7 +117,7 @@ inline LoopOutcome made_up_loop(int harmonics) {
   loop.explained_share = 0.873;
   loop.p_structure_left = 0.42;
   loop.candidates = 1312;
-  loop.permutations = 999;
+  loop.null_draws = 999;
   return loop;
 }
 

@@ -1,8 +1,8 @@
 // Effects' columns over a field: what the corrected robot does, per unit of every coefficient.
 #include <gtest/gtest.h>
 
-#include "effects/random_effects.hpp"
 #include "measured_arm.hpp"
+#include "prediction/random_effects.hpp"
 
 namespace demecal {
 namespace {

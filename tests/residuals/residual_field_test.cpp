@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "effects/corrected_robot.hpp"
 #include "fitting/least_squares.hpp"
 #include "measured_arm.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal {
 namespace {

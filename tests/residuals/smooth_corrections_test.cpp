@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "effects/random_robot.hpp"
 #include "measured_arm.hpp"
+#include "prediction/random_robot.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "forwarding_transport.hpp"
 #include "in_memory_fleet.hpp"
 #include "mortal_transport.hpp"
 #include "scheduling/island_evolver.hpp"
@@ -13,24 +14,17 @@ namespace demecal {
 namespace {
 
 /// A coordinator's end of the network that brings each worker's status once, as DDS does while it stays the same.
-class ToldOnce : public Transport {
+class ToldOnce : public ForwardingTransport {
  public:
-  explicit ToldOnce(std::unique_ptr<Transport> sound) : sound_(std::move(sound)) {}
-  void publish(const Message& message) override { sound_->publish(message); }
+  using ForwardingTransport::ForwardingTransport;
   std::optional<Message> receive(std::chrono::milliseconds patience) override {
-    auto message = sound_->receive(patience);
+    auto message = ForwardingTransport::receive(patience);
     const auto* status = message ? std::get_if<WorkerStatus>(&*message) : nullptr;
     if (status != nullptr && !status->leaving && !told_.insert(status->worker).second) return std::nullopt;
     return message;
   }
-  void wake() override { sound_->wake(); }
-  void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
-  void assert_alive() override {}
-  bool flush(std::chrono::milliseconds) override { return true; }
-  RunId new_run() override { return sound_->new_run(); }
 
  private:
-  std::unique_ptr<Transport> sound_;
   std::set<std::string> told_;
 };
 

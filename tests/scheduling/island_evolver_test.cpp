@@ -8,6 +8,7 @@
 
 #include "../config/temporary_folder.hpp"
 #include "faulty_transport.hpp"
+#include "forwarding_transport.hpp"
 #include "in_memory_fleet.hpp"
 #include "scheduling/fleet.hpp"
 
@@ -48,13 +49,12 @@ std::vector<JointCandidates> evolve(const EvolverOptions& options, const MakeFle
 
 /// What a coordinator receives: no checkpoint of the first island, and after many epochs its worker is lost, so that it
 /// is taken up from its very beginning, long after its neighbours have forgotten theirs.
-class Forgetful : public Transport {
+class Forgetful : public ForwardingTransport {
  public:
   Forgetful(std::unique_ptr<Transport> sound, std::function<void()> lose_worker)
-      : sound_(std::move(sound)), lose_worker_(std::move(lose_worker)) {}
-  void publish(const Message& message) override { sound_->publish(message); }
+      : ForwardingTransport(std::move(sound)), lose_worker_(std::move(lose_worker)) {}
   std::optional<Message> receive(std::chrono::milliseconds patience) override {
-    auto message = sound_->receive(patience);
+    auto message = ForwardingTransport::receive(patience);
     if (!message) return message;
     const auto* checkpoint = std::get_if<Checkpoint>(&*message);
     if (checkpoint != nullptr && checkpoint->island == IslandKey{0, 0}) return std::nullopt;
@@ -63,14 +63,8 @@ class Forgetful : public Transport {
       std::exchange(lose_worker_, nullptr)();
     return message;
   }
-  void wake() override { sound_->wake(); }
-  void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
-  void assert_alive() override {}
-  bool flush(std::chrono::milliseconds) override { return true; }
-  RunId new_run() override { return sound_->new_run(); }
 
  private:
-  std::unique_ptr<Transport> sound_;
   std::function<void()> lose_worker_;
 };
 

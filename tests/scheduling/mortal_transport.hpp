@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "forwarding_transport.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal {
@@ -20,9 +21,9 @@ inline constexpr int kPatience = 1;
 #endif
 
 /// Any thread may call.
-class MortalTransport final : public Transport {
+class MortalTransport final : public ForwardingTransport {
  public:
-  explicit MortalTransport(std::unique_ptr<Transport> sound) : sound_(std::move(sound)) {}
+  using ForwardingTransport::ForwardingTransport;
 
   /// Nothing comes or goes any more; others learn of it when the transport is destroyed.
   void die() { enter(State::dead); }
@@ -32,7 +33,7 @@ class MortalTransport final : public Transport {
     {
       const std::lock_guard lock(mutex_);
       if (state_ != State::stopped) return;
-      for (const Message& message : late_) sound_->publish(message);
+      for (const Message& message : late_) ForwardingTransport::publish(message);
       late_.clear();
       state_ = State::running;
     }
@@ -53,7 +54,7 @@ class MortalTransport final : public Transport {
   void publish(const Message& message) override {
     const std::lock_guard lock(mutex_);
     if (state_ == State::stopped) late_.push_back(message);
-    if (state_ == State::running) sound_->publish(message);
+    if (state_ == State::running) ForwardingTransport::publish(message);
   }
   std::optional<Message> receive(std::chrono::milliseconds patience) override {
     {
@@ -69,7 +70,7 @@ class MortalTransport final : public Transport {
         return std::nullopt;
       }
     }
-    auto message = sound_->receive(patience);
+    auto message = ForwardingTransport::receive(patience);
     const std::lock_guard lock(mutex_);
     const auto* status = message ? std::get_if<WorkerStatus>(&*message) : nullptr;
     if (status != nullptr && silent_.contains(status->worker)) return std::nullopt;
@@ -81,14 +82,11 @@ class MortalTransport final : public Transport {
       woken_ = true;
     }
     changed_.notify_all();
-    sound_->wake();
+    ForwardingTransport::wake();
   }
-  void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
-  void assert_alive() override {}
+
+  void assert_alive() override {}  // it would be a sign of life of the dead, too
   bool flush(std::chrono::milliseconds) override { return true; }
-  RunId new_run() override { return sound_->new_run(); }
-  void reject(const std::string& source, const std::string& why) override { sound_->reject(source, why); }
-  std::uint64_t rejected() const override { return sound_->rejected(); }
 
  private:
   enum class State { running, stopped, dead };
@@ -100,10 +98,9 @@ class MortalTransport final : public Transport {
       state_ = state;
     }
     changed_.notify_all();
-    sound_->wake();
+    ForwardingTransport::wake();
   }
 
-  std::unique_ptr<Transport> sound_;
   std::mutex mutex_;
   std::condition_variable changed_;
   State state_ = State::running;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "forwarding_transport.hpp"
 #include "random/random_stream.hpp"
 #include "transport/transport.hpp"
 
@@ -24,24 +25,15 @@ struct Faults {
 };
 
 /// Spoils what is received; what is published goes out as it is. The same seed spoils the same sequence alike.
-class FaultyTransport final : public Transport {
+class FaultyTransport final : public ForwardingTransport {
  public:
   FaultyTransport(std::unique_ptr<Transport> sound, Faults faults, std::uint64_t seed)
-      : sound_(std::move(sound)), faults_(std::move(faults)), random_{seed} {}
-
-  void publish(const Message& message) override { sound_->publish(message); }
-  void wake() override { sound_->wake(); }
-  void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
-  void assert_alive() override { sound_->assert_alive(); }
-  bool flush(std::chrono::milliseconds patience) override { return sound_->flush(patience); }
-  RunId new_run() override { return sound_->new_run(); }
-  void reject(const std::string& source, const std::string& why) override { sound_->reject(source, why); }
-  std::uint64_t rejected() const override { return sound_->rejected(); }
+      : ForwardingTransport(std::move(sound)), faults_(std::move(faults)), random_{seed} {}
 
   /// A held message goes first now and then, and surely where nothing new has come.
   std::optional<Message> receive(std::chrono::milliseconds patience) override {
     if (!held_.empty() && random_.chance(0.5)) return release();
-    auto message = sound_->receive(held_.empty() ? patience : std::chrono::milliseconds{0});
+    auto message = ForwardingTransport::receive(held_.empty() ? patience : std::chrono::milliseconds{0});
     if (!message) return held_.empty() ? std::nullopt : release();
     if (faults_.may_drop(*message) && random_.chance(faults_.drop)) return receive(patience);
     if (!faults_.may_stray(*message)) return message;
@@ -59,7 +51,6 @@ class FaultyTransport final : public Transport {
     return message;
   }
 
-  std::unique_ptr<Transport> sound_;
   Faults faults_;
   RandomStream random_;
   std::deque<Message> held_;

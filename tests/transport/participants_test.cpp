@@ -115,15 +115,15 @@ TEST_F(Presences, ARepeatedStatusIsNewsOnlyOfALostWorker) {
 }
 
 TEST_F(Presences, NewsOfACalibrationComeFromOneWriterWhileItIsThere) {
-  CalibrationPresence heralds(mailbox);
+  CalibrationPresence reporters(mailbox);
   LoopNews news;
   news.calibration = 3;
-  EXPECT_TRUE(heralds.receive(kOne, news));
-  EXPECT_FALSE(heralds.receive(kTwo, news));
-  heralds.departed(kTwo);
-  heralds.departed(kOne);
+  EXPECT_TRUE(reporters.receive(kOne, news));
+  EXPECT_FALSE(reporters.receive(kTwo, news));
+  reporters.departed(kTwo);
+  reporters.departed(kOne);
   EXPECT_EQ(arrived(), (Messages{news, CalibrationLost{3}}));
-  EXPECT_TRUE(heralds.receive(kTwo, news));
+  EXPECT_TRUE(reporters.receive(kTwo, news));
   EXPECT_EQ(arrived(), Messages{news});
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "config/scenario_file.hpp"
-#include "effects/measurement.hpp"
+#include "prediction/measurement.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "workflows/workflows.hpp"

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "evolution/fitness.hpp"
-#include "evolution/parameters.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::bench::engine {
 

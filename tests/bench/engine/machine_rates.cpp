@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "evolution/fitness.hpp"
-#include "expression/columns.hpp"
-#include "expression/elementary.hpp"
+#include "fitness/fitness.hpp"
+#include "primitives/columns.hpp"
+#include "primitives/elementary.hpp"
 #include "thread_seconds.hpp"
 
 namespace demecal::bench::engine {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "evolution/parameters.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::bench::engine {
 

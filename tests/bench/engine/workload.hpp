@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "evolution/fitness.hpp"
-#include "evolution/parameters.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::bench::engine {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "data/data_set.hpp"
-#include "effects/corrected_robot.hpp"
 #include "noise_case.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "simulation/scenario.hpp"
 
 namespace demecal::bench {

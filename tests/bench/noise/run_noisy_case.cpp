@@ -11,10 +11,10 @@
 #include "closed_loop/truth.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/searches.hpp"
-#include "effects/measurement.hpp"
 #include "engine/thread_seconds.hpp"
 #include "errors/input_error.hpp"
 #include "noisy_measurement.hpp"
+#include "prediction/measurement.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal::bench {

@@ -8,9 +8,9 @@
 #include "calibration/calibration.hpp"
 #include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
-#include "effects/measurement.hpp"
 #include "evolution/island.hpp"
-#include "fitting/distributions.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "evolution/island.hpp"
 #include "evolution/model_archive.hpp"
 #include "expression/evaluate.hpp"
-#include "fitting/distributions.hpp"
+#include "random/distributions.hpp"
 #include "random/random_stream.hpp"
 
 namespace {

@@ -1,0 +1,43 @@
+// A model as formulas of its joints alone: where each joint really goes, and where that puts the tool, with effects
+// held within the ranges they were measured in.
+#pragma once
+
+#include <numbers>
+#include "effects/symbolic_state.hpp"
+#include "expression/bound.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "symbolic/code.hpp"
+
+namespace demecal::inline prediction {
+/// The formulas, and what the model knows beyond them.
+struct CorrectedArm {
+  std::vector<Expression> actual;  ///< q + g(q) of each joint, of the symbol q1 .. qn
+  SymbolicMatrix pose;             ///< of the tool in the measurements' frame, of q1 .. qn and actual1 .. actualn
+  std::vector<std::string> notes;  ///< sentences: effects that are left out, or taken at some circumstance
+};
+
+/// The model's prediction at a stop of which nothing but the joints is known: no payload, no approach, no warmth and no
+/// time. The expressions live in `algebra`. The robot must have the target.
+CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target);
+
+/// The listing of the formulas with the remarks that a reader needs: what it is, units, frames, and the notes.
+Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title);
+
+/// As wrap_near().
+inline Expression wrapped_near(Expression angle, double centre_rad) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const Expression turns = (1.0 / kTurn) * (angle - centre_rad);
+  return angle - kTurn * angle.algebra().function(Function::round, {turns});
+}
+
+/// The nearest value of the range.
+inline Expression held_within(Expression value, const Interval& range) {
+  Algebra& algebra = value.algebra();
+  return smaller(larger(value, algebra.constant(range.lower)), algebra.constant(range.upper));
+}
+
+/// As symbolic_units(), with the effect held, and faded, beyond the ranges it was measured in, as append_unit_motions()
+/// does it.
+std::vector<SymbolicUnit> held_units(const Effect& effect, const SymbolicState& state, const std::string& name);
+
+}  // namespace demecal::inline prediction

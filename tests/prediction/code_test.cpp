@@ -1,0 +1,211 @@
+// The files that are handed on compile by themselves and give the model's own predictions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <regex>
+#include <sstream>
+
+#include "prediction/corrected_arm.hpp"
+#include "prediction/random_effects.hpp"
+
+namespace demecal {
+namespace {
+
+/// A folder of this test that is gone afterwards.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("demecal-code-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return path_ / name;
+  }
+  std::string path(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What the command printed; its exit code in `code`.
+std::string output_of(const std::string& command, int& code) {
+  std::string text;
+  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> chunk;
+  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), pipe)) text.append(chunk.data(), count);
+  code = ::pclose(pipe);
+  return text;
+}
+
+bool there_is(const std::string& program) {
+  int code = 0;
+  output_of("command -v " + program, code);
+  return code == 0;
+}
+
+/// An arm with everything that formulas can hold, and the stops at which it is judged.
+struct Judged {
+  CorrectedRobot robot;
+  std::vector<JointVector> stops;
+};
+
+Judged judged_arm() {
+  RandomStream stream{641};
+  const Chain nominal = random_arm(stream, 5, Convention::modified_dh, 0.2);
+  Judged judged{random_robot(stream, nominal, 1e-3, 1e-3), {}};
+  judged.robot.described = heavy(stream, nominal);
+  judged.robot.effects = random_effects(judged.robot.described, stream, 2e-3, 2);
+  for (Effect& effect : judged.robot.effects) {
+    for (const int joint : law_of(effect).ranged_joints(effect, judged.robot.described)) {
+      effect.ranges[joint] = {-1.0, stream.chance(0.5) ? 1.5 : 7.0};
+    }
+  }
+  const Tree tree =
+      parse("0.001 * SQRTp(theta - 0.3) - 0.002 % (theta - -1.5) * SIGN(theta) + 0.001 * ABS(COS(theta))");
+  judged.robot.corrections[0] = {tree, {true, 2.5}, {1.0, 4.0}};
+  const Tree later = parse(
+      "0.001 * LOGp(theta) + 0.0002 * EXPb(0.5 * theta) - 0.001 * TANH(theta) * ATAN(2 * theta) + "
+      "0.0003 * SQUARE(theta - 0.5) + MIN(0.001 * theta, 0.0005) * MAX(SIN(theta), -0.25) + EXPb(900 * theta - 930)");
+  judged.robot.corrections[2] = {later, {true, 0.0}, {-4.0, 4.0}};
+  judged.robot.corrections[1] = {};
+  for (int i = 0; i < 40; ++i) judged.stops.push_back(1.5 * random_joints(stream, nominal));
+  return judged;
+}
+
+std::string code_in(const CorrectedRobot& robot, CodeLanguage language) {
+  Algebra algebra;
+  return code_of(listing_of(corrected_arm(algebra, robot, ""), robot, "An arm"), language);
+}
+
+std::string numbers(const JointVector& q, const std::string& between) {
+  std::ostringstream text;
+  text << std::setprecision(17);
+  for (Eigen::Index i = 0; i < q.size(); ++i) text << (i == 0 ? "" : between) << q[i];
+  return text.str();
+}
+
+/// Per stop: 16 numbers of the pose, and each joint's h.
+void expect_agreement(const Judged& judged, const std::string& printed) {
+  std::istringstream in(printed);
+  for (const JointVector& q : judged.stops) {
+    const Eigen::Matrix4d pose = judged.robot.predict(Stop(q), "").matrix();
+    const JointVector actual = judged.robot.corrected_joints(q);
+    for (int i = 0; i < 16; ++i) {
+      double value = 0.0;
+      ASSERT_TRUE(in >> value) << printed;
+      EXPECT_NEAR(value, pose(i / 4, i % 4), 1e-9);
+    }
+    for (const double expected : actual) {
+      double value = 0.0;
+      ASSERT_TRUE(in >> value) << printed;
+      EXPECT_NEAR(value, expected, 1e-12);
+    }
+  }
+}
+
+TEST(Code, InCCompilesWithoutWarningsAndAgreesWithTheModel) {
+  if (!there_is("cc")) GTEST_SKIP() << "there is no C compiler called cc";
+  const Judged judged = judged_arm();
+  const auto n = static_cast<std::size_t>(judged.robot.chain.size());
+  std::ostringstream main;
+  main << "#include <stdio.h>\nvoid forward(const double q[" << n << "], double pose[16]);\n";
+  for (std::size_t i = 1; i <= n; ++i) main << "double h" << i << "(double q);\n";
+  main << "static const double stops[][" << n << "] = {";
+  for (const JointVector& q : judged.stops) main << '{' << numbers(q, ",") << "},\n";
+  main << "};\nint main(void) {\n  for (int i = 0; i < " << judged.stops.size() << "; ++i) {\n"
+       << "    double pose[16];\n    forward(stops[i], pose);\n"
+       << "    for (int k = 0; k < 16; ++k) printf(\"%.17g \", pose[k]);\n";
+  for (std::size_t i = 0; i < n; ++i) main << "    printf(\"%.17g\\n\", h" << i + 1 << "(stops[i][" << i << "]));\n";
+  main << "  }\n  return 0;\n}\n";
+
+  const Folder folder;
+  const std::string arm = folder.write("arm.c", code_in(judged.robot, CodeLanguage::c));
+  const std::string program = folder.path("program");
+  int code = 0;
+  const std::string said = output_of("cc -std=c99 -Wall -Wextra -Wno-missing-prototypes -Werror -o " + program + ' ' +
+                                         arm + ' ' + folder.write("main.c", main.str()) + " -lm",
+                                     code);
+  ASSERT_EQ(code, 0) << said;
+  expect_agreement(judged, output_of(program, code));
+}
+
+TEST(Code, InPythonAgreesWithTheModel) {
+  if (!there_is("python3")) GTEST_SKIP() << "there is no python3";
+  const Judged judged = judged_arm();
+  std::ostringstream main;
+  main << "import arm\nfor q in [";
+  for (const JointVector& q : judged.stops) main << '[' << numbers(q, ", ") << "],\n";
+  main << "]:\n    print(*(x for row in arm.forward(q) for x in row))\n"
+       << "    print(*(getattr(arm, 'h%d' % (i + 1))(x) for i, x in enumerate(q)))\n";
+  const Folder folder;
+  folder.write("arm.py", code_in(judged.robot, CodeLanguage::python));
+  int code = 0;
+  const std::string printed = output_of("python3 -B " + folder.write("main.py", main.str()), code);
+  ASSERT_EQ(code, 0) << printed;
+  expect_agreement(judged, printed);
+}
+
+TEST(Code, InMatlabAgreesWithTheModelWhereOctaveRunsIt) {
+  if (!there_is("octave")) GTEST_SKIP() << "there is no octave";
+  const Judged judged = judged_arm();
+  std::ostringstream main;
+  main << "for q = [";
+  for (const JointVector& q : judged.stops) main << numbers(q, ", ") << '\n';
+  main << "]'\n  [pose, h] = forward(q);\n  printf('%.17g ', pose', h);\nend\n";
+  const Folder folder;
+  folder.write("forward.m", code_in(judged.robot, CodeLanguage::matlab));
+  folder.write("judge.m", main.str());
+  int code = 0;
+  const std::string printed = output_of("octave -qf -p " + folder.path("") + " --eval judge", code);
+  ASSERT_EQ(code, 0) << printed;
+  expect_agreement(judged, printed);
+}
+
+/// How often the expression is found.
+std::ptrdiff_t count(const std::string& text, const std::string& expression) {
+  const std::regex pattern(expression);
+  return std::distance(std::sregex_iterator(text.begin(), text.end(), pattern), {});
+}
+
+TEST(Code, InMatlabHasWholeStatementsAndCallsOnlyWhatIsThere) {
+  const std::string code = code_in(judged_arm().robot, CodeLanguage::matlab);
+  const std::regex statement(R"(\s*(%.*|function .*|if .*|else|end|[A-Za-z]\w*(\([1-4], [1-4]\))? = .*;|))");
+  std::istringstream lines(code);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(std::regex_match(line, statement)) << line;
+    if (line.find('%') != std::string::npos) continue;
+    EXPECT_EQ(count(line, "\\("), count(line, "\\)")) << line;
+  }
+  EXPECT_EQ(count(code, "\n *end(?=\n)"), count(code, "(^|\n)function ") + count(code, "\n *if "));
+  const std::string without_remarks = std::regex_replace(code, std::regex("%[^\n]*"), "");
+  const std::regex called(R"(([A-Za-z_]\w*)\()");
+  std::set<std::string> known{"sin", "cos",   "tanh", "sign", "abs",  "sqrt", "round", "min",
+                              "max", "zeros", "q",    "pose", "atan", "log",  "exp",   "isnan"};
+  const std::regex defined(R"(function \S+(?: h\])? = (\w+)\()");
+  for (std::sregex_iterator it(code.begin(), code.end(), defined), end; it != end; ++it) {
+    known.insert((*it)[1]);
+  }
+  for (std::sregex_iterator it(without_remarks.begin(), without_remarks.end(), called), end; it != end; ++it) {
+    EXPECT_TRUE(known.contains((*it)[1])) << (*it)[1];
+  }
+}
+
+TEST(Code, AsTextWritesEveryElementAndTheCorrections) {
+  const std::string text = code_in(judged_arm().robot, CodeLanguage::text);
+  EXPECT_EQ(count(text, "\npose\\([1-3],[1-4]\\) = "), 12);
+  EXPECT_EQ(count(text, "\nactual[1-5] = h[1-5]\\(q[1-5]\\) = "), 5);
+  EXPECT_THAT(text, testing::HasSubstr("divide_or_one("));
+}
+
+}  // namespace
+}  // namespace demecal
