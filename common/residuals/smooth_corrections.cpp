@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeastMotion_rad = 0.052;  ///< 3 deg: less shows no shape
 constexpr int kHighestDegree = 8;
-constexpr int kHighestHarmonic = 3;
+constexpr int kHighestHarmonic = 5;
 constexpr double kGone = 1e8;  ///< belief in zero, in scaled units, of a term that is out for good
 
 Tree times(double factor, const Tree& tree) {
@@ -59,7 +59,6 @@ void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool
     add_degree(2 * n);
     add_degree(2 * n + 1);
   }
-  add_degree(kHighestDegree);
   if (terms.size() > most) terms.resize(most);
   std::ranges::stable_sort(terms, {}, &SmoothTerm::family);
   std::ranges::move(terms, std::back_inserter(smooth.terms));
