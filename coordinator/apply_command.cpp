@@ -1,15 +1,31 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
+#include "data/data_set.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
+#include "languages/program.hpp"
 #include "library/conversion.hpp"
+#include "programs/command_model.hpp"
+#include "programs/correct_program.hpp"
 #include "programs/summary.hpp"
 #include "yaml/files.hpp"
 

@@ -1,22 +1,39 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
 #include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <vector>
 
+#include "calibration/job.hpp"
+#include "config/input_files.hpp"
 #include "config/job_file.hpp"
-#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
 #include "coordinator/fleet.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "dds/dds_transport.hpp"
+#include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
+#include "protocol/messages.hpp"
+#include "report/make_report.hpp"
+#include "report/report.hpp"
+#include "scheduling/evolution_run.hpp"
+#include "scheduling/run_journal.hpp"
+#include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
+#include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <csignal>
 #include <cstdio>
 
@@ -11,7 +10,10 @@
 #include "data_check/check_data.hpp"
 #include "html/page.hpp"
 #include "prediction/measurement.hpp"
+#include "report/evaluation.hpp"
+#include "report/history.hpp"
 #include "report/make_report.hpp"
+#include "report/report.hpp"
 #include "terminal/report_text.hpp"
 
 namespace demecal {

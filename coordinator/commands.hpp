@@ -2,11 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-
 #include <atomic>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"

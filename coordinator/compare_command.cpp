@@ -1,25 +1,44 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "baselines/baseline.hpp"
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/job_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/fleet.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "expression/simplify.hpp"
+#include "expression/tree.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "html/page.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
+#include "primitives/primitive.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
+#include "report/make_report.hpp"
+#include "report/report.hpp"
+#include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
+#include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

@@ -1,16 +1,24 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
+#include <array>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "config/data_set_file.hpp"
-#include "config/preparation_file.hpp"
-#include "config/scenario_file.hpp"
+#include "config/input_files.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
+#include "preparation/prepared.hpp"
 #include "preparation/results.hpp"
+#include "report/evaluation.hpp"
+#include "simulation/scenario.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "terminal/report_text.hpp"
 #include "yaml/files.hpp"

@@ -1,22 +1,42 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "data_check/finding.hpp"
+#include "diagnosis/outcome.hpp"
+#include "effects/arm_state.hpp"
+#include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
+#include "report/make_report.hpp"
+#include "report/report.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/workflows.hpp"
 

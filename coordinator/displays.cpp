@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <utility>
 
+#include "effects/effect.hpp"
+#include "evolution/island.hpp"
 #include "report/make_report.hpp"
+#include "report/report.hpp"
 #include "terminal/monitor_page.hpp"
 
 namespace demecal {

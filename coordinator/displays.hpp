@@ -3,13 +3,21 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "diagnosis/outcome.hpp"
+#include "evolution/archipelago.hpp"
+#include "fitness/parameters.hpp"
 #include "monitor/watched.hpp"
+#include "protocol/messages.hpp"
+#include "scheduling/evolution_run.hpp"
+#include "scheduling/run_state.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal {

@@ -2,15 +2,23 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <exception>
 #include <filesystem>
+#include <optional>
 #include <set>
+#include <system_error>
+#include <utility>
+#include <variant>
 
+#include "effects/effect.hpp"
 #include "errors/input_error.hpp"
+#include "evolution/archipelago.hpp"
 #include "monitor/watched.hpp"
 #include "report/make_report.hpp"
+#include "report/report.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

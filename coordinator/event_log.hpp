@@ -10,8 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "diagnosis/outcome.hpp"
 #include "monitor/events.hpp"
+#include "protocol/messages.hpp"
+#include "scheduling/run_state.hpp"
 #include "transport/transport.hpp"
 #include "workflows/workflows.hpp"
 

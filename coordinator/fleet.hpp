@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sys/types.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
@@ -11,7 +10,10 @@
 #include <vector>
 
 #include "dds/dds_transport.hpp"
+#include "protocol/messages.hpp"
+#include "scheduling/fleet.hpp"
 #include "scheduling/island_evolver.hpp"
+#include "transport/transport.hpp"
 
 namespace demecal {
 

@@ -1,6 +1,7 @@
 // demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include "coordinator/commands.hpp"

@@ -1,16 +1,31 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
+#include "config/input_files.hpp"
 #include "config/model_file.hpp"
-#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
+#include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_arm.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "report/evaluation.hpp"
+#include "report/report.hpp"
+#include "symbolic/algebra.hpp"
+#include "symbolic/code.hpp"
+#include "symbolic/printing.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"

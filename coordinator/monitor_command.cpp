@@ -1,22 +1,30 @@
 #include <fmt/format.h>
 #include <unistd.h>
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
 #include "coordinator/fleet.hpp"
+#include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
+#include "monitor/events.hpp"
 #include "monitor/watched.hpp"
+#include "protocol/messages.hpp"
+#include "transport/transport.hpp"
 
 namespace demecal {
 namespace {

@@ -1,22 +1,31 @@
 #include "coordinator/result_folder.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <system_error>
+#include <utility>
 
-#include <fmt/format.h>
-
+#include "calibration/calibration.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/loop_passes.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data_check/check_data.hpp"
+#include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
 #include "html/page.hpp"
+#include "protocol/messages.hpp"
 #include "report/history.hpp"
+#include "report/make_report.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "calibration/job.hpp"
+#include "data/data_set.hpp"
+#include "report/report.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal {

@@ -1,16 +1,26 @@
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "calibration/job.hpp"
 #include "config/study_grid.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/fleet.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
+#include "evolution/building_blocks.hpp"
+#include "report/evaluation.hpp"
+#include "report/study.hpp"
+#include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/workflows.hpp"
 

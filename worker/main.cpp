@@ -6,15 +6,23 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
 #include "hosting/worker.hpp"
 #include "manual/manual.hpp"
 #include "protocol/message_bytes.hpp"
+#include "protocol/messages.hpp"
+#include "transport/transport.hpp"
 
 namespace {
 

@@ -1,11 +1,17 @@
 #include "baselines/baseline.hpp"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <sstream>
+#include <utility>
 
 #include "baselines/regression.hpp"
+#include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline baselines {

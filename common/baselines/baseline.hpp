@@ -1,12 +1,18 @@
 // Methods of the literature that a calibration is compared with, each fitted to the same poses.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline baselines {
 

@@ -1,10 +1,24 @@
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "baselines/baseline.hpp"
 #include "baselines/regression.hpp"
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline baselines {
 namespace {

@@ -1,9 +1,12 @@
 #include "baselines/regression.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <array>
 #include <limits>
 #include <map>
+#include <string>
+#include <utility>
 
 namespace demecal::inline baselines {
 namespace {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "baselines/baseline.hpp"
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline baselines {
 

@@ -1,10 +1,23 @@
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
+#include <vector>
 
+#include "baselines/baseline.hpp"
 #include "baselines/regression.hpp"
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
+#include "fitting/parameter_space.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline baselines {
 namespace {

@@ -1,7 +1,9 @@
 // A calibration from measured poses to a model: what is done before evolution, and what is done with its results.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,8 +11,12 @@
 #include "calibration/joint_targets.hpp"
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
+#include "data/data_set.hpp"
+#include "explanations/error_budget.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {
 
@@ -75,6 +81,7 @@ struct Calibration {
   double index_before_mm2 = 0.0;             ///< performance index over the calibration poses: declared model
   double index_after_mm2 = 0.0;              ///< the same of `robot`
   std::optional<UnseenValidation> unseen;    ///< where validation poses had a part in the last fit
+  ErrorBudget budget{};                      ///< of the effects that the closed loop found
 };
 
 /// Chooses among the evolved candidates on the validation poses (calibration poses where there are none), refits the

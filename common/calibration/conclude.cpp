@@ -1,10 +1,26 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "calibration/joint_targets.hpp"
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/selection.hpp"
+#include "calibration/training.hpp"
 #include "expression/shared_function.hpp"
 
 namespace demecal::inline calibration {

@@ -1,6 +1,8 @@
 // A calibration job: what the user asks for.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>

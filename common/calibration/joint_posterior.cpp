@@ -1,9 +1,23 @@
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "calibration/joint_targets.hpp"
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "fitting/observation.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/inverse.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {

@@ -1,10 +1,13 @@
 #include "calibration/joint_targets.hpp"
 
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "effects/arm_state.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {

@@ -1,12 +1,18 @@
 // What each joint should learn: its error at every pose, estimated from what was measured.
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "calibration/job.hpp"
+#include "data/data_set.hpp"
 #include "fitting/observation.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 #include "prediction/corrected_robot.hpp"
 

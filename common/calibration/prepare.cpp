@@ -1,8 +1,21 @@
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "calibration/joint_targets.hpp"
+#include "calibration/training.hpp"
+#include "data/data_set.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/observation.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline calibration {

@@ -1,14 +1,21 @@
 #include "calibration/selection.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "calibration/training.hpp"
+#include "effects/arm_state.hpp"
 #include "evolution/model_archive.hpp"
 #include "expression/bound.hpp"
+#include "fitness/fitness.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {
 namespace {

@@ -1,12 +1,17 @@
 // Which of the evolved corrections the model keeps: those that reduce the error of poses that had no part in evolution.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "calibration/training.hpp"
+#include "data/data_set.hpp"
 #include "evolution/population.hpp"
+#include "expression/tree.hpp"
 #include "fitness/parameters.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <ranges>
+#include <utility>
 
 #include "evolution/building_blocks.hpp"
 #include "evolution/model_archive.hpp"
+#include "evolution/population.hpp"
 #include "expression/simplify.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 
 namespace demecal::inline calibration {
 namespace {

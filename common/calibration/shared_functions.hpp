@@ -8,7 +8,10 @@
 
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
+#include "calibration/selection.hpp"
+#include "calibration/training.hpp"
 #include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {

@@ -1,11 +1,15 @@
 #include "calibration/training.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "errors/check.hpp"
 #include "expression/simplify.hpp"
+#include "primitives/primitive.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline calibration {

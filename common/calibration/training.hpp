@@ -7,7 +7,11 @@
 
 #include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
+#include "expression/bound.hpp"
+#include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {

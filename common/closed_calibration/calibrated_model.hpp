@@ -2,6 +2,7 @@
 // its predictions err.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,8 +10,14 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
 #include "fitting/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline closed_calibration {
 

@@ -1,11 +1,26 @@
 #include "closed_calibration/closed_calibration.hpp"
 
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/selection.hpp"
+#include "calibration/training.hpp"
 #include "closed_calibration/closing.hpp"
 #include "closed_calibration/loop_passes.hpp"
 #include "diagnosis/candidates.hpp"
 #include "distal/learning.hpp"
+#include "distal/steps.hpp"
+#include "effects/effect.hpp"
+#include "expression/shared_function.hpp"
+#include "fitness/parameters.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "formula_search/formula_search.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline closed_calibration {
 namespace {
@@ -144,10 +159,14 @@ void LoopPasses::refit_with_validation() {
   ends.after =
       adopted_ ? *adopted_ : with_fixed_corrections(data_, declared, preparation_.declared, closed_.calibration.robot);
   ends.before = added_any(closed_.loop) ? before_ : ends.after;
-  std::optional<LastFit> last = last_fit(data_, declared, std::move(ends));
+  std::optional<LastFit> last = last_fit(data_, declared, ends);
+  ErrorBudget budget = error_budget_of(data_, declared, ends.after, last ? last->ends.after : ends.after, job_.seed);
+  if (last) {
+    closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);
+    closed_.calibration.unseen = last->unseen;
+  }
+  closed_.calibration.budget = std::move(budget);
   if (!last) return;
-  closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);
-  closed_.calibration.unseen = last->unseen;
   closed_.before = std::move(last->ends.before.robot);
   update_rounds(closed_.loop, closed_.calibration.robot, data_.robot);
 }

@@ -1,9 +1,15 @@
 // A calibration with the closed loop around it: effects found, corrections evolved anew beside them, and again.
 #pragma once
 
+#include <optional>
+
 #include "calibration/calibration.hpp"
 #include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "data/data_set.hpp"
 #include "diagnosis/loop.hpp"
+#include "diagnosis/outcome.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline closed_calibration {
 

@@ -1,12 +1,23 @@
 #include "closed_calibration/closing.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "calibration/joint_targets.hpp"
 #include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/loop.hpp"
+#include "fitting/parameter_space.hpp"
+#include "fitting/posterior.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/measurement.hpp"
+#include "random/random_purpose.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline closed_calibration {
 namespace {
@@ -113,6 +124,14 @@ DiagnosedModel with_fixed_corrections(const DataSet& data, const DeclaredModel& 
   without_terms.joint_corrections = false;
   const DiagnosisProblem problem{data, without_terms, poses_of(data, PoseSet::calibration), {}};
   return diagnosed_model(problem, loop_start(data, fit, robot));
+}
+
+ErrorBudget error_budget_of(const DataSet& data, const DeclaredModel& declared, const DiagnosedModel& model,
+                            const DiagnosedModel& last, std::uint64_t seed) {
+  const DiagnosisProblem problem{data, declared, poses_of(data, PoseSet::calibration),
+                                 poses_of(data, PoseSet::validation)};
+  return error_budget(problem, model, poses_of_last_fit(data), last,
+                      RandomStream{seed, number_of(RandomPurpose::cause_cost)});
 }
 
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends) {

@@ -2,8 +2,18 @@
 // last fit, when all choices are made.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "data/data_set.hpp"
 #include "diagnosis/loop.hpp"
+#include "explanations/error_budget.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline closed_calibration {
 
@@ -43,6 +53,10 @@ struct LastFit {
   LoopModels ends;          ///< fitted once more as final_fit() says, negligible terms dropped
   UnseenValidation unseen;  ///< of the ends before that
 };
+
+/// The causes behind the effects of `model`, which the calibration poses made; `last` is the same after the last fit.
+ErrorBudget error_budget_of(const DataSet& data, const DeclaredModel& declared, const DiagnosedModel& model,
+                            const DiagnosedModel& last, std::uint64_t seed);
 
 /// Nothing where it would change neither end.
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends);

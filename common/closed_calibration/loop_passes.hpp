@@ -2,12 +2,15 @@
 // whether a model with evolved formulas takes the place of one without.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "calibration/job.hpp"
 #include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline closed_calibration {
 

@@ -1,13 +1,26 @@
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
 #include "errors/input_error.hpp"
 #include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "fitness/parameters.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "primitives/primitive.hpp"
 #include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {
 namespace {

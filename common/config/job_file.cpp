@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "effects/effect.hpp"
+#include "evolution/archipelago.hpp"
 #include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 

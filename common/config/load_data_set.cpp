@@ -1,9 +1,21 @@
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "config/data_set_file.hpp"
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
+#include "data/columns.hpp"
+#include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"

@@ -1,12 +1,30 @@
+#include <Eigen/Core>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
+#include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "expression/bound.hpp"
 #include "expression/text.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/posterior.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 
 namespace demecal::inline config {

@@ -1,8 +1,20 @@
 #include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "config/model_file.hpp"
+#include "data/data_set.hpp"
+#include "data/text.hpp"
+#include "effects/effect.hpp"
 #include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 

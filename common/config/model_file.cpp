@@ -1,16 +1,32 @@
 #include "config/model_file.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
 #include <sstream>
 
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
 #include "calibration/shared_functions.hpp"
+#include "config/input_files.hpp"
 #include "config/job_file.hpp"
-#include "config/robot_file.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "expression/bound.hpp"
 #include "expression/shared_function.hpp"
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
 #include "effects/effect.hpp"
 #include "yaml/yaml_node.hpp"
 

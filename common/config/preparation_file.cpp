@@ -1,11 +1,25 @@
 #include "config/preparation_file.hpp"
 
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <memory>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
+#include "data/csv.hpp"
+#include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
+#include "languages/program.hpp"
+#include "preparation/named_points.hpp"
 #include "preparation/readings.hpp"
+#include "preparation/taught_points.hpp"
+#include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {

@@ -1,7 +1,23 @@
-#include "config/scenario_file.hpp"
 
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "config/input_files.hpp"
+#include "data/data_set.hpp"
 #include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "simulation/scenario.hpp"
+#include "simulation/truth.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {

@@ -1,14 +1,23 @@
 #include "config/robot_file.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <numbers>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
+#include "config/input_files.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "symbolic/parse_expression.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 

@@ -1,10 +1,22 @@
 #include "config/scenario_file.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
+#include "data/data_set.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "simulation/truth.hpp"
+#include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {

@@ -1,6 +1,7 @@
 // The columns of a table: which hold which quantities, in which units, and their values.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>

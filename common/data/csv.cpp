@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <istream>
 #include <ostream>
+#include <utility>
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"

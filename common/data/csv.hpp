@@ -1,6 +1,7 @@
 // Tables as comma-separated text: a strict reader that remembers lines, and a writer.
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
 #include <optional>
 #include <string>

@@ -1,6 +1,7 @@
 // What was measured: the poses of one robot, the points they were measured at, where they came from, and their sets.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <functional>

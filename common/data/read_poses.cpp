@@ -1,9 +1,13 @@
 #include "data/read_poses.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "data/columns.hpp"
 #include "data/text.hpp"

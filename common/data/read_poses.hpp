@@ -1,6 +1,7 @@
 // From a table of text to measured poses, checked against the robot they were measured on.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "data/columns.hpp"
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline data {
 

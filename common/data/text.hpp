@@ -1,6 +1,7 @@
 // Numbers and names as text: read strictly, written with as many digits as they need, compared as people mean them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>

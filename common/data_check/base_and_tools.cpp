@@ -1,13 +1,26 @@
 #include <fmt/format.h>
-
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "data_check/explanations.hpp"
+#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
+#include "data_check/trial_fit.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 

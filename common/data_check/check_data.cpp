@@ -1,14 +1,25 @@
 #include "data_check/check_data.hpp"
 
 #include <fmt/format.h>
-
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <map>
+#include <optional>
+#include <ranges>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "data/read_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
+#include "data_check/trial_fit.hpp"
+#include "effects/arm_state.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 

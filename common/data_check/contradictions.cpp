@@ -1,9 +1,19 @@
 #include <fmt/format.h>
-
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "data_check/explanations.hpp"
+#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
+#include "data_check/trial_fit.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 

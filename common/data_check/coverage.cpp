@@ -1,14 +1,22 @@
 #include <fmt/format.h>
-
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {

@@ -1,11 +1,13 @@
 #include "data_check/explanations.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"

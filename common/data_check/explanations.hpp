@@ -2,7 +2,9 @@
 // rows, or an instrument that moved.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline data_check {
 

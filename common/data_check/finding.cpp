@@ -1,9 +1,9 @@
 #include "data_check/finding.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"

@@ -1,10 +1,19 @@
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "data_check/explanations.hpp"
+#include "data_check/trial_fit.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
 

@@ -1,11 +1,19 @@
 #include <fmt/format.h>
-
+#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "data_check/explanations.hpp"
+#include "data_check/trial_fit.hpp"
 #include "fitting/base_search.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"

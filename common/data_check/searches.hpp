@@ -1,6 +1,7 @@
 // The searches that a check runs one after another; each returns what it finds.
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <map>
 #include <string>

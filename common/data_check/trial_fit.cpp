@@ -1,12 +1,15 @@
 #include "data_check/trial_fit.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"

@@ -1,7 +1,9 @@
 // A quick fit of base, tools and links to measured points that a few wrong rows do not move, to try explanations with.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 #include "kinematics/chain.hpp"

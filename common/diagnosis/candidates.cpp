@@ -1,11 +1,17 @@
 #include "diagnosis/candidates.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
+#include <utility>
+
+#include "expression/bound.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -1,11 +1,14 @@
 // The effects that are tried in every round: what the data can show, and decoys that cannot be true.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "diagnosis/outcome.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/declared_model.hpp"
 #include "random/random_stream.hpp"

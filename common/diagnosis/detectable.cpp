@@ -1,11 +1,17 @@
 #include "diagnosis/detectable.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 #include "diagnosis/judgement.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/effect.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -1,12 +1,16 @@
 // How small an effect these poses could still have shown.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 

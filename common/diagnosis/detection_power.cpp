@@ -1,13 +1,26 @@
 #include "diagnosis/detectable.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/outcome.hpp"
+#include "diagnosis/scan.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/effect.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "residuals/projection.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

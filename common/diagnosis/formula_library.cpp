@@ -1,7 +1,18 @@
 #include "diagnosis/candidates.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
+#include "expression/bound.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -1,10 +1,13 @@
 #include "diagnosis/group.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
+#include "data/data_set.hpp"
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/scan.hpp"
 #include "effects/law_terms.hpp"

@@ -1,15 +1,25 @@
 // One group of rounds: effects added one after another to one linearized model, until noise alone could do as much.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
+#include "effects/effect.hpp"
+#include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline diagnosis {
 

@@ -1,13 +1,18 @@
 #include "diagnosis/judgement.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 

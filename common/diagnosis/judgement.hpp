@@ -1,13 +1,20 @@
 // Whether a candidate is real: on validation poses, under resampling, and by how far it would move the arm.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
+#include "fitting/observation.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline diagnosis {
 

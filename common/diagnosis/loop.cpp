@@ -1,14 +1,28 @@
 #include "diagnosis/loop.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/group.hpp"
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
+#include "fitting/observation.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
 #include "residuals/noise_estimation.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline diagnosis {
@@ -41,7 +55,6 @@ class ClosedLoop {
   StopReason reason_to_stop(const GroupOutcome& last) const;
   void describe_added();
   void find_next_measurements();
-  void exclude_own_forms();
   void finish(const Linearization& linearization);
   RandomStream random(RandomPurpose purpose) const {
     return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
@@ -257,24 +270,13 @@ void ClosedLoop::find_next_measurements() {
   }
 }
 
-/// Other forms of an effect are no rivals of it.
-void ClosedLoop::exclude_own_forms() {
-  for (Round& round : outcome_.rounds) {
-    std::erase_if(round.rivals, [&](const Rival& rival) {
-      const Effect &own = round.effect, &other = rival.effect;
-      const bool named = !is_symbolic(own) && own.kind == other.kind && own.joint == other.joint;
-      return other.same_law_as(own) || (named && other.settings == own.settings);
-    });
-  }
-}
-
 void ClosedLoop::finish(const Linearization& linearization) {
   outcome_.p_structure_left = p_structure_;
   outcome_.noise = model_.noise;
   outcome_.noise_estimated = model_.noise_estimated;
   outcome_.independent_m = model_.scales[kPosition];
   describe_added();
-  exclude_own_forms();
+  exclude_own_forms(outcome_.rounds);
   find_next_measurements();
   outcome_.not_found = not_found_beyond(
       {problem_.data.robot, model_, linearization, candidates_, columns_, outcome_.rounds}, null_maxima_,

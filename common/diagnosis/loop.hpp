@@ -1,13 +1,17 @@
 // The closed loop: residual, structure, effect, gain, again, until nothing is left or nothing is gained.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline diagnosis {

@@ -1,7 +1,9 @@
 // What the closed loop found, round by round, with the number behind every step.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,13 +1,31 @@
 #include "diagnosis/loop.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/outcome.hpp"
+#include "effects/effect.hpp"
+#include "fitting/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

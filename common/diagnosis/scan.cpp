@@ -1,10 +1,15 @@
 #include "diagnosis/scan.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "effects/effect.hpp"
+#include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
 #include "residuals/noise.hpp"
 
 namespace demecal::inline diagnosis {
@@ -159,6 +164,16 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
   std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cosine > b.cosine; });
   if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
   return rivals;
+}
+
+void exclude_own_forms(std::vector<Round>& rounds) {
+  for (Round& round : rounds) {
+    std::erase_if(round.rivals, [&](const Rival& rival) {
+      const Effect &own = round.effect, &other = rival.effect;
+      const bool named = !is_symbolic(own) && own.kind == other.kind && own.joint == other.joint;
+      return other.same_law_as(own) || (named && other.settings == own.settings);
+    });
+  }
 }
 
 }  // namespace demecal::inline diagnosis

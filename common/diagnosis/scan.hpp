@@ -2,11 +2,14 @@
 // same.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "next_measurement/next_measurement.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
@@ -71,5 +74,8 @@ class Scan {
 std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
                              const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
                              const ResidualField& field);
+
+/// Takes other forms of an effect, which are no rivals of it, out of its round.
+void exclude_own_forms(std::vector<Round>& rounds);
 
 }  // namespace demecal::inline diagnosis

@@ -1,11 +1,17 @@
 #include "distal/index.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "calibration/calibration.hpp"
+#include "calibration/training.hpp"
+#include "effects/arm_state.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
 

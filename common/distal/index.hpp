@@ -3,11 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline distal {

@@ -9,7 +9,12 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "calibration/training.hpp"
+#include "data/data_set.hpp"
+#include "distal/index.hpp"
 #include "distal/steps.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal::inline distal {
 

@@ -1,9 +1,26 @@
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "calibration/selection.hpp"
 #include "calibration/shared_functions.hpp"
+#include "calibration/training.hpp"
+#include "distal/index.hpp"
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
+#include "evolution/population.hpp"
+#include "expression/shared_function.hpp"
+#include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
+#include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline distal {
 namespace {

@@ -1,12 +1,34 @@
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "calibration/joint_targets.hpp"
+#include "calibration/selection.hpp"
+#include "calibration/training.hpp"
+#include "data/data_set.hpp"
+#include "distal/index.hpp"
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
 #include "evolution/breeding.hpp"
 #include "evolution/population.hpp"
 #include "evolution/tree_generation.hpp"
+#include "expression/node_store.hpp"
+#include "expression/tree.hpp"
+#include "fitness/parameters.hpp"
+#include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal::inline distal {
 namespace {

@@ -1,13 +1,20 @@
 #include "distal/steps.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
 #include "calibration/training.hpp"
 #include "distal/index.hpp"
+#include "evolution/population.hpp"
+#include "expression/evaluate.hpp"
+#include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
+#include "kinematics/chain.hpp"
+#include "primitives/columns.hpp"
 
 namespace demecal::inline distal {
 namespace {

@@ -8,7 +8,10 @@
 
 #include "calibration/job.hpp"
 #include "calibration/selection.hpp"
+#include "calibration/training.hpp"
 #include "distal/index.hpp"
+#include "expression/shared_function.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline distal {
 

@@ -1,5 +1,9 @@
 #include "effects/arm_state.hpp"
 
+#include <array>
+#include <cstddef>
+#include <iterator>
+
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 

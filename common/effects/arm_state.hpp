@@ -2,11 +2,14 @@
 // each of them.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 

@@ -1,7 +1,12 @@
 #include "effects/catalogue.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <ranges>
+#include <string>
+#include <vector>
 
+#include "effects/effect.hpp"
 #include "errors/check.hpp"
 
 namespace demecal::inline effects {
@@ -32,6 +37,7 @@ constexpr int kLast = 99;
 
 struct CatalogueLine {
   const EffectLaw* law;
+  CauseGroup group;
   int rarity;              ///< place among the causes, the most common first
   int place_among_limits;  ///< see Cause
   std::string_view words;
@@ -53,24 +59,24 @@ struct CatalogueLine {
 // at worst.
 const std::vector<CatalogueLine>& catalogue_lines() {
   static const std::vector<CatalogueLine> lines{
-      {&registration_law(), 2, kLast, "the base's place", 0.1, 0.1},
-      {&tool_law(), 3, kLast, "the tool point", 0.1, 0.1},
-      {&joint_offset_law(), 1, kLast, "the zero", 0.1, 0.02},
-      {&geometry_law(), 0, kLast, "link geometry", 0.02, 0.02},
-      {&gain_law(), 8, kLast, "the gain", 0.02, 0.02},
-      {&eccentricity_law(), 4, 2, "eccentricity of the gear or encoder", 0.005, 0.005},
-      {&gear_harmonic_law(), 5, 5, "running error of the gear", 0.005, 0.005},
-      {&compliance_law(), 7, 1, "compliance", 0.02, 0.02},
-      {&link_bending_law(), 10, 7, "bending of the link", 0.02, 0.02},
-      {&coupling_law(), 11, 4, "coupling to another joint", 0.02, 0.02},
-      {&backlash_law(), 6, 0, "backlash", 0.005, 0.005},
-      {&hysteresis_law(), 9, 3, "friction hysteresis", 0.005, 0.005},
-      {&axis_wobble_law(), 12, 6, "wobble of the axis", 0.005, 0.005},
-      {&thermal_offset_law(), 13, 8, "the zero's shift with temperature", 0.005, 0.005},
-      {&thermal_length_law(), 14, kLast, "thermal growth", 0.005, 0.005},
-      {&drift_law(), 15, 9, "drift of base or instrument", 0.005, 0.005},
-      {&sensor_scale_law(), 17, kLast, "instrument scale", 0.005, 0.005},
-      {&symbolic_law(), 16, kLast, "a formula", 0.02, 0.02}};
+      {&registration_law(), CauseGroup::instrument, 2, kLast, "the base's place", 0.1, 0.1},
+      {&tool_law(), CauseGroup::link_geometry, 3, kLast, "the tool point", 0.1, 0.1},
+      {&joint_offset_law(), CauseGroup::link_geometry, 1, kLast, "the zero", 0.1, 0.02},
+      {&geometry_law(), CauseGroup::link_geometry, 0, kLast, "link geometry", 0.02, 0.02},
+      {&gain_law(), CauseGroup::transmission, 8, kLast, "the gain", 0.02, 0.02},
+      {&eccentricity_law(), CauseGroup::transmission, 4, 2, "eccentricity of the gear or encoder", 0.005, 0.005},
+      {&gear_harmonic_law(), CauseGroup::transmission, 5, 5, "running error of the gear", 0.005, 0.005},
+      {&compliance_law(), CauseGroup::elasticity, 7, 1, "compliance", 0.02, 0.02},
+      {&link_bending_law(), CauseGroup::elasticity, 10, 7, "bending of the link", 0.02, 0.02},
+      {&coupling_law(), CauseGroup::transmission, 11, 4, "coupling to another joint", 0.02, 0.02},
+      {&backlash_law(), CauseGroup::lost_motion, 6, 0, "backlash", 0.005, 0.005},
+      {&hysteresis_law(), CauseGroup::lost_motion, 9, 3, "friction hysteresis", 0.005, 0.005},
+      {&axis_wobble_law(), CauseGroup::bearing, 12, 6, "wobble of the axis", 0.005, 0.005},
+      {&thermal_offset_law(), CauseGroup::heat, 13, 8, "the zero's shift with temperature", 0.005, 0.005},
+      {&thermal_length_law(), CauseGroup::heat, 14, kLast, "thermal growth", 0.005, 0.005},
+      {&drift_law(), CauseGroup::instrument, 15, 9, "drift of base or instrument", 0.005, 0.005},
+      {&sensor_scale_law(), CauseGroup::instrument, 17, kLast, "instrument scale", 0.005, 0.005},
+      {&symbolic_law(), CauseGroup::formula, 16, kLast, "a formula", 0.02, 0.02}};
   return lines;
 }
 
@@ -79,8 +85,8 @@ std::vector<Cause> causes_by_rarity() {
   std::ranges::sort(lines, {}, &CatalogueLine::rarity);
   std::vector<Cause> causes;
   for (const CatalogueLine& line : lines) {
-    causes.push_back(
-        {line.law->kind(), line.words, line.largest_turn_rad, line.largest_shift_m, line.place_among_limits});
+    causes.push_back({line.law->kind(), line.words, line.largest_turn_rad, line.largest_shift_m, line.group,
+                      line.place_among_limits});
   }
   return causes;
 }

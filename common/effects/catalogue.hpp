@@ -1,6 +1,7 @@
 // The causes of an arm's errors: what people call them, how common they are, and how far they move an arm at most.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -8,11 +9,15 @@
 
 namespace demecal::inline effects {
 
+/// What engineers count as one cause, however many effects it takes to describe it; of each joint, or of the whole arm.
+enum class CauseGroup { transmission, lost_motion, elasticity, bearing, link_geometry, heat, instrument, formula };
+
 struct Cause {
   std::string_view kind;          ///< a word of the catalogue
   std::string_view words;         ///< for people, "of joint 2" may follow: "link geometry"
   double largest_turn_rad = 0.0;  ///< of a joint, link or mounting, anywhere among the poses; more is no arm's error
   double largest_shift_m = 0.0;
+  CauseGroup group = CauseGroup::formula;
   int place_among_limits = 0;  ///< in lists of what was not found: what an engineer asks for first
 };
 

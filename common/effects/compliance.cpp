@@ -1,11 +1,23 @@
 // Joints that give way where gravity pushes them.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 #include "effects/weight_parts.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline effects {

@@ -1,7 +1,9 @@
 #include "effects/effect.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "effects/catalogue.hpp"
 #include "errors/check.hpp"

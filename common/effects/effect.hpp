@@ -1,16 +1,19 @@
 // An effect that a model may lack: small motions of the arm, linear in a few coefficients, and what people call it.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
 #include "expression/bound.hpp"
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 

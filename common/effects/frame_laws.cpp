@@ -1,9 +1,18 @@
 // Where base, tool and instrument stand: registration, tool, drift, and the instrument's scale.
+#include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 namespace {

@@ -1,10 +1,18 @@
 // What follows from the side that a joint came from: backlash and hysteresis.
 #include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 #include "effects/weight_parts.hpp"
+#include "kinematics/chain.hpp"
+#include "symbolic/algebra.hpp"
 
 namespace demecal::inline effects {
 namespace {

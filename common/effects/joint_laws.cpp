@@ -1,9 +1,19 @@
 // What is wrong with a joint by its own drive or by another's: its zero, its gain, and coupling.
+#include <Eigen/Core>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
+#include "kinematics/chain.hpp"
+#include "symbolic/algebra.hpp"
 
 namespace demecal::inline effects {
 namespace {

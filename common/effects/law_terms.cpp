@@ -1,5 +1,7 @@
 #include "effects/law_terms.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,10 +1,17 @@
 // What laws are written with: motions of joints, links and places, their labels and equations, and amounts for people.
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 

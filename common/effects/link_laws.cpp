@@ -1,11 +1,21 @@
 // Links that are not as drawn, and that bend under weight.
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 #include "effects/weight_parts.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 namespace {

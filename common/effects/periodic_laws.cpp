@@ -1,9 +1,21 @@
 // What comes back with every turn of a joint: eccentricity, gear harmonics, and the wobble of its axis.
+#include <Eigen/Core>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
+#include "kinematics/chain.hpp"
+#include "symbolic/algebra.hpp"
 
 namespace demecal::inline effects {
 namespace {

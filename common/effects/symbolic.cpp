@@ -1,12 +1,25 @@
 // What is wrong with a joint outside the catalogue: a formula that evolution found.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
 #include "effects/symbolic_state.hpp"
 #include "errors/check.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
+#include "primitives/primitive.hpp"
+#include "symbolic/algebra.hpp"
 
 namespace demecal::inline effects {
 namespace {

@@ -2,11 +2,18 @@
 // their motions in these.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "effects/weight_parts.hpp"
 #include "kinematics/chain.hpp"
+#include "symbolic/algebra.hpp"
 #include "symbolic/parse_expression.hpp"
 
 namespace demecal::inline effects {

@@ -1,8 +1,18 @@
 // What grows and shifts as the arm warms up: links and joints' zeros.
+#include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 namespace {

@@ -1,11 +1,17 @@
 #include "effects/weight_parts.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <numbers>
 
 #include "effects/law_terms.hpp"
+#include "expression/bound.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
 namespace {

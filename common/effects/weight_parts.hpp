@@ -1,12 +1,15 @@
 // The unknown weights of an arm, part by part, and where an arm is likely to stand: what a law could show of itself.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 
 namespace demecal::inline effects {

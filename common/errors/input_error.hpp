@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace demecal::inline errors {
 
@@ -16,13 +17,22 @@ class InputError : public std::runtime_error {
     std::size_t line = 0;  ///< from 1; 0 where the fault belongs to no line
   };
 
-  InputError(Where where, const std::string& value, const std::string& rule);
+  InputError(Where where, const std::string& value, const std::string& rule)
+      : std::runtime_error(sentence(where, value, rule)), where_(std::move(where)), value_(value), rule_(rule) {}
 
   const Where& where() const { return where_; }
   const std::string& value() const { return value_; }
   const std::string& rule() const { return rule_; }
 
  private:
+  static std::string sentence(const Where& where, const std::string& value, const std::string& rule) {
+    std::string text = where.file;
+    if (where.line > 0) text += (text.empty() ? "line " : ":") + std::to_string(where.line);
+    if (!text.empty()) text += ": ";
+    if (!value.empty()) text += "'" + value + "': ";
+    return text + rule;
+  }
+
   Where where_;
   std::string value_;
   std::string rule_;

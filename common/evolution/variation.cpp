@@ -1,6 +1,7 @@
 #include "evolution/variation.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "errors/check.hpp"
 

@@ -1,14 +1,22 @@
 #include "fitting/base_search.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
 
+#include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/parameter_space.hpp"
+#include "kinematics/forward.hpp"
 
 namespace demecal::inline fitting {
 namespace {

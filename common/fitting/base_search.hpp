@@ -1,12 +1,17 @@
 // Finds where the base stands in the instrument's frame, and how the tool is held, from anywhere.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
 

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "errors/check.hpp"
 #include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
 namespace {

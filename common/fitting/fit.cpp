@@ -1,14 +1,19 @@
 #include "fitting/fit.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "effects/effect.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/base_search.hpp"
 #include "fitting/identifiable.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/observation.hpp"
+#include "fitting/parameter_space.hpp"
 #include "fitting/row_sums.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {
 namespace {

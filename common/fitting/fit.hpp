@@ -1,11 +1,13 @@
 // Identifies base, tool, joint offsets and geometry from measured poses by least squares.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "fitting/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"

@@ -1,11 +1,14 @@
 #include "fitting/identifiable.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "errors/check.hpp"
 

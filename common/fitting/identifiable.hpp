@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 
 namespace demecal::inline fitting {

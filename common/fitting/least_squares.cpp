@@ -1,11 +1,14 @@
 #include "fitting/least_squares.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
-
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
+
+#include "fitting/declared_model.hpp"
 #include "fitting/row_sums.hpp"
 #include "random/distributions.hpp"
 

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
 #include "fitting/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
 /// Independent normal beliefs about the parameters of a space, in changes from its reference.

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "effects/arm_state.hpp"
+#include "prediction/measurement.hpp"
+
 namespace demecal::inline fitting {
 namespace {
 

@@ -3,10 +3,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "fitting/parameter_space.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {

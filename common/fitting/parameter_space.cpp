@@ -1,9 +1,15 @@
 #include "fitting/parameter_space.hpp"
 
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/forward.hpp"
 
 namespace demecal::inline fitting {
 namespace {

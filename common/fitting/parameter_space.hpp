@@ -1,12 +1,14 @@
 // The free numbers of a model as one vector: the robot at any value of it, and how its tool moves with each number.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "fitting/declared_model.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {

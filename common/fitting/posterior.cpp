@@ -1,13 +1,19 @@
 #include "fitting/posterior.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "errors/check.hpp"
+#include "fitting/parameter_space.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 

@@ -2,11 +2,15 @@
 // its errors.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 

@@ -1,6 +1,8 @@
 #include "fitting/row_sums.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/QR>
+#include <algorithm>
 
 namespace demecal::inline fitting {
 namespace {

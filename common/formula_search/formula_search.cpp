@@ -2,11 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
 
+#include "calibration/training.hpp"
+#include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
+#include "expression/bound.hpp"
 #include "formula_search/rewrite.hpp"
+#include "kinematics/chain.hpp"
+#include "primitives/primitive.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline formula_search {
 namespace {

@@ -2,6 +2,8 @@
 // finds in permuted residuals.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,8 +11,10 @@
 #include "calibration/evolver.hpp"
 #include "diagnosis/candidates.hpp"
 #include "evolution/population.hpp"
+#include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
 #include "formula_search/misfit.hpp"
+#include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline formula_search {

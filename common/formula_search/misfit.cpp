@@ -1,8 +1,16 @@
 #include "formula_search/misfit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <span>
+#include <utility>
+
+#include "primitives/columns.hpp"
+#include "primitives/primitive.hpp"
+#include "residuals/projection.hpp"
 
 namespace demecal::inline formula_search {
 namespace {

@@ -2,9 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
+#include "expression/evaluate.hpp"
+#include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
 #include "residuals/diagnosed_model.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline formula_search {
 

@@ -1,11 +1,20 @@
 #include "formula_search/rewrite.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <ranges>
+#include <utility>
+#include <vector>
 
 #include "fitting/levenberg_marquardt.hpp"
+#include "primitives/primitive.hpp"
 
 namespace demecal::inline formula_search {
 namespace {

@@ -2,6 +2,7 @@
 // with constants at their least-squares values, round where the data allow it.
 #pragma once
 
+#include "expression/tree.hpp"
 #include "formula_search/misfit.hpp"
 
 namespace demecal::inline formula_search {

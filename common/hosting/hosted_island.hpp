@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "evolution/island.hpp"
+#include "evolution/population.hpp"
+#include "fitness/fitness.hpp"
 #include "hosting/migrants.hpp"
 #include "protocol/messages.hpp"
 

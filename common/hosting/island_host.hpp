@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -13,11 +14,15 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
 #include "hosting/hosted_island.hpp"
 #include "hosting/migrants.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal::inline hosting {
 

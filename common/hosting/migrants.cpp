@@ -1,6 +1,7 @@
 #include "hosting/migrants.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace demecal::inline hosting {
 namespace {

@@ -2,6 +2,7 @@
 // workers own and owned an island, as far as tasks have told this one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -11,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "evolution/population.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal::inline hosting {

@@ -1,8 +1,12 @@
 #include "hosting/worker.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <ratio>
 #include <set>
+#include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "protocol/faults.hpp"

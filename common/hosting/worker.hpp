@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -11,8 +12,11 @@
 #include <optional>
 #include <string>
 
+#include "evolution/archipelago.hpp"
+#include "hosting/hosted_island.hpp"
 #include "hosting/island_host.hpp"
 #include "hosting/migrants.hpp"
+#include "protocol/messages.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal::inline hosting {

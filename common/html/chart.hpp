@@ -1,6 +1,7 @@
 // Charts as inline SVG: axes with their ticks, what all line charts share, and the charts of a joint.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
-
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline html {
 namespace {

@@ -1,13 +1,23 @@
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <string>
+#include <vector>
 
 #include "errors/input_error.hpp"
+#include "expression/bound.hpp"
 #include "expression/text.hpp"
 #include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 #include "kinematics/units.hpp"
+#include "report/history.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline html {
 namespace {

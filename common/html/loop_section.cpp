@@ -1,11 +1,18 @@
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 #include "report/figures.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline html {
 namespace {
@@ -28,6 +35,39 @@ std::string summary(const Report& report) {
   if (stopped.empty()) return {};
   return paragraph(search_sentence(report) + escaped(stopped)) + paragraph(escaped(statistics_sentences(report))) +
          (report.noise ? paragraph(escaped("Noise: " + noise_sentence(*report.noise) + ".")) : "");
+}
+
+/// What it comes to: a row a cause, with what to do about it.
+std::string causes_table(const Report& report) {
+  if (report.causes.empty()) return {};
+  std::string rows;
+  for (const CauseEntry& cause : report.causes) {
+    const std::string interval = cause.interval_mm.size() == 2
+                                     ? fmt::format("{:.3f} to {:.3f}", cause.interval_mm[0], cause.interval_mm[1])
+                                     : "";
+    rows += table_row(escaped(cause.name),
+                      {fixed(cause.cost_mm(), 3), interval, fixed(cause.without_mm, 3), fixed(cause.with_mm, 3),
+                       std::to_string(cause.effects.size()), escaped(cause.advice)});
+  }
+  return table_panel("causes",
+                     "<th>cause</th><th>of the error, mm</th><th>95 %</th><th>error without it</th><th>with it</th>"
+                     "<th>effects</th><th>what to do</th>",
+                     rows, report.causes.size()) +
+         "<p class=\"note\">By how much the rms error of poses that judge (validation poses, while unseen) rises when "
+         "a cause is left out and all else is fitted again; \"of the error\" is the root of the difference of "
+         "squares.</p>\n";
+}
+
+/// The best model of every number of causes.
+std::string front_table(const Report& report) {
+  if (report.front.size() < 3) return {};
+  std::string rows;
+  for (const FrontEntry& point : report.front) {
+    rows += table_row(std::to_string(point.causes) + (point.chosen ? ", the model" : ""),
+                      {fixed(point.validation_rms_mm, 3), fixed(point.accept_rms_mm, 3)});
+  }
+  return table_panel("front", "<th>causes</th><th>validation, unseen, rms mm</th><th>accept, rms mm</th>", rows,
+                     report.front.size());
 }
 
 std::string dropped(const Report& report) {
@@ -156,9 +196,9 @@ std::string pictures(const Report& report) {
 
 std::string loop_section(const Report& report) {
   return section("loop", "What the model lacked",
-                 summary(report) + rounds_table(report) + dropped(report) + pictures(report) +
-                     next_measurements_list(report) + evidence_table(report) + not_found_table(report) +
-                     untestable_table(report) + decoys_table(report));
+                 causes_table(report) + front_table(report) + summary(report) + rounds_table(report) + dropped(report) +
+                     pictures(report) + next_measurements_list(report) + evidence_table(report) +
+                     not_found_table(report) + untestable_table(report) + decoys_table(report));
 }
 
 }  // namespace demecal::inline html

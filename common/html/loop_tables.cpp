@@ -1,12 +1,17 @@
 #include "html/sections.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "html/markup.hpp"
 #include "report/figures.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline html {
 namespace {

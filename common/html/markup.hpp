@@ -1,6 +1,7 @@
 // Words, numbers, tables and sections as they stand in the page, and its style.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

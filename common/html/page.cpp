@@ -1,13 +1,18 @@
 #include "html/page.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/figures.hpp"
 
 namespace demecal::inline html {
 namespace {

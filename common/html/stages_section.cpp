@@ -1,10 +1,16 @@
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/figures.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline html {
 namespace {

@@ -2,6 +2,7 @@
 // as vectors (axis times angle), and how they change with them.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
 

@@ -1,6 +1,7 @@
 #include "kinematics/chain.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"

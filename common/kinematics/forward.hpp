@@ -2,8 +2,11 @@
 // joint and link parameter.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"

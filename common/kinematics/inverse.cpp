@@ -1,10 +1,13 @@
 #include "kinematics/inverse.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "kinematics/angles.hpp"
 
 namespace demecal::inline kinematics {
 namespace {

@@ -2,10 +2,12 @@
 // damped least squares.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <functional>
 
 #include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 
 namespace demecal::inline kinematics {

@@ -1,14 +1,27 @@
 // A table with a header: columns q1_deg .. (or joint1_deg, j1_rad, theta1_deg, a1_deg; _mm or _m where a joint slides),
 // or x_mm, y_mm, z_mm (or _m) with or without qw, qx, qy, qz; joints where there are both. s1 .., payload_kg,
 // temperature_celsius and time_s are a target's circumstances. Commas, semicolons or tabs separate.
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

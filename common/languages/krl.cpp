@@ -1,11 +1,22 @@
 // KUKA KRL: AXIS, E6AXIS, POS and E6POS, declared or in motion commands; neither frames nor relative motions.
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "data/text.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/krl_frames.hpp"
 #include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

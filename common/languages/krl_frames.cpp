@@ -1,10 +1,15 @@
 #include "languages/krl_frames.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "data/text.hpp"
 #include "languages/orientation.hpp"

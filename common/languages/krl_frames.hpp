@@ -1,7 +1,13 @@
 // KUKA KRL: the tools and bases that a program sets, and the targets that its motions name.
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 

@@ -1,12 +1,14 @@
 // The robot languages: how each is recognised, read and commented, one row a language.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "languages/program.hpp"
 
 namespace demecal::inline languages {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"

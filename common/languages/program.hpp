@@ -2,7 +2,10 @@
 // states.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <span>
@@ -10,6 +13,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program_text.hpp"
 

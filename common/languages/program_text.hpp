@@ -2,6 +2,8 @@
 // code blanked out.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,9 +1,21 @@
 // ABB RAPID: robtarget and jointtarget, declared (arrays too) or in motion commands.
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "data/text.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
 #include "languages/rapid_frames.hpp"
 
 namespace demecal::inline languages {

@@ -1,8 +1,12 @@
 #include "languages/rapid_frames.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "data/text.hpp"
 #include "languages/orientation.hpp"

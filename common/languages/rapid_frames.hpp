@@ -1,9 +1,14 @@
 // ABB RAPID: tools and work objects, and the motions that name them with their targets.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 

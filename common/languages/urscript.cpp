@@ -1,12 +1,23 @@
 // Universal Robots URScript: what movej, movel, movep, movec, servoj and servoc are sent to, as p[...] or [...], there
 // or in the variable they name, and inside get_inverse_kin().
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

@@ -3,15 +3,26 @@
 // rotation, the axes x, y, z of the tool one after the other, and three of translation: in sixteenths of a mm where
 // all are whole and the axes are not of length 1, in mm otherwise.
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "data/text.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

@@ -1,14 +1,25 @@
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <ranges>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/job_file.hpp"
+#include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
 #include "library/conversion.hpp"
+#include "library/demecal.hpp"
 #include "scheduling/fleet.hpp"
 #include "workflows/workflows.hpp"
 

@@ -1,17 +1,35 @@
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "errors/input_error.hpp"
+#include "expression/bound.hpp"
 #include "expression/text.hpp"
+#include "fitting/declared_model.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
+#include "languages/program.hpp"
 #include "library/conversion.hpp"
+#include "library/demecal.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "programs/command_model.hpp"
 #include "programs/correct_program.hpp"
 #include "programs/summary.hpp"
+#include "programs/target_correction.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 

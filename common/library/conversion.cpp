@@ -1,6 +1,8 @@
 #include "library/conversion.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <span>
 
 #include "errors/input_error.hpp"

@@ -1,10 +1,18 @@
 // What stands behind the public types, and the way from their units to those inside.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "effects/arm_state.hpp"
+#include "kinematics/chain.hpp"
 #include "library/demecal.hpp"
 #include "programs/command_model.hpp"
 

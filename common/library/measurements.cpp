@@ -1,18 +1,30 @@
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/data_set_file.hpp"
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
 #include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "data_check/check_data.hpp"
+#include "data_check/finding.hpp"
+#include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "library/conversion.hpp"
+#include "library/demecal.hpp"
 #include "random/random_stream.hpp"
 #include "yaml/files.hpp"
 

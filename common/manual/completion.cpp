@@ -1,3 +1,10 @@
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "manual/described_option.hpp"
 #include "manual/manual.hpp"
 

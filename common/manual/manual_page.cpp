@@ -1,3 +1,9 @@
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "manual/described_option.hpp"
 #include "manual/manual.hpp"
 

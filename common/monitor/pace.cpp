@@ -1,7 +1,16 @@
 #include "monitor/watched.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evolution/archipelago.hpp"
+#include "fitness/parameters.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal::inline monitor {
 namespace {

@@ -1,8 +1,15 @@
 #include "monitor/watched.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <ranges>
 #include <set>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
 
 namespace demecal::inline monitor {

@@ -2,6 +2,7 @@
 // evolution is.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal::inline monitor {

@@ -1,9 +1,13 @@
 #include "next_measurement/experiments.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "effects/arm_state.hpp"
 #include "effects/law_terms.hpp"

@@ -1,12 +1,16 @@
 // The measurements that could be made next, each with stops where the arm meets neither floor nor limits nor itself.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "expression/bound.hpp"
+#include "kinematics/chain.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 

@@ -1,12 +1,24 @@
 #include "next_measurement/next_measurement.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <numeric>
+#include <ranges>
+#include <utility>
 
+#include "data/data_set.hpp"
 #include "effects/law_terms.hpp"
+#include "fitting/declared_model.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "residuals/residual_field.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline next_measurement {
 namespace {

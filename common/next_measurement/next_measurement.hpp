@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"

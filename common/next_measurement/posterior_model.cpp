@@ -1,12 +1,24 @@
 #include "next_measurement/posterior_model.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <numeric>
+#include <string>
+#include <utility>
 
+#include "effects/arm_state.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline next_measurement {
 namespace {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"

@@ -1,13 +1,29 @@
 #include "next_measurement/next_measurement.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
+#include "kinematics/chain.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
+#include "random/random_stream.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline next_measurement {
 namespace {

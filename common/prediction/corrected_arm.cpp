@@ -1,11 +1,20 @@
 #include "prediction/corrected_arm.hpp"
 
 #include <algorithm>
-
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <numbers>
+#include <utility>
+
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/law_terms.hpp"
 #include "expression/simplify.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline prediction {
 namespace {

@@ -3,10 +3,16 @@
 #pragma once
 
 #include <numbers>
+#include <string>
+#include <vector>
+
+#include "effects/effect.hpp"
 #include "effects/symbolic_state.hpp"
 #include "expression/bound.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "symbolic/algebra.hpp"
 #include "symbolic/code.hpp"
+#include "symbolic/parse_expression.hpp"
 
 namespace demecal::inline prediction {
 /// The formulas, and what the model knows beyond them.

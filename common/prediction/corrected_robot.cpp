@@ -1,6 +1,8 @@
 #include "prediction/corrected_robot.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "errors/check.hpp"

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
 

@@ -1,6 +1,9 @@
 // The Denavit-Hartenberg matrices of an arm as text, with its numbers or with a name for each parameter.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "kinematics/chain.hpp"
 #include "symbolic/parse_expression.hpp"
 

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "effects/arm_state.hpp"
 #include "errors/check.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline prediction {

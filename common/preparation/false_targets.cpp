@@ -1,11 +1,26 @@
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "data/csv.hpp"
+#include "data/data_set.hpp"
 #include "kinematics/units.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
+#include "preparation/named_points.hpp"
 #include "preparation/prepared.hpp"
+#include "preparation/readings.hpp"
 #include "preparation/results.hpp"
 #include "programs/correct_program.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal::inline preparation {
 namespace {

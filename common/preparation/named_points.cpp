@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline preparation {
 namespace {

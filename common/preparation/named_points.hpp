@@ -1,6 +1,7 @@
 // The points of a program that were measured, and which reading is of which point.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>

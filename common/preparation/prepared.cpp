@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "data/read_poses.hpp"
+#include "data/text.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
 
 namespace demecal::inline preparation {
 namespace {

@@ -2,7 +2,10 @@
 // and both frames.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +14,7 @@
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "preparation/named_points.hpp"
+#include "preparation/readings.hpp"
 #include "preparation/taught_points.hpp"
 
 namespace demecal::inline preparation {

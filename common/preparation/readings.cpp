@@ -1,7 +1,7 @@
 #include "preparation/readings.hpp"
 
 #include <fmt/format.h>
-
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>

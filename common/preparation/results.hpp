@@ -2,10 +2,13 @@
 // uncorrected so that it arrives all the same.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "prediction/measurement.hpp"
 #include "preparation/prepared.hpp"
 

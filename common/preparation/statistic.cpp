@@ -1,14 +1,25 @@
 #include "preparation/results.hpp"
 
 #include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
+#include "preparation/prepared.hpp"
+#include "preparation/readings.hpp"
+#include "preparation/taught_points.hpp"
 
 namespace demecal::inline preparation {
 namespace {

@@ -1,13 +1,16 @@
 #include "preparation/taught_points.hpp"
 
 #include <fmt/format.h>
-
+#include <Eigen/Dense>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 

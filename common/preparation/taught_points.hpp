@@ -1,6 +1,7 @@
 // From the instrument's frame to the robot's base: by three taught points (thesis A.1.1), or by all measured ones.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 #include <optional>
@@ -8,7 +9,9 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "languages/program.hpp"
 #include "preparation/named_points.hpp"
+#include "preparation/readings.hpp"
 
 namespace demecal::inline preparation {
 

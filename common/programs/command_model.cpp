@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
+#include "effects/effect.hpp"
 #include "errors/check.hpp"
+#include "fitting/declared_model.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline programs {

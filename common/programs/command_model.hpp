@@ -1,10 +1,16 @@
 // A model as a controller can use it: what the arm does wrong in its own base frame, without the instrument.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
 #include "fitting/posterior.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline programs {

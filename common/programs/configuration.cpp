@@ -1,11 +1,14 @@
 #include "programs/configuration.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
+#include "programs/nominal_joints.hpp"
 
 namespace demecal::inline programs {
 namespace {

@@ -1,10 +1,13 @@
 // The joints in which the nominal arm reaches a target, and which of its configurations the program and the user mean.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "languages/program.hpp"
 #include "programs/nominal_joints.hpp"
 

@@ -1,13 +1,25 @@
 #include "programs/correct_program.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
+#include "data/data_set.hpp"
+#include "effects/arm_state.hpp"
 #include "errors/check.hpp"
+#include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program_text.hpp"
+#include "programs/configuration.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 

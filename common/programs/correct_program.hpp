@@ -1,10 +1,12 @@
 // The correction of a program: every target is sent to where the real robot then reaches what was meant.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "languages/program.hpp"
 #include "programs/command_model.hpp"
 #include "programs/target_correction.hpp"

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "kinematics/angles.hpp"
+#include "kinematics/forward.hpp"
 
 namespace demecal::inline programs {
 namespace {

@@ -1,8 +1,11 @@
 // The joints that a controller comes to for a pose of the tool, by the nominal arm's inverse kinematics.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 
+#include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
 #include "languages/program.hpp"
 

@@ -1,9 +1,15 @@
 #include "programs/partial_correction.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+
+#include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 
 namespace demecal::inline programs {
 namespace {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 
+#include "effects/arm_state.hpp"
+#include "kinematics/inverse.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline programs {

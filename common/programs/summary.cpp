@@ -1,12 +1,18 @@
 #include "programs/summary.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "data/text.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
+#include "languages/program_text.hpp"
+#include "programs/configuration.hpp"
 
 namespace demecal::inline programs {
 namespace {

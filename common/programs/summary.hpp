@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
+#include "languages/program.hpp"
 #include "programs/correct_program.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal::inline programs {
 

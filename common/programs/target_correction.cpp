@@ -1,12 +1,19 @@
 #include "programs/target_correction.hpp"
 
+#include <Eigen/Core>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 
+#include "data/data_set.hpp"
+#include "fitting/posterior.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
 #include "languages/orientation.hpp"
+#include "languages/program_text.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/partial_correction.hpp"
 

@@ -1,10 +1,13 @@
 // The correction of one target whose joints are known; amounts as sentences about targets write them.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "languages/program.hpp"
 #include "programs/command_model.hpp"

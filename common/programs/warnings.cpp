@@ -1,10 +1,23 @@
 #include "programs/correct_program.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "programs/command_model.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 

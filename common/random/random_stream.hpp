@@ -1,6 +1,7 @@
 // Streams of random numbers that are a function of what they are for, the same on every machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <random>

@@ -1,12 +1,16 @@
 #include "report/evaluation.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
+#include "effects/effect.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 #include "report/error_fields.hpp"
+#include "report/json.hpp"
 
 namespace demecal::inline report {
 namespace {

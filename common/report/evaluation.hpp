@@ -2,12 +2,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
 #include "data_check/finding.hpp"
+#include "fitting/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/report.hpp"
 

@@ -5,7 +5,11 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <numbers>
+#include <span>
+#include <string_view>
 
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "report/report.hpp"
 

@@ -1,8 +1,8 @@
 #include "report/json.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 #include "errors/input_error.hpp"

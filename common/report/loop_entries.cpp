@@ -1,11 +1,27 @@
 #include "report/make_report.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
+#include "diagnosis/outcome.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/effect.hpp"
 #include "kinematics/units.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "report/figures.hpp"
+#include "report/report.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline report {
 namespace {
@@ -105,6 +121,26 @@ std::optional<double> if_any(const std::optional<double>& value) {
 
 }  // namespace
 
+std::string cost_sentence(const CauseEntry& cause) {
+  std::string text = fmt::format("{}: {:.3f} mm of the error", cause.name, cause.cost_mm());
+  if (cause.interval_mm.size() == 2)
+    text += fmt::format(" (95 %: {:.3f} to {:.3f})", cause.interval_mm[0], cause.interval_mm[1]);
+  return text;
+}
+
+std::string front_sentence(const std::vector<FrontEntry>& front) {
+  constexpr std::uint64_t kFew = 10;
+  std::string fewer;
+  for (const FrontEntry& point : front) {
+    if (point.chosen || point.causes > kFew || !point.validation_rms_mm) continue;
+    const std::string causes = point.causes == 0 ? "none" : std::to_string(point.causes);
+    fewer += fmt::format("{}{} {:.3f} mm", fewer.empty() ? "" : ", ", causes, *point.validation_rms_mm);
+  }
+  if (front.size() < 3 || !front.back().validation_rms_mm) return {};
+  return fmt::format("All {} leave {:.3f} mm on the judging poses; of fewer, the best leave: {}.", front.back().causes,
+                     *front.back().validation_rms_mm, fewer);
+}
+
 EffectEntry effect_entry(const Effect& effect, const Robot& robot) {
   EffectEntry entry;
   entry.kind = effect.kind;
@@ -137,6 +173,28 @@ std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vect
     return std::pair(rarity(a.kind), a.joint) < std::pair(rarity(b.kind), b.joint);
   });
   return members;
+}
+
+void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Robot& described, Report& report) {
+  for (const CauseCost& cost : budget.causes) {
+    CauseEntry entry{.cause = std::string(to_string(cost.cause.group)),
+                     .joint = {},
+                     .name = to_string(cost.cause),
+                     .effects = {},
+                     .without_mm = if_finite(cost.without_mm),
+                     .with_mm = if_finite(cost.with_mm),
+                     .share_of_error = if_finite(cost.share),
+                     .interval_mm = {cost.interval_mm.begin(), cost.interval_mm.end()},
+                     .advice = advice_on(cost.cause)};
+    if (cost.cause.joint >= 0) entry.joint = count_of(cost.cause.joint) + 1;
+    for (const std::size_t effect : cost.cause.effects)
+      entry.effects.push_back(effect_entry(robot.effects[effect], described).name());
+    report.causes.push_back(std::move(entry));
+  }
+  for (const FrontPoint& point : budget.front) {
+    report.front.push_back(
+        {point.causes.size(), if_finite(point.validation_rms_mm), if_any(point.accept_rms_mm), point.chosen});
+  }
 }
 
 void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {

@@ -1,12 +1,23 @@
 #include "report/make_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <ranges>
+#include <string_view>
 
 #include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "calibration/joint_targets.hpp"
 #include "calibration/shared_functions.hpp"
+#include "calibration/training.hpp"
+#include "expression/bound.hpp"
+#include "expression/shared_function.hpp"
 #include "expression/text.hpp"
+#include "fitting/declared_model.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
 #include "residuals/structure.hpp"
 
@@ -171,6 +182,7 @@ Report make_report(const Conclusions& run) {
   report.pose_errors = flagged_errors(run, report.poses);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   report.noise_floor_mm = noise_floor_mm(data);
+  set_causes(run.calibration.budget, model.robot, model.nominal, report);
   set_loop(run.loop, model.nominal, report);
   report.performance_index_mm2 = {if_finite(run.calibration.index_before_mm2),
                                   if_finite(run.calibration.index_after_mm2)};

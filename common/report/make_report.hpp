@@ -1,16 +1,23 @@
 // From what a run concluded to the document of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "calibration/calibration.hpp"
 #include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
 #include "distal/steps.hpp"
+#include "effects/effect.hpp"
+#include "explanations/error_budget.hpp"
+#include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "report/report.hpp"
 #include "structure/structure_fit.hpp"
 
@@ -61,6 +68,9 @@ EffectEntry effect_entry(const Effect& effect, const Robot& robot);
 /// The effect and its rivals at a cosine above 0.98, one of a kind and joint, the most common cause first; empty where
 /// the effect has no such rival.
 std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vector<RivalEntry>& rivals);
+
+/// Sets causes and front. `robot` holds the effects that the budget speaks of.
+void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Robot& described, Report& report);
 
 /// Sets rounds, dropped, not_found, unseen, decoys, stopped, the tests of the whole model, noise (nothing where the
 /// loop did not run), candidates and draws of the noise. `described` is the arm that the effects stand by.

@@ -134,6 +134,31 @@ struct RoundEntry {
   bool added() const { return verdict == "added"; }
 };
 
+/// What an engineer counts as one cause; see CauseCost.
+struct CauseEntry {
+  std::string cause;  ///< "transmission", "lost_motion", ...
+  std::optional<std::uint64_t> joint;
+  std::string name;                  ///< for people: "gears of joint 2"
+  std::vector<std::string> effects;  ///< as EffectEntry::name() has them
+  std::optional<double> without_mm, with_mm;
+  std::optional<double> share_of_error;
+  std::vector<double> interval_mm;  ///< lower and upper end
+  std::string advice;
+
+  /// What it costs beside all others: the root of the fall of the mean square.
+  double cost_mm() const {
+    const double with = with_mm.value_or(0.0), without = without_mm.value_or(0.0);
+    return without > with ? std::sqrt(without * without - with * with) : 0.0;
+  }
+};
+
+/// The best model of so many causes; see FrontPoint.
+struct FrontEntry {
+  std::uint64_t causes = 0;
+  std::optional<double> validation_rms_mm, accept_rms_mm;
+  bool chosen = false;
+};
+
 /// An effect that was looked for and not found; see NotFound.
 struct NotFoundEntry {
   EffectEntry effect;  ///< without its size
@@ -226,6 +251,8 @@ struct Report {
   std::vector<PoseErrorEntry> pose_errors;               ///< of all poses; empty where nothing was fitted
   std::optional<PredictionEntry> prediction_interval{};  ///< behind their radii
   std::optional<double> noise_floor_mm;  ///< standard deviation of repeats per axis, where there are repeats
+  std::vector<CauseEntry> causes;        ///< of what the loop added, the costliest first
+  std::vector<FrontEntry> front;         ///< from no cause to all
   std::vector<RoundEntry> rounds;
   std::vector<EffectEntry> dropped;  ///< added, and taken back
   std::vector<NotFoundEntry> not_found;

@@ -1,6 +1,16 @@
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "expression/bound.hpp"
 #include "report/error_fields.hpp"
+#include "report/json.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline report {
@@ -160,11 +170,23 @@ void fields(auto& visit, Like<RuntimeEntry> auto& runtime) {
         runtime.resumed, "waited_share", runtime.waited_share);
 }
 
+void fields(auto& visit, Like<CauseEntry> auto& cause) {
+  visit("cause", cause.cause, "joint", cause.joint, "name", cause.name, "effects", cause.effects);
+  visit.within("error_mm", [&](auto& error) { error("without", cause.without_mm, "with", cause.with_mm); });
+  visit("share_of_error", cause.share_of_error, "interval_mm", cause.interval_mm, "advice", cause.advice);
+}
+
+void fields(auto& visit, Like<FrontEntry> auto& point) {
+  visit("causes", point.causes, "validation_rms_mm", point.validation_rms_mm, "accept_rms_mm", point.accept_rms_mm,
+        "chosen", point.chosen);
+}
+
 void loop_fields(auto& visit, Like<Report> auto& report) {
-  visit("rounds", report.rounds, "dropped", report.dropped, "not_found", report.not_found, "unseen", report.untestable,
-        "decoys", report.decoys, "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p, "explained_share",
-        report.explained_share, "structure_left_p", report.structure_left_p, "noise", report.noise, "candidates",
-        report.candidates, "permutations", report.null_draws);
+  visit("causes", report.causes, "front", report.front, "rounds", report.rounds, "dropped", report.dropped, "not_found",
+        report.not_found, "unseen", report.untestable, "decoys", report.decoys, "stopped", report.stopped,
+        "lack_of_fit_p", report.lack_of_fit_p, "explained_share", report.explained_share, "structure_left_p",
+        report.structure_left_p, "noise", report.noise, "candidates", report.candidates, "permutations",
+        report.null_draws);
 }
 
 void fields(auto& visit, Like<Report> auto& report) {

@@ -1,12 +1,14 @@
 #include "report/study.hpp"
 
 #include <fmt/format.h>
-
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "data/csv.hpp"
 #include "data/text.hpp"
+#include "expression/tree.hpp"
 #include "report/json.hpp"
 
 namespace demecal::inline report {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/parameter_space.hpp"
 #include "fitting/row_sums.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"

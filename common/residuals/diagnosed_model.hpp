@@ -1,13 +1,21 @@
 // The model while it is being diagnosed: everything declared, smooth corrections and the effects added so far.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/observation.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline residuals {

@@ -1,10 +1,14 @@
 #include "residuals/noise.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 namespace demecal::inline residuals {
 namespace {

@@ -1,8 +1,11 @@
 // What noise does to the rows of a field: errors that several poses share, and draws of what noise alone would leave.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <map>
 #include <span>
+#include <vector>
 
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"

@@ -4,12 +4,17 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "effects/arm_state.hpp"
+#include "fitting/observation.hpp"
 #include "residuals/noise.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline residuals {
 namespace {

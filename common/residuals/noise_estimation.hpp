@@ -1,8 +1,11 @@
 // How the measurements of one arm scatter together, as the residuals of a model show it.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <Eigen/QR>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "residuals/diagnosed_model.hpp"

@@ -1,8 +1,11 @@
 #include "residuals/projection.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fitting/row_sums.hpp"
 

@@ -1,13 +1,20 @@
 #include "residuals/residual_field.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "errors/check.hpp"
 #include "fitting/least_squares.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline residuals {
 namespace {

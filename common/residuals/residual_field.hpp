@@ -2,14 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/observation.hpp"
+#include "fitting/parameter_space.hpp"
 
 namespace demecal::inline residuals {
 

@@ -1,10 +1,20 @@
 #include "residuals/noise_estimation.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {
 namespace {

@@ -1,10 +1,16 @@
 #include "residuals/smooth_corrections.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <utility>
 
 #include "expression/evaluate.hpp"
+#include "kinematics/chain.hpp"
+#include "primitives/primitive.hpp"
 #include "residuals/projection.hpp"
 
 namespace demecal::inline residuals {

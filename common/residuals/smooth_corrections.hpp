@@ -1,9 +1,15 @@
 // Joint corrections as a sum of smooth terms: what evolution could still give each joint, in a form that can be solved.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/angles.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 

@@ -1,13 +1,18 @@
 #include "residuals/structure.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "effects/arm_state.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 

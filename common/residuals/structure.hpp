@@ -1,10 +1,15 @@
 // Whether anything is left in the residual that depends on how the arm stood: tests that name no effect.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
+#include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <ratio>
 #include <utility>
 
 namespace demecal::inline scheduling {

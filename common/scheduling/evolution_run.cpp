@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "evolution/island.hpp"
 #include "protocol/faults.hpp"
 #include "transport/participants.hpp"
 

@@ -3,12 +3,16 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "protocol/messages.hpp"
 #include "scheduling/assignment.hpp"
 #include "scheduling/run_state.hpp"
 #include "transport/transport.hpp"

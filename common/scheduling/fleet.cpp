@@ -1,6 +1,7 @@
 #include "scheduling/fleet.hpp"
 
 #include <unistd.h>
+#include <string>
 
 #include "hosting/worker.hpp"
 

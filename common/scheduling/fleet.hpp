@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "protocol/messages.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal::inline scheduling {

@@ -1,10 +1,18 @@
 #include "scheduling/island_evolver.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <functional>
+#include <optional>
 #include <utility>
 
+#include "calibration/selection.hpp"
 #include "errors/input_error.hpp"
+#include "expression/shared_function.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
+#include "transport/transport.hpp"
 
 namespace demecal::inline scheduling {
 namespace {

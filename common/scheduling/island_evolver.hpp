@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,10 +11,15 @@
 
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
+#include "calibration/training.hpp"
+#include "evolution/archipelago.hpp"
+#include "evolution/population.hpp"
+#include "protocol/messages.hpp"
 #include "report/make_report.hpp"
 #include "scheduling/evolution_run.hpp"
 #include "scheduling/fleet.hpp"
 #include "scheduling/run_journal.hpp"
+#include "scheduling/run_state.hpp"
 
 namespace demecal::inline scheduling {
 

@@ -2,6 +2,7 @@
 // records as bytes, each with its length and checksum, so that a torn tail shows.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>

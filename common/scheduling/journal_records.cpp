@@ -1,11 +1,23 @@
 #include "scheduling/run_journal.hpp"
 
 #include <fmt/format.h>
-
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "fitness/fitness.hpp"
+#include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
 #include "protocol/message_bytes.hpp"
+#include "protocol/messages.hpp"
+#include "scheduling/journal_file.hpp"
+#include "scheduling/run_state.hpp"
 
 namespace demecal::inline scheduling {
 namespace {

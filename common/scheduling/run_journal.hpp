@@ -3,6 +3,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "protocol/messages.hpp"
 #include "scheduling/evolution_run.hpp"
 #include "scheduling/journal_file.hpp"
 #include "scheduling/run_state.hpp"

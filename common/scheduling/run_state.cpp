@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
+#include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
 
 namespace demecal::inline scheduling {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "evolution/island.hpp"
+#include "evolution/population.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal::inline scheduling {

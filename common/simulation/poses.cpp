@@ -1,15 +1,25 @@
 #include "simulation/simulated_robot.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
+#include "random/random_stream.hpp"
+#include "simulation/scenario.hpp"
 #include "simulation/stance.hpp"
 
 namespace demecal::inline simulation {

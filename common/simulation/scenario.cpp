@@ -1,7 +1,12 @@
 #include "simulation/scenario.hpp"
 
+#include <cstddef>
+#include <utility>
+
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
 
 namespace demecal::inline simulation {
 namespace {

@@ -1,6 +1,7 @@
 // A simulated measurement: the robot, its true errors, where it is sent and how well the instrument sees.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "simulation/truth.hpp"
 
 namespace demecal::inline simulation {

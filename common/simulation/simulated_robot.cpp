@@ -1,7 +1,13 @@
 #include "simulation/simulated_robot.hpp"
 
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
 #include "random/random_purpose.hpp"
 #include "simulation/stance.hpp"
+#include "simulation/truth.hpp"
 
 namespace demecal::inline simulation {
 namespace {

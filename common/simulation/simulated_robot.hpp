@@ -1,9 +1,15 @@
 // A robot whose errors we chose: goes where it is commanded, wrongly, and is measured with noise; and where it is sent.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
+
+#include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
+#include "simulation/stance.hpp"
 #include "simulation/truth.hpp"
 
 namespace demecal::inline simulation {

@@ -1,5 +1,9 @@
 #include "simulation/stance.hpp"
 
+#include <array>
+#include <cstddef>
+#include <iterator>
+
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 

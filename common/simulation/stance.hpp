@@ -2,6 +2,7 @@
 // feels.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
 #include <vector>

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string>
 
+#include "data/data_set.hpp"
 #include "expression/evaluate.hpp"
 #include "simulation/stance.hpp"
 

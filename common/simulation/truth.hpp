@@ -1,12 +1,14 @@
 // What is wrong with a simulated robot: each kind of true error, written independently of the law that looks for it.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <string_view>
 #include <vector>
 
 #include "expression/text.hpp"
 #include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
 #include "simulation/stance.hpp"
 
 namespace demecal::inline simulation {

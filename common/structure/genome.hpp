@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <vector>
 
 #include "random/random_stream.hpp"

@@ -1,12 +1,18 @@
 #include "structure/structural_calibration.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <ranges>
+#include <string>
+#include <utility>
 
 #include "errors/input_error.hpp"
 #include "fitting/parameter_space.hpp"
+#include "kinematics/chain.hpp"
+#include "structure/genome.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal::inline structure {

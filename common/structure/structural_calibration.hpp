@@ -1,10 +1,15 @@
 // Looks for the structure of an arm, elementary transforms after its links, and calibrates a robot with what it finds.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "random/random_stream.hpp"
 #include "structure/structure_fit.hpp"
 
 namespace demecal::inline structure {

@@ -1,14 +1,16 @@
 #include "structure/structure_fit.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "fitting/levenberg_marquardt.hpp"
-
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline structure {
 namespace {

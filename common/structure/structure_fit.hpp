@@ -2,11 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "structure/genome.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal::inline structure {

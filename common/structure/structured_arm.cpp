@@ -1,7 +1,10 @@
 #include "structure/structured_arm.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <map>
 
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"

@@ -1,8 +1,12 @@
 // An arm whose links are followed by elementary transforms: where its tool is, and how it moves with every number.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "structure/genome.hpp"
 

@@ -1,11 +1,21 @@
 #include "terminal/monitor_page.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "evolution/archipelago.hpp"
+#include "evolution/island.hpp"
+#include "fitness/parameters.hpp"
+#include "monitor/watched.hpp"
+#include "protocol/messages.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {

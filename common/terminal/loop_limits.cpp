@@ -1,9 +1,16 @@
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "effects/catalogue.hpp"
 #include "report/figures.hpp"
+#include "report/report.hpp"
 #include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
 

@@ -1,11 +1,21 @@
 #include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "effects/catalogue.hpp"
 #include "report/figures.hpp"
+#include "report/report.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {
@@ -170,13 +180,27 @@ std::string dropped_line(const Report& report) {
   return names.empty() ? names : wrapped("  added, and taken back:", names, 4);
 }
 
+/// What it comes to, for who asks what to do about it.
+std::string causes_lines(const Report& report) {
+  if (report.causes.empty()) return {};
+  constexpr std::size_t kMostAdvised = 3;  // causes, for the first to get their advice
+  std::string text = "  causes, by what the error of poses that judge would rise without each\n";
+  for (std::size_t i = 0; i < report.causes.size(); ++i) {
+    const std::string number = fmt::format("{:>5}.", i + 1);
+    text += wrapped(number, cost_sentence(report.causes[i]), kIndent);
+    if (i < kMostAdvised) text += wrapped(std::string(kIndent - 1, ' '), report.causes[i].advice, kIndent);
+  }
+  const std::string fewer = front_sentence(report.front);
+  return text + (fewer.empty() ? "" : wrapped(" ", fewer, 4)) + "\n";
+}
+
 }  // namespace
 
 std::string loop_to_terminal(const Report& report) {
   if (!report.loop_ran()) return {};
   const std::string closing = stop_sentence(report.stopped) + " " + statistics_sentences(report);
-  return added_lines(added_rounds(report)) + refused_lines(report) + dropped_line(report) + last_candidate(report) +
-         wrapped(" ", closing, 4) + limits_to_terminal(report);
+  return causes_lines(report) + added_lines(added_rounds(report)) + refused_lines(report) + dropped_line(report) +
+         last_candidate(report) + wrapped(" ", closing, 4) + limits_to_terminal(report);
 }
 
 }  // namespace demecal::inline terminal

@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
 
+#include "fitness/parameters.hpp"
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
+#include "protocol/messages.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {

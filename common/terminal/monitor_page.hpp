@@ -1,6 +1,7 @@
 // All that a watcher has seen as one page of text for a terminal, and its islands as a grid.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

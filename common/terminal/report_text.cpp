@@ -1,8 +1,9 @@
 #include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "report/figures.hpp"

@@ -1,6 +1,7 @@
 // What a terminal shows of reports, the closed loop, studies and comparisons.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "report/evaluation.hpp"

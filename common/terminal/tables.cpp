@@ -1,9 +1,19 @@
 #include "terminal/report_text.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "evolution/building_blocks.hpp"
+#include "random/distributions.hpp"
+#include "report/evaluation.hpp"
+#include "report/report.hpp"
+#include "report/study.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {

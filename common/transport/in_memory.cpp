@@ -1,17 +1,26 @@
 #include "transport/transport.hpp"
 
 #include <unistd.h>
-
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "errors/check.hpp"
+#include "evolution/archipelago.hpp"
 #include "protocol/messages.hpp"
 #include "transport/mailbox.hpp"
+#include "transport/participants.hpp"
 #include "transport/run_owners.hpp"
 
 namespace demecal::inline transport {

@@ -1,6 +1,7 @@
 #include "transport/mailbox.hpp"
 
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "protocol/message_bytes.hpp"

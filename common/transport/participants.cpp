@@ -1,6 +1,7 @@
 #include "transport/participants.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "transport/mailbox.hpp"

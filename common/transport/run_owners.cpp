@@ -1,7 +1,10 @@
 #include "transport/run_owners.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
+#include <variant>
 
 #include "protocol/message_bytes.hpp"
 

@@ -1,14 +1,44 @@
 #include "workflows/workflows.hpp"
 
+#include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
+#include "calibration/job.hpp"
+#include "calibration/selection.hpp"
 #include "calibration/shared_functions.hpp"
+#include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closed_calibration.hpp"
+#include "data/data_set.hpp"
+#include "diagnosis/outcome.hpp"
 #include "distal/learning.hpp"
+#include "distal/steps.hpp"
+#include "evolution/archipelago.hpp"
+#include "evolution/population.hpp"
+#include "expression/shared_function.hpp"
+#include "fitness/parameters.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "protocol/messages.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
+#include "report/make_report.hpp"
+#include "scheduling/fleet.hpp"
+#include "scheduling/island_evolver.hpp"
+#include "scheduling/run_state.hpp"
 #include "structure/structural_calibration.hpp"
+#include "structure/structure_fit.hpp"
 
 namespace demecal::inline workflows {
 namespace {

@@ -1,13 +1,33 @@
 #include "workflows/workflows.hpp"
 
 #include <fmt/format.h>
-
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closing.hpp"
 #include "closed_calibration/loop_passes.hpp"
+#include "data/data_set.hpp"
+#include "diagnosis/loop.hpp"
+#include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
+#include "report/make_report.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "scheduling/run_state.hpp"
 
 namespace demecal::inline workflows {
 namespace {
@@ -89,8 +109,10 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   drop_negligible_terms(found.model);
   LoopModels ends{std::move(found.before), std::move(found.model)};
   std::optional<LastFit> last = last_fit(data, job.declared, ends);
+  ErrorBudget budget = error_budget_of(data, job.declared, ends.after, last ? last->ends.after : ends.after, job.seed);
   if (last) ends = std::move(last->ends);
   result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
+  result.calibration.budget = std::move(budget);
   if (last) result.calibration.unseen = last->unseen;
   result.before = std::move(ends.before.robot);
   result.loop = std::move(found.outcome);

@@ -1,8 +1,29 @@
 #include "workflows/workflows.hpp"
 
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
+#include "evolution/archipelago.hpp"
+#include "evolution/building_blocks.hpp"
+#include "expression/tree.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "report/evaluation.hpp"
+#include "report/make_report.hpp"
+#include "report/report.hpp"
+#include "report/study.hpp"
+#include "scheduling/fleet.hpp"
+#include "scheduling/run_state.hpp"
 
 namespace demecal::inline workflows {
 

@@ -3,24 +3,39 @@
 #pragma once
 
 #include <atomic>
-#include <map>
-#include <string>
-#include <vector>
-
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closing.hpp"
 #include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "diagnosis/loop.hpp"
+#include "diagnosis/outcome.hpp"
 #include "distal/steps.hpp"
+#include "evolution/archipelago.hpp"
 #include "evolution/building_blocks.hpp"
+#include "evolution/population.hpp"
+#include "fitting/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "protocol/messages.hpp"
 #include "report/make_report.hpp"
 #include "report/study.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "scheduling/evolution_run.hpp"
+#include "scheduling/fleet.hpp"
 #include "scheduling/island_evolver.hpp"
+#include "scheduling/run_journal.hpp"
+#include "scheduling/run_state.hpp"
 #include "structure/structure_fit.hpp"
 
 namespace demecal::inline workflows {

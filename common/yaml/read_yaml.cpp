@@ -2,8 +2,13 @@
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
-
+#include <cstddef>
+#include <filesystem>
+#include <memory>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "errors/input_error.hpp"
 #include "yaml/files.hpp"

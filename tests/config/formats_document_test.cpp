@@ -10,11 +10,9 @@
 #include <regex>
 
 #include "config/data_set_file.hpp"
+#include "config/input_files.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
-#include "config/preparation_file.hpp"
-#include "config/robot_file.hpp"
-#include "config/scenario_file.hpp"
 #include "config/study_grid.hpp"
 #include "formats_document.hpp"
 #include "prediction/random_effects.hpp"

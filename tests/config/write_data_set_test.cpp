@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
 #include "random/random_stream.hpp"
 #include "temporary_folder.hpp"
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "config/data_set_file.hpp"
-#include "config/preparation_file.hpp"
+#include "config/input_files.hpp"
 #include "data/csv.hpp"
 #include "formats_document.hpp"
 #include "full_report.hpp"

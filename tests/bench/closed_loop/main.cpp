@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
 #include "output.hpp"
 
 namespace {

@@ -1,10 +1,16 @@
-// Robot files: the arm as its maker describes it, by link parameters or as matrices of text.
+// Files that stand on their own: an arm as its maker describes it, a simulated measurement, and where raw measurements,
+// programs and taught points stand.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "data/data_set.hpp"
+#include "preparation/prepared.hpp"
+#include "preparation/readings.hpp"
+#include "simulation/scenario.hpp"
+#include "symbolic/algebra.hpp"
 #include "symbolic/code.hpp"
 #include "yaml/yaml_node.hpp"
 
@@ -25,5 +31,20 @@ std::string robot_text(const Robot& robot, int indent = 0);
 /// uncorrected. Throws InputError with file, line, value and rule at the first fault; a name that is neither a joint
 /// nor a value is one.
 Listing load_matrices(Algebra& algebra, const std::filesystem::path& path);
+
+/// The scenario of a SCENARIO.yaml; its robot is named relative to it. Throws InputError with file, line, value and
+/// rule at the first fault.
+Scenario load_scenario(const std::filesystem::path& path);
+
+/// Adds the errors of the map to the scenario, whose robot must be set. Throws InputError at the first fault.
+void read_true_errors(const YamlNode& errors, Scenario& scenario);
+
+/// Everything that a PREPARATION.yaml names, read; the files are taken relative to it. Throws InputError with file,
+/// line, value and rule at the first fault in any of them.
+RawMeasurements load_preparation(const std::filesystem::path& path);
+
+/// What stands under `instrument`: three cords, or nothing where it is the word `points`, an instrument that reads
+/// coordinates.
+std::optional<CordInstrument> read_instrument(const YamlNode& node);
 
 }  // namespace demecal::inline config

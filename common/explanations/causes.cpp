@@ -1,0 +1,84 @@
+#include "explanations/causes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "errors/check.hpp"
+
+namespace demecal::inline explanations {
+namespace {
+
+struct GroupWords {
+  CauseGroup group;
+  std::string_view word;      ///< in files
+  std::string_view of_joint;  ///< " of joint 2" follows
+  std::string_view of_arm;    ///< where it is of no joint; empty: it always is
+  std::string_view advice;
+};
+
+constexpr std::array<GroupWords, 8> kGroups{{
+    {CauseGroup::transmission, "transmission", "gears", "",
+     "Corrected targets take it out. Where it is more than the gear's maker states as running error, have its mounting "
+     "and wear checked."},
+    {CauseGroup::lost_motion, "lost_motion", "lost motion", "",
+     "Approach targets from the side they were measured from, or correct programs with their approach known. Where it "
+     "grows, have the play of the gear and the brake checked."},
+    {CauseGroup::elasticity, "elasticity", "elasticity", "elasticity of the arm under gravity",
+     "Corrected targets take it out for the payload that was measured. With another payload, state it, or measure "
+     "again with it."},
+    {CauseGroup::bearing, "bearing", "bearing", "",
+     "Corrected targets take it out. Where it grows, have the bearing's preload checked."},
+    {CauseGroup::link_geometry, "link_geometry", "geometry of the link", "",
+     "Declare the geometry, so that all links are fitted together."},
+    {CauseGroup::heat, "heat", "warming", "warming of the arm",
+     "Let the robot warm up before it works, or state its temperature when programs are corrected."},
+    {CauseGroup::instrument, "instrument", "instrument", "instrument, or where it and the robot stand",
+     "Not the robot's: check the instrument's scale against a known length and how firmly both stand, and measure "
+     "again. Targets are not to be corrected by it."},
+    {CauseGroup::formula, "formula", "what the catalogue has no name for,", "what the catalogue has no name for",
+     "Corrected targets take it out within the measured range. Look at what the formula depends on before you trust it "
+     "elsewhere."},
+}};
+
+const GroupWords& words_of(CauseGroup group) {
+  const auto found = std::ranges::find(kGroups, group, &GroupWords::group);
+  DEMECAL_CHECK(found != kGroups.end(), "cause group " << static_cast<int>(group));
+  return *found;
+}
+
+/// Whether causes of the group are the whole arm's, whichever joint an effect is of.
+bool is_of_arm(CauseGroup group) {
+  return group == CauseGroup::elasticity || group == CauseGroup::heat || group == CauseGroup::instrument;
+}
+
+}  // namespace
+
+std::vector<ErrorCause> causes_of(const CorrectedRobot& robot) {
+  std::vector<ErrorCause> causes;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    const CauseGroup group = cause_of(robot.effects[i].kind).group;
+    const int joint = is_of_arm(group) ? -1 : robot.effects[i].joint;
+    const auto same = [&](const ErrorCause& cause) { return cause.group == group && cause.joint == joint; };
+    auto cause = std::ranges::find_if(causes, same);
+    if (cause == causes.end()) cause = causes.insert(cause, {group, joint});
+    cause->effects.push_back(i);
+  }
+  return causes;
+}
+
+std::string_view to_string(CauseGroup group) {
+  return words_of(group).word;
+}
+
+std::string to_string(const ErrorCause& cause) {
+  const GroupWords& words = words_of(cause.group);
+  if (cause.joint < 0) return std::string(words.of_arm.empty() ? words.of_joint : words.of_arm);
+  return std::string(words.of_joint) + " of joint " + std::to_string(cause.joint + 1);
+}
+
+std::string advice_on(const ErrorCause& cause) {
+  return std::string(words_of(cause.group).advice);
+}
+
+}  // namespace demecal::inline explanations

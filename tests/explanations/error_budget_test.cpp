@@ -1,0 +1,164 @@
+// What causes cost: the model without some of them is what a fit without them gives, and the dear ones are known.
+#include "explanations/error_budget.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "diagnosis/simulated_arm.hpp"
+#include "effects/catalogue.hpp"
+
+namespace demecal {
+namespace {
+
+Effect effect(const std::string& kind, int joint) {
+  return {.kind = kind, .joint = joint, .settings = {}};
+}
+
+TEST(Causes, AreWhatAnEngineerCountsAsOne) {
+  CorrectedRobot robot;
+  robot.effects = {effect("gear_harmonic", 1), effect("backlash", 1),       effect("gear_harmonic", 1),
+                   effect("compliance", 1),    effect("hysteresis", 1),     effect("link_bending", 2),
+                   effect("gear_harmonic", 2), effect("thermal_offset", 0), effect("thermal_length", 3)};
+  const std::vector<ErrorCause> causes = causes_of(robot);
+  std::vector<std::string> names;
+  std::vector<std::size_t> effects;
+  for (const ErrorCause& cause : causes) {
+    names.push_back(to_string(cause));
+    effects.insert(effects.end(), cause.effects.begin(), cause.effects.end());
+  }
+  EXPECT_THAT(names,
+              testing::ElementsAre("gears of joint 2", "lost motion of joint 2", "elasticity of the arm under gravity",
+                                   "gears of joint 3", "warming of the arm"));
+  EXPECT_THAT(causes.at(0).effects, testing::ElementsAre(0, 2));
+  EXPECT_THAT(effects, testing::UnorderedElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
+}
+
+TEST(Causes, HaveAWordAndAnAdviceForEveryKindOfTheCatalogue) {
+  std::set<std::string> words;
+  for (const EffectLaw* law : catalogue()) {
+    const ErrorCause cause{.group = cause_of(law->kind()).group, .joint = 0};
+    words.insert(std::string(to_string(cause.group)));
+    EXPECT_FALSE(to_string(cause).empty()) << law->kind();
+    EXPECT_TRUE(advice_on(cause).ends_with('.')) << law->kind();
+  }
+  EXPECT_EQ(words.size(), 8U);
+}
+
+/// An arm whose joint 2 has lost motion, and whose joint 3 gives way a little: found, and judged.
+class TwoCauses : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    Scenario scenario = perfect_scenario(parallel_arm(), 5);
+    scenario.backlash = {{1, 1e-3}};
+    scenario.compliance = {{2, 1.5e-5}};
+    data_ = std::make_unique<DataSet>(simulate(scenario));
+    problem_ = std::make_unique<DiagnosisProblem>(DiagnosisProblem{
+        *data_, kZeroed, poses_of(*data_, PoseSet::calibration), poses_of(*data_, PoseSet::validation)});
+    model_ = run_loop(*data_, kZeroed, quick()).model;
+  }
+  static void TearDownTestSuite() {
+    problem_.reset();
+    data_.reset();
+  }
+  void SetUp() override { ASSERT_EQ(model_.robot.effects.size(), 2U); }
+
+  static ErrorBudget budgeted() {
+    return error_budget(*problem_, model_, problem_->fitted, model_, RandomStream{1, 2});
+  }
+
+  static std::unique_ptr<DataSet> data_;
+  static std::unique_ptr<DiagnosisProblem> problem_;
+  static DiagnosedModel model_;
+};
+
+std::unique_ptr<DataSet> TwoCauses::data_;
+std::unique_ptr<DiagnosisProblem> TwoCauses::problem_;
+DiagnosedModel TwoCauses::model_;
+
+TEST_F(TwoCauses, AModelWithoutAnEffectIsWhatAFitWithoutItGives) {
+  const ReducedModels models(*problem_, model_);
+  for (const std::size_t gone : {std::size_t{0}, std::size_t{1}}) {
+    DiagnosedModel again = model_;
+    again.noise_estimated = false;  // else nearly all poses are far out by the scatter about the whole model
+    again.noise = {};
+    again.robot.effects.erase(again.robot.effects.begin() + static_cast<std::ptrdiff_t>(gone));
+    again = refined(*problem_, again, 12);
+    const CorrectedRobot reduced = models.without({&gone, 1});
+    ASSERT_EQ(reduced.effects.size(), 1U);
+    EXPECT_EQ(reduced.effects[0].kind, again.robot.effects[0].kind);
+    for (const std::size_t pose : problem_->validation) {
+      const double cost_mm = 1e3 * tool_error_m(again.robot, *data_, data_->poses[pose]);
+      EXPECT_NEAR(1e3 * tool_error_m(reduced, *data_, data_->poses[pose]), cost_mm, 0.1 * cost_mm + 0.02);
+    }
+  }
+  EXPECT_NEAR(models.rise({}), 0.0, 1e-12);
+}
+
+TEST_F(TwoCauses, RisesAddUpToNoMoreThanTheLossOfBoth) {
+  const ReducedModels models(*problem_, model_);
+  const std::vector<std::size_t> both{0, 1};
+  const double all = models.rise(both);
+  for (const std::size_t one : both) {
+    EXPECT_GT(models.rise({&one, 1}), 0.0);
+    EXPECT_LT(models.rise({&one, 1}), all);
+  }
+}
+
+TEST_F(TwoCauses, CostWhatTheyAreWorthAndTheDearerStandsFirst) {
+  const ErrorBudget budget = budgeted();
+  ASSERT_EQ(budget.causes.size(), 2U);
+  EXPECT_GE(budget.causes[0].without_mm, budget.causes[1].without_mm);
+  for (const CauseCost& cost : budget.causes) {
+    EXPECT_GT(cost.without_mm, cost.with_mm);
+    EXPECT_GT(cost.share, 0.0);
+    EXPECT_LT(cost.share, 1.0);
+    const double worth_mm = std::sqrt(cost.without_mm * cost.without_mm - cost.with_mm * cost.with_mm);
+    EXPECT_LT(cost.interval_mm[0], worth_mm);
+    EXPECT_GT(cost.interval_mm[1], worth_mm);
+  }
+}
+
+TEST_F(TwoCauses, FrontGoesFromNoneToAllAndEveryCauseHelps) {
+  const ErrorBudget budget = budgeted();
+  ASSERT_EQ(budget.front.size(), 3U);
+  for (std::size_t number = 0; number < budget.front.size(); ++number) {
+    const FrontPoint& point = budget.front[number];
+    EXPECT_EQ(point.causes.size(), number);
+    EXPECT_EQ(point.chosen, number == 2);
+    ASSERT_TRUE(point.accept_rms_mm.has_value());
+    if (number > 0) {
+      EXPECT_LT(point.validation_rms_mm, budget.front[number - 1].validation_rms_mm);
+      EXPECT_LT(*point.accept_rms_mm, *budget.front[number - 1].accept_rms_mm);
+    }
+  }
+  const double present_mm = error_figures(model_.robot, *data_, poses_of(*data_, PoseSet::accept)).rms_mm;
+  EXPECT_NEAR(*budget.front.back().accept_rms_mm, present_mm, 1e-3);
+}
+
+TEST_F(TwoCauses, OneGrossErrorChangesNoCost) {
+  const ErrorBudget before = budgeted();
+  DataSet spoilt = *data_;
+  spoilt.poses[problem_->validation.front()].position_m->x() += 2.0;
+  const DiagnosisProblem problem{spoilt, kZeroed, problem_->fitted, problem_->validation};
+  const ErrorBudget after = error_budget(problem, model_, problem_->fitted, model_, RandomStream{1, 2});
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(after.causes[i].without_mm, before.causes[i].without_mm, 0.1 * before.causes[i].without_mm);
+}
+
+TEST(ErrorBudget, OfAModelWithoutEffectsIsEmpty) {
+  const DataSet data = simulate(perfect_scenario(parallel_arm(), 6));
+  const DiagnosisProblem problem{data, kZeroed, poses_of(data, PoseSet::calibration), {}};
+  const DiagnosedModel model =
+      diagnosed_model(problem, fit_declared(data, problem.fitted, kZeroed, nominal_robot(data)));
+  const ErrorBudget budget = error_budget(problem, model, problem.fitted, model, RandomStream{1});
+  EXPECT_TRUE(budget.causes.empty());
+  EXPECT_TRUE(budget.front.empty());
+}
+
+}  // namespace
+}  // namespace demecal
