@@ -1,4 +1,4 @@
-#include "config/preparation_file.hpp"
+#include "config/input_files.hpp"
 
 #include <Eigen/Core>
 #include <array>
@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "config/input_files.hpp"
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"

@@ -1,4 +1,4 @@
-#include "config/robot_file.hpp"
+#include "config/input_files.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "config/input_files.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"

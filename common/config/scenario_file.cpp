@@ -1,4 +1,4 @@
-#include "config/scenario_file.hpp"
+#include "config/input_files.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "config/input_files.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
