@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -16,6 +17,7 @@
 #include "fitting/least_squares.hpp"
 #include "fitting/observation.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline calibration {
@@ -57,6 +59,41 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
   return scales;
 }
 
+/// Root mean squares of what the correction of one joint does to the measured rows: m, and rad.
+struct Shift {
+  double position_m = 0.0, orientation_rad = 0.0;
+};
+Shift shift_by(std::size_t joint, const DataSet& data, std::span<const std::size_t> poses,
+               const CorrectedRobot& corrected) {
+  CorrectedRobot without = corrected;
+  without.corrections[joint] = JointCorrection{};
+  double position_m2 = 0.0, orientation_rad2 = 0.0;
+  for (const std::size_t index : poses) {
+    const MeasuredPose& pose = data.poses[index];
+    const Eigen::VectorXd moved = residual(corrected, data, pose) - residual(without, data, pose);
+    const MeasurementRows rows = rows_of(pose);
+    const double angles = moved.segment(rows.position, rows.orientation).squaredNorm();
+    orientation_rad2 += angles;
+    position_m2 += moved.squaredNorm() - angles;
+  }
+  const double count = static_cast<double>(poses.size());
+  return {std::sqrt(position_m2 / count), std::sqrt(orientation_rad2 / count)};
+}
+
+/// A correction that hardly shows beside what scatters is whatever noise makes of it, however large: an axis through
+/// the tool point turns freely.
+void drop_unseen_corrections(const DataSet& data, std::span<const std::size_t> poses, const Fit& fit,
+                             CorrectedRobot& robot) {
+  constexpr double kUnseen = 0.1;  ///< of the scatter
+  for (std::size_t joint = 0; joint < robot.corrections.size(); ++joint) {
+    if (robot.corrections[joint].is_neutral()) continue;
+    const Shift shift = shift_by(joint, data, poses, robot);
+    const double scatter_m = std::max(fit.sigma_position_m, fit.sigma_distance_m);
+    const bool turns = fit.sigma_orientation_rad > 0.0 && shift.orientation_rad > kUnseen * fit.sigma_orientation_rad;
+    if (!turns && shift.position_m < kUnseen * scatter_m) robot.corrections[joint] = JointCorrection{};
+  }
+}
+
 /// Posterior targets about the smooth errors that explain all poses together: one pose alone leaves half of them open.
 JointTargets first_targets(const DataSet& data, const Job& job, const Preparation& preparation) {
   const CorrectedRobot& declared = preparation.declared.robot;
@@ -67,6 +104,7 @@ JointTargets first_targets(const DataSet& data, const Job& job, const Preparatio
       refined(problem, diagnosed_model(problem, loop_start(data, preparation.declared, declared)), kSmoothSteps);
   CorrectedRobot about = declared;
   about.corrections = smooth.robot.corrections;
+  drop_unseen_corrections(data, problem.fitted, preparation.declared, about);
   return targets_about(data, preparation, about);
 }
 

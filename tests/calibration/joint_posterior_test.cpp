@@ -162,6 +162,25 @@ TEST(JointPosterior, AnOutstretchedArmDoesNotBendToTakeUpAMillimetre) {
   EXPECT_EQ(targets.weight[0], 1.0);
 }
 
+TEST(JointPosterior, AJointThatTurnsTheToolPointInPlaceIsNotSaidToErr) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    DataSet data =
+        measure(true_puma({"", "0.001*SIN(theta)", "0.0008*COS(2*theta)", "", "", ""}), 120, 5e-5, seed, false);
+    CorrectedRobot truth = true_puma({"", "0.001*SIN(theta)", "0.0008*COS(2*theta)", "", "", ""});
+    truth.tools[""] = Eigen::Translation3d(1e-3, 0.0, 0.1) * Eigen::Isometry3d::Identity();
+    data.robot.chain.tool_m = {1e-3, 0.0, 0.1};
+    RandomStream random{seed, 815};
+    for (MeasuredPose& pose : data.poses) {
+      pose.position_m = truth.predict(pose.joints, "").translation() +
+                        5e-5 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    }
+    const Preparation preparation = prepare(data, short_job(TargetKind::posterior));
+    double largest_rad = 0.0;
+    for (const JointVector& error : preparation.targets.error) largest_rad = std::max(largest_rad, std::abs(error[5]));
+    EXPECT_LT(largest_rad, 3e-4) << "seed " << seed;
+  }
+}
+
 /// How many corrections are kept; every one must have brought its joint nearer.
 int kept_nearer(const SevenJoints& seven, const Job& job, const Preparation& preparation) {
   std::vector<JointCandidates> candidates;
