@@ -59,37 +59,39 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
   return scales;
 }
 
-/// Root mean squares of what the correction of one joint does to the measured rows: m, and rad.
+/// Root mean squares of the correction of one joint, and of what it does to the measured rows.
 struct Shift {
-  double position_m = 0.0, orientation_rad = 0.0;
+  double joint_rad = 0.0, position_m = 0.0, orientation_rad = 0.0;
 };
 Shift shift_by(std::size_t joint, const DataSet& data, std::span<const std::size_t> poses,
                const CorrectedRobot& corrected) {
   CorrectedRobot without = corrected;
   without.corrections[joint] = JointCorrection{};
-  double position_m2 = 0.0, orientation_rad2 = 0.0;
+  double joint_rad2 = 0.0, position_m2 = 0.0, orientation_rad2 = 0.0;
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = data.poses[index];
     const Eigen::VectorXd moved = residual(corrected, data, pose) - residual(without, data, pose);
     const MeasurementRows rows = rows_of(pose);
     const double angles = moved.segment(rows.position, rows.orientation).squaredNorm();
+    joint_rad2 += std::pow(corrected.corrections[joint](pose.joints[static_cast<Eigen::Index>(joint)]), 2);
     orientation_rad2 += angles;
     position_m2 += moved.squaredNorm() - angles;
   }
   const double count = static_cast<double>(poses.size());
-  return {std::sqrt(position_m2 / count), std::sqrt(orientation_rad2 / count)};
+  return {std::sqrt(joint_rad2 / count), std::sqrt(position_m2 / count), std::sqrt(orientation_rad2 / count)};
 }
 
-/// A correction that hardly shows beside what scatters is whatever noise makes of it, however large: an axis through
-/// the tool point turns freely.
-void drop_unseen_corrections(const DataSet& data, std::span<const std::size_t> poses, const Fit& fit,
-                             CorrectedRobot& robot) {
-  constexpr double kUnseen = 0.1;  ///< of the scatter
+/// A correction that is larger than joints are believed to err, and yet hardly shows beside what scatters about it, is
+/// what noise makes of it: an axis through the tool point turns freely.
+void drop_unseen_corrections(const DataSet& data, std::span<const std::size_t> poses, const RowScales& scatter,
+                             double joint_error_rad, CorrectedRobot& robot) {
+  constexpr double kUnseen = 0.3;  ///< of the scatter
   for (std::size_t joint = 0; joint < robot.corrections.size(); ++joint) {
     if (robot.corrections[joint].is_neutral()) continue;
     const Shift shift = shift_by(joint, data, poses, robot);
-    const double scatter_m = std::max(fit.sigma_position_m, fit.sigma_distance_m);
-    const bool turns = fit.sigma_orientation_rad > 0.0 && shift.orientation_rad > kUnseen * fit.sigma_orientation_rad;
+    if (shift.joint_rad < joint_error_rad) continue;
+    const double scatter_m = std::max(scatter[kPosition], scatter[kDistance]);
+    const bool turns = scatter[kOrientation] > 0.0 && shift.orientation_rad > kUnseen * scatter[kOrientation];
     if (!turns && shift.position_m < kUnseen * scatter_m) robot.corrections[joint] = JointCorrection{};
   }
 }
@@ -104,7 +106,7 @@ JointTargets first_targets(const DataSet& data, const Job& job, const Preparatio
       refined(problem, diagnosed_model(problem, loop_start(data, preparation.declared, declared)), kSmoothSteps);
   CorrectedRobot about = declared;
   about.corrections = smooth.robot.corrections;
-  drop_unseen_corrections(data, problem.fitted, preparation.declared, about);
+  drop_unseen_corrections(data, problem.fitted, smooth.scales, job.targets.joint_error_rad, about);
   return targets_about(data, preparation, about);
 }
 

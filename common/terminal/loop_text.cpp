@@ -183,12 +183,16 @@ std::string dropped_line(const Report& report) {
 /// What it comes to, for who asks what to do about it.
 std::string causes_lines(const Report& report) {
   if (report.causes.empty()) return {};
-  constexpr std::size_t kMostAdvised = 3;  // causes, for the first to get their advice
+  constexpr std::size_t kMostAdvised = 3;  // sentences of advice
+  std::vector<std::string> advised;
   std::string text = "  causes, by what the error of poses that judge would rise without each\n";
   for (std::size_t i = 0; i < report.causes.size(); ++i) {
     const std::string number = fmt::format("{:>5}.", i + 1);
     text += wrapped(number, cost_sentence(report.causes[i]), kIndent);
-    if (i < kMostAdvised) text += wrapped(std::string(kIndent - 1, ' '), report.causes[i].advice, kIndent);
+    const std::string& advice = report.causes[i].advice;
+    if (advised.size() == kMostAdvised || std::ranges::find(advised, advice) != advised.end()) continue;
+    text += wrapped(std::string(kIndent - 1, ' '), advice, kIndent);
+    advised.push_back(advice);
   }
   const std::string fewer = front_sentence(report.front);
   return text + (fewer.empty() ? "" : wrapped(" ", fewer, 4)) + "\n";

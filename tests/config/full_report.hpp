@@ -23,6 +23,9 @@ inline LoopOutcome full_loop() {
 inline Report full_report() {
   Report report = made_up_sharing_report();
   set_loop(full_loop(), made_up_arm(), report);
+  CorrectedRobot robot;
+  robot.effects = {made_up_backlash(), made_up_harmonic(0, 11.0, 1e-4, 0.0)};
+  set_causes(made_up_budget(robot), robot, made_up_arm(), report);
   report.method = "distal";
   report.data_check = {"suspicious", {{"outlier", 0, {"P17"}, 3.1, 0.2, "Pose P17 is 3.1 mm off."}}};
   report.poses.excluded = {{"P31", "validation", 0.4}};

@@ -121,9 +121,36 @@ inline LoopOutcome made_up_loop(int harmonics) {
   return loop;
 }
 
+/// What every cause of the added effects costs, by made-up figures.
+inline ErrorBudget made_up_budget(const CorrectedRobot& robot) {
+  ErrorBudget budget;
+  double without_mm = 0.52;
+  for (const ErrorCause& cause : causes_of(robot)) {
+    budget.front.push_back({.causes = std::vector<std::size_t>(budget.front.size()),
+                            .validation_rms_mm = without_mm + 0.1,
+                            .accept_rms_mm = without_mm + 0.11});
+    budget.causes.push_back({.cause = cause,
+                             .without_mm = without_mm,
+                             .with_mm = 0.311,
+                             .share = without_mm - 0.311,
+                             .interval_mm = {0.9 * without_mm, 1.1 * without_mm}});
+    without_mm = 0.311 + 0.6 * (without_mm - 0.311);
+  }
+  budget.front.push_back({.causes = std::vector<std::size_t>(budget.front.size()),
+                          .validation_rms_mm = 0.311,
+                          .accept_rms_mm = 0.32,
+                          .chosen = true});
+  return budget;
+}
+
 inline Report made_up_looped_report(const LoopOutcome& loop) {
   Report report = made_up_report();
   RandomStream random{832};
+  CorrectedRobot robot;
+  for (const Round& round : loop.rounds) {
+    if (round.verdict == Verdict::added) robot.effects.push_back(round.effect);
+  }
+  set_causes(made_up_budget(robot), robot, made_up_arm(), report);
   set_loop(loop, made_up_arm(), report);
   report.after = errors_about(0.311, random);
   return report;

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::Each;
 
-constexpr int kTermsPerJoint = 15;
+constexpr int kTermsPerJoint = 19;
 
 KnownArm stanford(RandomStream& stream, int poses) {
   KnownArm arm = perfect_arm(stanford_arm(), Frame::base);

@@ -92,7 +92,19 @@ TEST(LoopTerminal, GathersManyHarmonicsByJoint) {
   EXPECT_THAT(text, Not(HasSubstr("(ratio 11)")));
   EXPECT_THAT(text, HasSubstr(rounded(loop.rounds[1].validation_before_mm, 3) + " -> " +
                               rounded(loop.rounds[27].validation_after_mm, 3)));
-  EXPECT_LT(screen_lines(text).size(), 30u);
+  const std::string causes = text.substr(0, text.find("effect added"));
+  EXPECT_LT(screen_lines(causes).size(), 15u);
+  EXPECT_LT(screen_lines(text.substr(causes.size())).size(), 30u);
+}
+
+TEST(LoopTerminal, SaysWhatTheCausesCostBeforeItSaysWhatWasAdded) {
+  const std::string text = unbroken(shown(made_up_loop(5)));
+  const std::size_t dearest = text.find("1. lost motion of joint 2: 0.417 mm of the error (95 %: 0.468 to 0.572)");
+  ASSERT_NE(dearest, std::string::npos) << text;
+  EXPECT_LT(dearest, text.find("2. gears of joint 1: "));
+  EXPECT_LT(text.find("2. gears of joint 1: "), text.find("effect added"));
+  EXPECT_THAT(text, HasSubstr("All 4 leave 0.311 mm on the judging poses; of fewer, the best leave: none 0.620 mm, "));
+  EXPECT_THAT(text, HasSubstr("Approach targets from the side they were measured from"));
 }
 
 TEST(LoopTerminal, LeavesOutWhatManyHarmonicsDidWhereOthersWereAddedBetweenThem) {
