@@ -1,6 +1,6 @@
 #include "explanations/error_budget.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -142,7 +142,9 @@ ReducedModels::Pull ReducedModels::pull_of(const std::vector<Eigen::Index>& colu
     pull.values[i] = parameter_value(model_.robot, id) + linearization_.changes[column];
   }
   const Eigen::MatrixXd covariance = linearization_.covariance(columns, columns);
-  pull.weighted = covariance.completeOrthogonalDecomposition().solve(pull.values);
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::LDLT<Eigen::MatrixXd> solver(scale.asDiagonal() * covariance * scale.asDiagonal());
+  pull.weighted = scale.cwiseProduct(solver.solve(scale.cwiseProduct(pull.values)));
   return pull;
 }
 
