@@ -89,8 +89,8 @@ struct Calibration {
 Calibration conclude(const DataSet& data, const Job& job, const Preparation& preparation,
                      const std::vector<JointCandidates>& candidates, const FitOptions& options = {});
 
-/// The poses of `set` that targets and choices may rest on: without those that `declared` leaves more than three times
-/// as far out as nine of ten of all poses that calibrate and validate. A pose wrong by metres would decide alone.
+/// The poses of `set` that targets and choices may rest on: without those whose error by `declared` is gross among all
+/// poses that calibrate and validate. A pose wrong by metres would decide alone.
 std::vector<std::size_t> without_gross_errors(const DataSet& data, PoseSet set, const CorrectedRobot& declared);
 
 /// The poses that select between models: of those that validate or, where there are none, of those that calibrate the

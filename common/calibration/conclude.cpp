@@ -28,8 +28,6 @@ namespace {
 
 /// A jump smaller than this moves a tool a metre away by less than a hundredth of a millimetre.
 constexpr double kSmallestJumpRad = 1e-5;
-/// Times what nine poses of ten keep within; noise alone exceeds 2.3 times that once in a million.
-constexpr double kGrossError = 3.0;
 
 /// Mean absolute of the joint's target error less `correction`, over poses that have one.
 double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrection& correction) {
@@ -83,22 +81,13 @@ std::vector<JointSummary> joint_summaries(const JointTargets& declared, const Jo
 }
 
 std::vector<std::size_t> without_gross_errors(const DataSet& data, PoseSet set, const CorrectedRobot& declared) {
-  const auto errors_of = [&](PoseSet some) {
-    const std::vector<std::size_t> poses = poses_of(data, some);
-    return PoseEvaluator(data, poses, declared).squared_errors(declared);
-  };
-  SquaredErrors errors = errors_of(PoseSet::calibration);
-  const SquaredErrors validation = errors_of(PoseSet::validation);
-  errors.insert(errors.end(), validation.begin(), validation.end());
+  const auto error_m = [&](std::size_t pose) { return tool_error_m(declared, data, data.poses[pose]); };
+  std::vector<double> errors_m;
+  for (const PoseSet some : {PoseSet::calibration, PoseSet::validation})
+    for (const std::size_t pose : poses_of(data, some)) errors_m.push_back(error_m(pose));
+  const double limit_m = gross_error_limit(std::move(errors_m));
   std::vector<std::size_t> poses = poses_of(data, set);
-  if (errors.empty()) return poses;
-  const auto ninth = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 9 / 10);
-  std::ranges::nth_element(errors, ninth);
-  const double limit_mm = kGrossError * std::sqrt(*ninth);
-  const auto is_gross = [&](std::size_t pose) {
-    return millimetres(tool_error_m(declared, data, data.poses[pose])) > limit_mm;
-  };
-  std::erase_if(poses, is_gross);
+  std::erase_if(poses, [&](std::size_t pose) { return error_m(pose) > limit_m; });
   return poses;
 }
 

@@ -60,11 +60,11 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
 }
 
 /// Root mean squares of the correction of one joint, and of what it does to the measured rows.
-struct Shift {
+struct CorrectionSize {
   double joint_rad = 0.0, position_m = 0.0, orientation_rad = 0.0;
 };
-Shift shift_by(std::size_t joint, const DataSet& data, std::span<const std::size_t> poses,
-               const CorrectedRobot& corrected) {
+CorrectionSize size_of(std::size_t joint, const DataSet& data, std::span<const std::size_t> poses,
+                       const CorrectedRobot& corrected) {
   CorrectedRobot without = corrected;
   without.corrections[joint] = JointCorrection{};
   double joint_rad2 = 0.0, position_m2 = 0.0, orientation_rad2 = 0.0;
@@ -83,16 +83,16 @@ Shift shift_by(std::size_t joint, const DataSet& data, std::span<const std::size
 
 /// A correction that is larger than joints are believed to err, and yet hardly shows beside what scatters about it, is
 /// what noise makes of it: an axis through the tool point turns freely.
-void drop_unseen_corrections(const DataSet& data, std::span<const std::size_t> poses, const RowScales& scatter,
-                             double joint_error_rad, CorrectedRobot& robot) {
-  constexpr double kUnseen = 0.3;  ///< of the scatter
+void drop_unobservable_corrections(const DataSet& data, std::span<const std::size_t> poses, const RowScales& scatter,
+                                   double joint_error_rad, CorrectedRobot& robot) {
+  constexpr double kUnobservable = 0.3;  ///< of the scatter
   for (std::size_t joint = 0; joint < robot.corrections.size(); ++joint) {
     if (robot.corrections[joint].is_neutral()) continue;
-    const Shift shift = shift_by(joint, data, poses, robot);
-    if (shift.joint_rad < joint_error_rad) continue;
+    const CorrectionSize size = size_of(joint, data, poses, robot);
+    if (size.joint_rad < joint_error_rad) continue;
     const double scatter_m = std::max(scatter[kPosition], scatter[kDistance]);
-    const bool turns = scatter[kOrientation] > 0.0 && shift.orientation_rad > kUnseen * scatter[kOrientation];
-    if (!turns && shift.position_m < kUnseen * scatter_m) robot.corrections[joint] = JointCorrection{};
+    const bool turns = scatter[kOrientation] > 0.0 && size.orientation_rad > kUnobservable * scatter[kOrientation];
+    if (!turns && size.position_m < kUnobservable * scatter_m) robot.corrections[joint] = JointCorrection{};
   }
 }
 
@@ -106,7 +106,7 @@ JointTargets first_targets(const DataSet& data, const Job& job, const Preparatio
       refined(problem, diagnosed_model(problem, loop_start(data, preparation.declared, declared)), kSmoothSteps);
   CorrectedRobot about = declared;
   about.corrections = smooth.robot.corrections;
-  drop_unseen_corrections(data, problem.fitted, smooth.scales, job.targets.joint_error_rad, about);
+  drop_unobservable_corrections(data, problem.fitted, smooth.scales, job.targets.joint_error_rad, about);
   return targets_about(data, preparation, about);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/calibration.hpp"
 #include "calibration/selection.hpp"
 
 namespace demecal::inline closed_calibration {

@@ -19,25 +19,27 @@ struct GroupWords {
 
 constexpr std::array<GroupWords, 8> kGroups{{
     {CauseGroup::transmission, "transmission", "gears", "",
-     "Corrected targets take it out. Where it is more than the gear's maker states as running error, have its mounting "
+     "Corrected targets compensate it. Where it is more than the gear's maker states as running error, have its "
+     "mounting "
      "and wear checked."},
     {CauseGroup::lost_motion, "lost_motion", "lost motion", "",
      "Approach targets from the side they were measured from, or correct programs with their approach known. Where it "
      "grows, have the play of the gear and the brake checked."},
     {CauseGroup::elasticity, "elasticity", "elasticity", "elasticity of the arm under gravity",
-     "Corrected targets take it out for the payload that was measured. With another payload, state it, or measure "
+     "Corrected targets compensate it for the payload that was measured. With another payload, state it, or measure "
      "again with it."},
     {CauseGroup::bearing, "bearing", "bearing", "",
-     "Corrected targets take it out. Where it grows, have the bearing's preload checked."},
+     "Corrected targets compensate it. Where it grows, have the bearing's preload checked."},
     {CauseGroup::link_geometry, "link_geometry", "geometry of the link", "",
      "Declare the geometry, so that all links are fitted together."},
-    {CauseGroup::heat, "heat", "warming", "warming of the arm",
+    {CauseGroup::heat, "heat", "temperature", "temperature of the arm",
      "Let the robot warm up before it works, or state its temperature when programs are corrected."},
-    {CauseGroup::instrument, "instrument", "instrument", "instrument, or where it and the robot stand",
+    {CauseGroup::instrument, "instrument", "instrument", "instrument or its mounting",
      "Not the robot's: check the instrument's scale against a known length and how firmly both stand, and measure "
      "again. Targets are not to be corrected by it."},
-    {CauseGroup::formula, "formula", "what the catalogue has no name for,", "what the catalogue has no name for",
-     "Corrected targets take it out within the measured range. Look at what the formula depends on before you trust it "
+    {CauseGroup::formula, "formula", "error outside the catalogue", "error outside the catalogue",
+     "Corrected targets compensate it within the measured range. Look at what the formula depends on before you trust "
+     "it "
      "elsewhere."},
 }};
 
@@ -54,14 +56,17 @@ bool is_of_arm(CauseGroup group) {
 
 }  // namespace
 
+ErrorCause cause_at(std::string_view kind, int joint) {
+  const CauseGroup group = cause_of(kind).group;
+  return {group, is_of_arm(group) ? -1 : joint};
+}
+
 std::vector<ErrorCause> causes_of(const CorrectedRobot& robot) {
   std::vector<ErrorCause> causes;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
-    const CauseGroup group = cause_of(robot.effects[i].kind).group;
-    const int joint = is_of_arm(group) ? -1 : robot.effects[i].joint;
-    const auto same = [&](const ErrorCause& cause) { return cause.group == group && cause.joint == joint; };
-    auto cause = std::ranges::find_if(causes, same);
-    if (cause == causes.end()) cause = causes.insert(cause, {group, joint});
+    const ErrorCause at = cause_at(robot.effects[i].kind, robot.effects[i].joint);
+    auto cause = std::ranges::find_if(causes, [&](const ErrorCause& one) { return one.is_same_as(at); });
+    if (cause == causes.end()) cause = causes.insert(cause, at);
     cause->effects.push_back(i);
   }
   return causes;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "effects/catalogue.hpp"
@@ -15,7 +16,12 @@ struct ErrorCause {
   CauseGroup group = CauseGroup::formula;
   int joint = -1;                      ///< from 0; -1: of the whole arm, or of the instrument
   std::vector<std::size_t> effects{};  ///< places among the robot's, ascending
+
+  bool is_same_as(const ErrorCause& other) const { return group == other.group && joint == other.joint; }
 };
+
+/// The cause that effects of this kind, which must be of the catalogue, and joint have; without effects.
+ErrorCause cause_at(std::string_view kind, int joint);
 
 /// The causes of the robot's effects, in the order of their first effects; every effect belongs to one. What the
 /// catalogue does not name is a cause of its own for every joint.

@@ -36,18 +36,14 @@ double mean_of(const SquaredErrors_mm2& errors) {
   return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 
-/// The poses that judge: those with a tool error, but for gross ones.
+/// The poses on which models are judged: those with a tool error that is not gross.
 std::vector<std::size_t> judging_poses(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
-  constexpr double kGrossError = 3.0;  ///< times what nine poses of ten keep within
   std::vector<std::size_t> poses = problem.validation.empty() ? problem.fitted : problem.validation;
   const auto error_m = [&](std::size_t pose) { return tool_error_m(robot, problem.data, problem.data.poses[pose]); };
-  std::erase_if(poses, [&](std::size_t pose) { return !std::isfinite(error_m(pose)); });
-  if (poses.empty()) return poses;
   std::vector<double> errors_m;
   for (const std::size_t pose : poses) errors_m.push_back(error_m(pose));
-  const auto ninth = errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() * 9 / 10);
-  std::ranges::nth_element(errors_m, ninth);
-  std::erase_if(poses, [&, limit_m = kGrossError * *ninth](std::size_t pose) { return error_m(pose) > limit_m; });
+  const double limit_m = gross_error_limit(std::move(errors_m));
+  std::erase_if(poses, [&](std::size_t pose) { return !(error_m(pose) <= limit_m); });
   return poses;
 }
 
@@ -132,33 +128,33 @@ std::vector<Eigen::Index> ReducedModels::columns_of(std::span<const std::size_t>
   return columns;
 }
 
-ReducedModels::Pull ReducedModels::pull_of(const std::vector<Eigen::Index>& columns) const {
+ReducedModels::WaldTerms ReducedModels::wald_terms(const std::vector<Eigen::Index>& columns) const {
   const auto size = static_cast<Eigen::Index>(columns.size());
-  Pull pull{Eigen::VectorXd(size), Eigen::VectorXd(size)};
-  if (columns.empty()) return pull;
+  WaldTerms terms{Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  if (columns.empty()) return terms;
   for (Eigen::Index i = 0; i < size; ++i) {
     const Eigen::Index column = columns[static_cast<std::size_t>(i)];
     const ParameterId& id = linearization_.ids[static_cast<std::size_t>(column)];
-    pull.values[i] = parameter_value(model_.robot, id) + linearization_.changes[column];
+    terms.values[i] = parameter_value(model_.robot, id) + linearization_.changes[column];
   }
   const Eigen::MatrixXd covariance = linearization_.covariance(columns, columns);
   const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> solver(scale.asDiagonal() * covariance * scale.asDiagonal());
-  pull.weighted = scale.cwiseProduct(solver.solve(scale.cwiseProduct(pull.values)));
-  return pull;
+  terms.weighted = scale.cwiseProduct(solver.solve(scale.cwiseProduct(terms.values)));
+  return terms;
 }
 
 double ReducedModels::rise(std::span<const std::size_t> effects) const {
-  const Pull pull = pull_of(columns_of(effects));
-  return pull.values.dot(pull.weighted);
+  const WaldTerms terms = wald_terms(columns_of(effects));
+  return terms.values.dot(terms.weighted);
 }
 
 CorrectedRobot ReducedModels::without(std::span<const std::size_t> effects) const {
   const std::vector<Eigen::Index> columns = columns_of(effects);
-  const Pull pull = pull_of(columns);
+  const WaldTerms terms = wald_terms(columns);
   Eigen::VectorXd changes = linearization_.changes;
-  for (Eigen::Index i = 0; i < pull.weighted.size(); ++i)
-    changes -= linearization_.covariance.col(columns[static_cast<std::size_t>(i)]) * pull.weighted[i];
+  for (Eigen::Index i = 0; i < terms.weighted.size(); ++i)
+    changes -= linearization_.covariance.col(columns[static_cast<std::size_t>(i)]) * terms.weighted[i];
   const ParameterSpace space(model_.robot, linearization_.ids);
   CorrectedRobot robot = space.at(changes.head(space.size())).robot;
   SmoothCorrections smooth = model_.smooth;

@@ -26,11 +26,11 @@ class ReducedModels {
 
  private:
   std::vector<Eigen::Index> columns_of(std::span<const std::size_t> effects) const;
-  /// Of those columns: their values at least squares, and what one over their covariance makes of them.
-  struct Pull {
-    Eigen::VectorXd values, weighted;
+  struct WaldTerms {
+    Eigen::VectorXd values;    ///< of those columns' coefficients, at least squares
+    Eigen::VectorXd weighted;  ///< the inverse of their covariance times these
   };
-  Pull pull_of(const std::vector<Eigen::Index>& columns) const;
+  WaldTerms wald_terms(const std::vector<Eigen::Index>& columns) const;
 
   DiagnosedModel model_;
   Linearization linearization_;
@@ -61,9 +61,9 @@ struct ErrorBudget {
 };
 
 /// `model` was fitted to problem.fitted; problem.validation judges (where there are none, the fitted poses do), all but
-/// those in gross error (see below). `last` is the same model fitted to `last_fitted`. Of every number of causes those
+/// those in gross error. `last` is the same model fitted to `last_fitted`. Of every number of causes those
 /// are kept without which the fitted poses' sum of squares rises most: by leaving out one after another, and then by
-/// exchanges as long as these gain. Poses more than three times as far out as nine of ten do not judge.
+/// exchanges as long as these gain. Poses in gross error (see gross_error_limit) do not judge.
 ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& model,
                          std::span<const std::size_t> last_fitted, const DiagnosedModel& last, RandomStream random);
 

@@ -45,7 +45,7 @@ std::string causes_table(const Report& report) {
     const std::string interval = cause.interval_mm.size() == 2
                                      ? fmt::format("{:.3f} to {:.3f}", cause.interval_mm[0], cause.interval_mm[1])
                                      : "";
-    rows += table_row(escaped(cause.name),
+    rows += table_row(escaped(cause_name(cause)),
                       {fixed(cause.cost_mm(), 3), interval, fixed(cause.without_mm, 3), fixed(cause.with_mm, 3),
                        std::to_string(cause.effects.size()), escaped(cause.advice)});
   }
@@ -53,9 +53,10 @@ std::string causes_table(const Report& report) {
                      "<th>cause</th><th>of the error, mm</th><th>95 %</th><th>error without it</th><th>with it</th>"
                      "<th>effects</th><th>what to do</th>",
                      rows, report.causes.size()) +
-         "<p class=\"note\">By how much the rms error of poses that judge (validation poses, while unseen) rises when "
-         "a cause is left out and all else is fitted again; \"of the error\" is the root of the difference of "
-         "squares.</p>\n";
+         fmt::format(
+             "<p class=\"note\">By how much the rms error of {} poses rises when a cause is left out and all else is "
+             "fitted again; \"of the error\" is the root of the difference of squares.</p>\n",
+             judging_set(report));
 }
 
 /// The best model of every number of causes.
@@ -66,8 +67,9 @@ std::string front_table(const Report& report) {
     rows += table_row(std::to_string(point.causes) + (point.chosen ? ", the model" : ""),
                       {fixed(point.validation_rms_mm, 3), fixed(point.accept_rms_mm, 3)});
   }
-  return table_panel("front", "<th>causes</th><th>validation, unseen, rms mm</th><th>accept, rms mm</th>", rows,
-                     report.front.size());
+  return table_panel("front",
+                     fmt::format("<th>causes</th><th>{}, rms mm</th><th>accept, rms mm</th>", judging_set(report)),
+                     rows, report.front.size());
 }
 
 std::string dropped(const Report& report) {

@@ -108,4 +108,13 @@ ErrorFigures error_figures(std::vector<double> errors_mm) {
   return {sum / count, std::sqrt(squares / count), percentile_95(errors_mm), errors_mm.back()};
 }
 
+double gross_error_limit(std::vector<double> errors) {
+  constexpr double kGrossError = 3.0;
+  std::erase_if(errors, [](double error) { return std::isnan(error); });
+  if (errors.empty()) return std::numeric_limits<double>::infinity();
+  const auto ninth = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 9 / 10);
+  std::ranges::nth_element(errors, ninth);
+  return kGrossError * *ninth;
+}
+
 }  // namespace demecal::inline prediction

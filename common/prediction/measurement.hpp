@@ -53,6 +53,10 @@ struct ErrorFigures {
 };
 ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses);
 
+/// Beyond this a tool error is gross: three times what nine of ten of these keep within (normal noise exceeds 2.3 times
+/// that less than once in a million). NaN does not count; infinite where nothing else is there.
+double gross_error_limit(std::vector<double> errors);
+
 /// As error_figures() of poses, of these tool errors, mm (none NaN); all NaN where there are none.
 ErrorFigures error_figures(std::vector<double> errors_mm);
 

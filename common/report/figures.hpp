@@ -82,11 +82,14 @@ std::string class_text(const std::vector<ClassMember>& members);
 /// "Link geometry of joint 2 or instrument scale: these poses cannot tell."; empty for an empty class.
 std::string class_sentence(const std::vector<ClassMember>& members);
 
+/// "gears of joint 2", or "gears of joint 2 or geometry of the link of joint 2 (these poses cannot tell)".
+std::string cause_name(const CauseEntry& cause);
 /// "gears of joint 2: 0.041 mm of the error (95 %: 0.035 to 0.047)".
 std::string cost_sentence(const CauseEntry& cause);
-/// What fewer causes would leave: "With 5 causes 0.061 mm would be left, with 3 0.070, ..."; empty where there are not
-/// at least two.
-std::string front_sentence(const std::vector<FrontEntry>& front);
+/// The poses that causes are judged on: "validation", or "calibration" where there are none.
+std::string_view judging_set(const Report& report);
+/// What fewer causes would leave; empty where there are not at least two causes.
+std::string front_sentence(const Report& report);
 
 /// Why the loop stopped, from the report's word, in one sentence; empty where it did not run.
 std::string stop_sentence(const std::string& stopped);

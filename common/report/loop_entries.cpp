@@ -119,26 +119,51 @@ std::optional<double> if_any(const std::optional<double>& value) {
   return value ? if_finite(*value) : std::nullopt;
 }
 
+/// Other causes that effects in the class of one of these belong to.
+std::vector<std::string> alternatives_to(const ErrorCause& cause, const std::vector<std::string>& effects,
+                                         const std::vector<RoundEntry>& rounds) {
+  std::vector<std::string> names;
+  for (const RoundEntry& round : rounds) {
+    if (!round.added() || std::ranges::find(effects, round.effect.name()) == effects.end()) continue;
+    for (const ClassMember& member : round.members) {
+      const ErrorCause other = cause_at(member.kind, member.joint ? static_cast<int>(*member.joint) - 1 : -1);
+      const std::string name = to_string(other);
+      if (!other.is_same_as(cause) && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
+std::string cause_name(const CauseEntry& cause) {
+  std::string name = cause.name;
+  for (const std::string& alternative : cause.alternatives) name += " or " + alternative;
+  return cause.alternatives.empty() ? name : name + " (these poses cannot tell)";
+}
+
 std::string cost_sentence(const CauseEntry& cause) {
-  std::string text = fmt::format("{}: {:.3f} mm of the error", cause.name, cause.cost_mm());
+  std::string text = fmt::format("{}: {:.3f} mm of the error", cause_name(cause), cause.cost_mm());
   if (cause.interval_mm.size() == 2)
     text += fmt::format(" (95 %: {:.3f} to {:.3f})", cause.interval_mm[0], cause.interval_mm[1]);
   return text;
 }
 
-std::string front_sentence(const std::vector<FrontEntry>& front) {
+std::string_view judging_set(const Report& report) {
+  return report.poses.validation > 0 ? "validation" : "calibration";
+}
+
+std::string front_sentence(const Report& report) {
   constexpr std::uint64_t kFew = 10;
   std::string fewer;
-  for (const FrontEntry& point : front) {
+  for (const FrontEntry& point : report.front) {
     if (point.chosen || point.causes > kFew || !point.validation_rms_mm) continue;
-    const std::string causes = point.causes == 0 ? "none" : std::to_string(point.causes);
-    fewer += fmt::format("{}{} {:.3f} mm", fewer.empty() ? "" : ", ", causes, *point.validation_rms_mm);
+    const std::string causes = point.causes == 0 ? "none" : "the best " + std::to_string(point.causes);
+    fewer += fmt::format("{}{} {:.3f}", fewer.empty() ? "" : ", ", causes, *point.validation_rms_mm);
   }
-  if (front.size() < 3 || !front.back().validation_rms_mm) return {};
-  return fmt::format("All {} leave {:.3f} mm on the judging poses; of fewer, the best leave: {}.", front.back().causes,
-                     *front.back().validation_rms_mm, fewer);
+  if (report.front.size() < 3 || !report.front.back().validation_rms_mm) return {};
+  return fmt::format("Left on {} poses (rms, mm) with all {} causes {:.3f}; with fewer: {}.", judging_set(report),
+                     report.front.back().causes, *report.front.back().validation_rms_mm, fewer);
 }
 
 EffectEntry effect_entry(const Effect& effect, const Robot& robot) {
@@ -189,6 +214,7 @@ void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Ro
     if (cost.cause.joint >= 0) entry.joint = count_of(cost.cause.joint) + 1;
     for (const std::size_t effect : cost.cause.effects)
       entry.effects.push_back(effect_entry(robot.effects[effect], described).name());
+    entry.alternatives = alternatives_to(cost.cause, entry.effects, report.rounds);
     report.causes.push_back(std::move(entry));
   }
   for (const FrontPoint& point : budget.front) {

@@ -182,8 +182,8 @@ Report make_report(const Conclusions& run) {
   report.pose_errors = flagged_errors(run, report.poses);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   report.noise_floor_mm = noise_floor_mm(data);
-  set_causes(run.calibration.budget, model.robot, model.nominal, report);
   set_loop(run.loop, model.nominal, report);
+  set_causes(run.calibration.budget, model.robot, model.nominal, report);
   report.performance_index_mm2 = {if_finite(run.calibration.index_before_mm2),
                                   if_finite(run.calibration.index_after_mm2)};
   if (has_joints(model))

@@ -69,7 +69,7 @@ EffectEntry effect_entry(const Effect& effect, const Robot& robot);
 /// the effect has no such rival.
 std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vector<RivalEntry>& rivals);
 
-/// Sets causes and front. `robot` holds the effects that the budget speaks of.
+/// Sets causes and front, after set_loop(). `robot` holds the effects that the budget speaks of.
 void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Robot& described, Report& report);
 
 /// Sets rounds, dropped, not_found, unseen, decoys, stopped, the tests of the whole model, noise (nothing where the

@@ -144,6 +144,7 @@ struct CauseEntry {
   std::optional<double> share_of_error;
   std::vector<double> interval_mm;  ///< lower and upper end
   std::string advice;
+  std::vector<std::string> alternatives{};  ///< names of causes that these poses cannot tell it from
 
   /// What it costs beside all others: the root of the fall of the mean square.
   double cost_mm() const {

@@ -173,7 +173,8 @@ void fields(auto& visit, Like<RuntimeEntry> auto& runtime) {
 void fields(auto& visit, Like<CauseEntry> auto& cause) {
   visit("cause", cause.cause, "joint", cause.joint, "name", cause.name, "effects", cause.effects);
   visit.within("error_mm", [&](auto& error) { error("without", cause.without_mm, "with", cause.with_mm); });
-  visit("share_of_error", cause.share_of_error, "interval_mm", cause.interval_mm, "advice", cause.advice);
+  visit("share_of_error", cause.share_of_error, "interval_mm", cause.interval_mm, "advice", cause.advice,
+        "alternatives", cause.alternatives);
 }
 
 void fields(auto& visit, Like<FrontEntry> auto& point) {

@@ -185,7 +185,7 @@ std::string causes_lines(const Report& report) {
   if (report.causes.empty()) return {};
   constexpr std::size_t kMostAdvised = 3;  // sentences of advice
   std::vector<std::string> advised;
-  std::string text = "  causes, by what the error of poses that judge would rise without each\n";
+  std::string text = fmt::format("  causes, by the rise of the error on {} poses without each\n", judging_set(report));
   for (std::size_t i = 0; i < report.causes.size(); ++i) {
     const std::string number = fmt::format("{:>5}.", i + 1);
     text += wrapped(number, cost_sentence(report.causes[i]), kIndent);
@@ -194,7 +194,7 @@ std::string causes_lines(const Report& report) {
     text += wrapped(std::string(kIndent - 1, ' '), advice, kIndent);
     advised.push_back(advice);
   }
-  const std::string fewer = front_sentence(report.front);
+  const std::string fewer = front_sentence(report);
   return text + (fewer.empty() ? "" : wrapped(" ", fewer, 4)) + "\n";
 }
 

@@ -33,7 +33,7 @@ TEST(Causes, AreWhatAnEngineerCountsAsOne) {
   }
   EXPECT_THAT(names,
               testing::ElementsAre("gears of joint 2", "lost motion of joint 2", "elasticity of the arm under gravity",
-                                   "gears of joint 3", "warming of the arm"));
+                                   "gears of joint 3", "temperature of the arm"));
   EXPECT_THAT(causes.at(0).effects, testing::ElementsAre(0, 2));
   EXPECT_THAT(effects, testing::UnorderedElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
 }

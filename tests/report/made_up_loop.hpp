@@ -150,8 +150,8 @@ inline Report made_up_looped_report(const LoopOutcome& loop) {
   for (const Round& round : loop.rounds) {
     if (round.verdict == Verdict::added) robot.effects.push_back(round.effect);
   }
-  set_causes(made_up_budget(robot), robot, made_up_arm(), report);
   set_loop(loop, made_up_arm(), report);
+  set_causes(made_up_budget(robot), robot, made_up_arm(), report);
   report.after = errors_about(0.311, random);
   return report;
 }

@@ -103,8 +103,19 @@ TEST(LoopTerminal, SaysWhatTheCausesCostBeforeItSaysWhatWasAdded) {
   ASSERT_NE(dearest, std::string::npos) << text;
   EXPECT_LT(dearest, text.find("2. gears of joint 1: "));
   EXPECT_LT(text.find("2. gears of joint 1: "), text.find("effect added"));
-  EXPECT_THAT(text, HasSubstr("All 4 leave 0.311 mm on the judging poses; of fewer, the best leave: none 0.620 mm, "));
+  EXPECT_THAT(
+      text,
+      HasSubstr("Left on validation poses (rms, mm) with all 4 causes 0.311; with fewer: none 0.620, the best 1 "));
   EXPECT_THAT(text, HasSubstr("Approach targets from the side they were measured from"));
+}
+
+TEST(LoopTerminal, SaysWhichOtherCauseACauseCannotBeToldFrom) {
+  LoopOutcome loop = made_up_loop(0);
+  const Effect geometry{.kind = "geometry", .joint = 2, .settings = {}},
+      own{.kind = "hysteresis", .joint = 1, .settings = {}};
+  loop.rounds.front().rivals = {{geometry, 0.995, 0.5}, {own, 0.99, 0.7}};
+  EXPECT_THAT(unbroken(shown(loop)),
+              HasSubstr("1. lost motion of joint 2 or geometry of the link of joint 3 (these poses cannot tell): "));
 }
 
 TEST(LoopTerminal, LeavesOutWhatManyHarmonicsDidWhereOthersWereAddedBetweenThem) {
