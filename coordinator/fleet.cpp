@@ -50,20 +50,6 @@ pid_t start(const std::string& path, const std::vector<std::string>& arguments) 
   return child;
 }
 
-std::vector<std::string> worker_arguments(const DdsOptions& options, RunId run) {
-  std::vector<std::string> arguments{"--domain", std::to_string(options.domain), "--only-run", std::to_string(run)};
-  const auto add = [&](const char* option, const std::string& value) {
-    arguments.emplace_back(option);
-    arguments.push_back(value);
-  };
-  if (options.reach == DdsOptions::Reach::network) arguments.emplace_back("--network");
-  for (const std::string& address : options.interfaces) add("--interface", address);
-  for (const std::string& peer : options.peers) add("--peer", peer);
-  if (!options.discovery_server.empty()) add("--discovery-server", options.discovery_server);
-  if (!options.security.empty()) add("--security", options.security);
-  return arguments;
-}
-
 /// `text` as --workers takes it. Throws CLI::ValidationError for anything else.
 void take_workers(const std::string& text, FleetArguments& fleet) {
   constexpr int kMostWorkers = 256;
@@ -88,27 +74,6 @@ void take_workers(const std::string& text, FleetArguments& fleet) {
 }
 
 }  // namespace
-
-std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
-  const auto dds = std::make_shared<DdsOptions>();
-  const auto reach_out = [dds](std::int64_t) { dds->reach = DdsOptions::Reach::network; };
-  command.add_option("--domain", dds->domain, "DDS domain")
-      ->envname("DEMECAL_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
-  command.add_flag("--network", reach_out, "see other machines too, found by multicast");
-  command.add_option("--interface", dds->interfaces, "addresses of the network interfaces to use");
-  command.add_option("--peer", dds->peers, "addresses of other hosts, where there is no multicast");
-  command.add_option("--discovery-server", dds->discovery_server, "ADDRESS:PORT of a discovery server");
-  command
-      .add_option("--security", dds->security,
-                  "folder of certificates, from scripts/security; not with a discovery server")
-      ->excludes("--discovery-server");
-  command.parse_complete_callback([dds] {
-    if (!dds->peers.empty() || !dds->discovery_server.empty()) dds->reach = DdsOptions::Reach::network;
-  });
-  return dds;
-}
 
 void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
   const auto take = [&fleet](const std::string& text) { take_workers(text, fleet); };
@@ -175,7 +140,8 @@ DdsFleet::DdsFleet(const DdsOptions& options, int local_workers)
 
 void DdsFleet::launch(RunId run) {
   if (workers_ && workers_->any_alive()) return;
-  std::vector<std::string> arguments = worker_arguments(options_, run);
+  std::vector<std::string> arguments = dds_arguments(options_);
+  arguments.insert(arguments.end(), {"--only-run", std::to_string(run)});
   int processes = local_workers_;
   if (!options_.security.empty() && processes > 0) {
     arguments.insert(arguments.end(), {"--slots", std::to_string(processes)});

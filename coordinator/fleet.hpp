@@ -17,10 +17,6 @@
 
 namespace demecal {
 
-/// Adds --domain, --network, --interface, --peer, --discovery-server and --security; what they say is in the result
-/// once the command line is parsed.
-std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command);
-
 struct FleetArguments {
   int workers = static_cast<int>(std::thread::hardware_concurrency());  ///< processes, or threads where `in_process`
   bool in_process = false;

@@ -88,23 +88,11 @@ std::string unique_name(const std::string& host) {
 
 int main(int argc, char** argv) {
   CLI::App app{"demecal-worker: evolves islands for whichever coordinator serves its domain", "demecal-worker"};
-  demecal::DdsOptions dds;
   demecal::WorkerOptions options;
-  bool network = false;
-  app.add_option("--domain", dds.domain, "DDS domain")
-      ->envname("DEMECAL_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  const auto dds = demecal::add_dds_arguments(app);
   app.add_option("--slots", options.slots, "islands computed at once")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  app.add_flag("--network", network, "serve coordinators on other machines too, found by multicast");
-  app.add_option("--interface", dds.interfaces, "addresses of the network interfaces to use");
-  app.add_option("--peer", dds.peers, "addresses of other hosts, where there is no multicast");
-  app.add_option("--discovery-server", dds.discovery_server, "ADDRESS:PORT of a discovery server");
-  app.add_option("--security", dds.security,
-                 "folder of certificates, from scripts/security; not with a discovery server")
-      ->excludes("--discovery-server");
   app.add_option("--only-run", options.only_run, "serve the coordinator of this run alone");
   app.set_version_flag("--version", DEMECAL_VERSION);
   demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
@@ -113,7 +101,6 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 10;
   }
-  if (network || !dds.peers.empty() || !dds.discovery_server.empty()) dds.reach = demecal::DdsOptions::Reach::network;
   ::sem_init(&stop_asked, 0, 0);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -123,7 +110,7 @@ int main(int argc, char** argv) {
   options.name = unique_name(options.host);
   options.after_run = trim_memory;
   try {
-    const auto transport = demecal::join_dds(dds, demecal::Role::worker, options.name);
+    const auto transport = demecal::join_dds(*dds, demecal::Role::worker, options.name);
     const Waker waker(*transport);
     demecal::Worker(*transport, options).serve(stop);
   } catch (const demecal::InputError& error) {

@@ -1,5 +1,6 @@
 #include "dds/dds_transport.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -144,6 +145,41 @@ bool DdsTransport::flush(milliseconds patience) {
 }
 
 }  // namespace
+
+std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
+  const auto dds = std::make_shared<DdsOptions>();
+  const auto reach_out = [dds](std::int64_t) { dds->reach = DdsOptions::Reach::network; };
+  command.add_option("--domain", dds->domain, "DDS domain")
+      ->envname("DEMECAL_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command.add_flag("--network", reach_out, "meet other machines too, found by multicast");
+  command.add_option("--interface", dds->interfaces, "addresses of the network interfaces to use");
+  command.add_option("--peer", dds->peers, "addresses of other hosts, where there is no multicast");
+  command.add_option("--discovery-server", dds->discovery_server, "ADDRESS:PORT of a discovery server");
+  command
+      .add_option("--security", dds->security,
+                  "folder of certificates, from scripts/security; not with a discovery server")
+      ->excludes("--discovery-server");
+  command.parse_complete_callback([dds] {
+    if (!dds->peers.empty() || !dds->discovery_server.empty()) dds->reach = DdsOptions::Reach::network;
+  });
+  return dds;
+}
+
+std::vector<std::string> dds_arguments(const DdsOptions& options) {
+  std::vector<std::string> arguments{"--domain", std::to_string(options.domain)};
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.emplace_back(option);
+    arguments.push_back(value);
+  };
+  if (options.reach == DdsOptions::Reach::network) arguments.emplace_back("--network");
+  for (const std::string& address : options.interfaces) add("--interface", address);
+  for (const std::string& peer : options.peers) add("--peer", peer);
+  if (!options.discovery_server.empty()) add("--discovery-server", options.discovery_server);
+  if (!options.security.empty()) add("--security", options.security);
+  return arguments;
+}
 
 std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name) {
   return std::make_unique<DdsTransport>(options, role, name);

@@ -9,6 +9,10 @@
 #include "protocol/messages.hpp"
 #include "transport/transport.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace demecal::inline dds {
 
 struct DdsOptions {
@@ -23,6 +27,12 @@ struct DdsOptions {
   /// own shows no certificate.
   std::string security;
 };
+
+/// Adds --domain, --network, --interface, --peer, --discovery-server and --security; what they say is in the result
+/// once the command line is parsed.
+std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command);
+/// `options` as the arguments that add_dds_arguments() reads.
+std::vector<std::string> dds_arguments(const DdsOptions& options);
 
 /// Joins the domain. `name` identifies a worker in WorkerLost. Throws std::runtime_error where no participant can be
 /// made, and InputError where an address is none or a certificate is missing or not accepted.

@@ -128,8 +128,8 @@ std::string study_table(const Study& study) {
     line.push_back(with_digits(cell.wall_s, 1));
     lines.push_back(std::move(line));
   }
-  return fmt::format("{}: {} on {}, {} cells, {} of {} runs{}\n\n{}\n{}", study.job, study.robot, study.data,
-                     cells.size(), study.runs.size(), cells.size() * study.seeds.size(),
+  return fmt::format("{}: {} on {}, {} {}, {} of {} runs{}\n\n{}\n{}", study.job, study.robot, study.data, cells.size(),
+                     cells.size() == 1 ? "cell" : "cells", study.runs.size(), cells.size() * study.seeds.size(),
                      study.interrupted ? " (interrupted)" : "", aligned(lines), meaning(cells)) +
          " mm: rms of the tool error with the formulas" + (study.closed_loop ? ", and the effects found," : "") +
          " in place; nodes: of all joints' formulas.\n";

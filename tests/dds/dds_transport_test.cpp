@@ -5,14 +5,18 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
@@ -25,6 +29,37 @@ namespace demecal {
 namespace {
 
 constexpr std::uint32_t kFollowedJoint = 0;
+
+DdsOptions read_arguments(const std::vector<std::string>& arguments) {
+  CLI::App app;
+  const std::shared_ptr<DdsOptions> options = add_dds_arguments(app);
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  return *options;
+}
+
+TEST(DdsArguments, AreReadBackAsTheOptionsTheyWereMadeOf) {
+  for (const bool network : {false, true}) {
+    for (const int addresses : {0, 1, 3}) {
+      for (const bool by_server : {false, true}) {
+        DdsOptions options;
+        options.domain = static_cast<std::uint32_t>(7 + addresses);
+        for (int i = 0; i < addresses; ++i) {
+          options.interfaces.push_back("10.0.0." + std::to_string(i));
+          options.peers.push_back("10.0.1." + std::to_string(i));
+        }
+        (by_server ? options.discovery_server : options.security) = by_server ? "10.0.2.1:11811" : "/folder of keys";
+        if (network || addresses > 0 || by_server) options.reach = DdsOptions::Reach::network;
+        const DdsOptions read = read_arguments(dds_arguments(options));
+        EXPECT_EQ(read.domain, options.domain);
+        EXPECT_EQ(read.reach, options.reach);
+        EXPECT_EQ(read.interfaces, options.interfaces);
+        EXPECT_EQ(read.peers, options.peers);
+        EXPECT_EQ(read.discovery_server, options.discovery_server);
+        EXPECT_EQ(read.security, options.security);
+      }
+    }
+  }
+}
 
 TEST(Dds, AWorkerWhoseLoopIsStuckIsLostAndComesBackWhenItGoesOn) {
   DdsNetwork network;

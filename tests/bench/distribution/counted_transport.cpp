@@ -9,7 +9,7 @@ namespace demecal::bench {
 bool CountedTransport::await_workers(std::size_t count, std::chrono::milliseconds patience) {
   const auto end = std::chrono::steady_clock::now() + patience;
   while (workers_.size() < count && std::chrono::steady_clock::now() < end) {
-    const std::optional<Message> message = carrier_.receive(std::chrono::milliseconds(100));
+    const std::optional<Message> message = ForwardingTransport::receive(std::chrono::milliseconds(100));
     if (!message) continue;
     if (const auto* status = std::get_if<WorkerStatus>(&*message)) workers_[status->worker] = *status;
   }
@@ -23,14 +23,14 @@ std::optional<Message> CountedTransport::receive(std::chrono::milliseconds patie
     to_tell_.erase(to_tell_.begin());
     return known;
   }
-  std::optional<Message> message = carrier_.receive(patience);
+  std::optional<Message> message = ForwardingTransport::receive(patience);
   if (message) received_.push_back(*message);
   return message;
 }
 
 void CountedTransport::publish(const Message& message) {
   if (const auto* task = std::get_if<IslandTask>(&message)) holders_[task->island] = task->worker;
-  carrier_.publish(message);
+  ForwardingTransport::publish(message);
 }
 
 Traffic CountedTransport::traffic(const CalibrationData& data) const {

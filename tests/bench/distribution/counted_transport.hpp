@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/transport.hpp"
+#include "forwarding_transport.hpp"
 
 namespace demecal::bench {
 
@@ -15,9 +15,9 @@ struct Traffic {
 };
 
 /// Waits for workers before the run that is measured begins, and hands their words on to it.
-class CountedTransport : public Transport {
+class CountedTransport : public ForwardingTransport {
  public:
-  explicit CountedTransport(Transport& carrier) : carrier_(carrier) {}
+  using ForwardingTransport::ForwardingTransport;
 
   /// Whether so many workers have reported within `patience`.
   bool await_workers(std::size_t count, std::chrono::milliseconds patience);
@@ -28,16 +28,8 @@ class CountedTransport : public Transport {
 
   void publish(const Message& message) override;
   std::optional<Message> receive(std::chrono::milliseconds patience) override;
-  void wake() override { carrier_.wake(); }
-  void follow_migrants(std::uint32_t joint) override { carrier_.follow_migrants(joint); }
-  void assert_alive() override { carrier_.assert_alive(); }
-  bool flush(std::chrono::milliseconds patience) override { return carrier_.flush(patience); }
-  RunId new_run() override { return carrier_.new_run(); }
-  void reject(const std::string& source, const std::string& why) override { carrier_.reject(source, why); }
-  std::uint64_t rejected() const override { return carrier_.rejected(); }
 
  private:
-  Transport& carrier_;
   std::map<std::string, WorkerStatus> workers_;
   std::map<std::string, WorkerStatus> to_tell_;
   std::map<IslandKey, std::string> holders_;

@@ -52,9 +52,8 @@ double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chron
 
 DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
                             std::chrono::seconds idle) {
-  const std::unique_ptr<Transport> carrier = join_dds(dds, Role::coordinator, "");
+  CountedTransport transport(join_dds(dds, Role::coordinator, ""));
   const LocalWorkers workers = started(dds, fleet);
-  CountedTransport transport(*carrier);
   if (!transport.await_workers(static_cast<std::size_t>(fleet.processes), kPatience))
     throw std::runtime_error("not all workers came within a minute");
   DistributionFigures figures;

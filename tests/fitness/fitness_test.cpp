@@ -3,8 +3,6 @@
 
 #include <limits>
 
-#include "allocation_count.hpp"
-#include "evolution/breeding.hpp"
 #include "evolution/tree_generation.hpp"
 #include "fitness/fitness.hpp"
 #include "fitness/lessons.hpp"
@@ -127,23 +125,6 @@ TEST(ErrorSum, AddsRowsByTurnsIntoEightSums) {
     expected[i % 8] += error;
   }
   EXPECT_EQ(sums, expected);
-}
-
-TEST(Breeding, AllocatesNothingOnceItIsWarm) {
-  GpParameters parameters = small_parameters();
-  parameters.population_size = 200;
-  parameters.max_tree_nodes = 64;
-  const TrainingTable table = smooth_lesson();
-  RandomStream random{24};
-  Breeder breeder(parameters, table);
-  SharedPopulation population = breeder.enter(ramped_half_and_half(random, parameters, 1));
-  for (int generation = 0; generation < 300; ++generation) breeder.breed(random, population);
-  const std::uint64_t before = allocation_count();
-  for (int generation = 0; generation < 50; ++generation) breeder.breed(random, population);
-  const std::uint64_t after = allocation_count();
-  const std::vector<double> allocated(100);
-  EXPECT_EQ(allocation_count(), after + 1);
-  EXPECT_EQ(after, before);
 }
 
 }  // namespace
