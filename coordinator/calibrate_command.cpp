@@ -45,7 +45,7 @@ struct CalibrateRequest {
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
-  bool quiet = false, asynchronous = false, force = false;
+  bool quiet = false, asynchronous = false, no_evolution = false, force = false;
 };
 
 Job job_of(const CalibrateRequest& request) {
@@ -53,8 +53,14 @@ Job job_of(const CalibrateRequest& request) {
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
   if (!request.data_file.empty()) job.data_file = request.data_file;
-  for (const Method method : {Method::direct, Method::distal, Method::structural}) {
+  for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural}) {
     if (request.method == to_string(method)) job.method = method;
+  }
+  if (request.no_evolution) {
+    if (job.method == Method::structural)
+      throw InputError({request.job_file, 0}, to_string(job.method),
+                       "is a search by evolution: --no-evolution leaves nothing of that method");
+    job.method = Method::diagnose;
   }
   return job;
 }
@@ -63,6 +69,11 @@ void print_head(const CalibrateRequest& request, const Job& job, const DataSet& 
   if (request.quiet) return;
   if (job.method == Method::structural) {
     fmt::print(stderr, "{}: {} on {} ({} poses), a search for transforms between the links, seed {}\n", job.name,
+               data.robot.name, data.name, data.poses.size(), job.seed);
+    return;
+  }
+  if (job.method == Method::diagnose) {
+    fmt::print(stderr, "{}: {} on {} ({} poses), the closed loop without evolution, seed {}\n", job.name,
                data.robot.name, data.name, data.poses.size(), job.seed);
     return;
   }
@@ -115,6 +126,7 @@ Report write(const CalibrateRequest& request, const DataSet& data, const Calibra
 std::string effort(const Job& job, const RunFacts& facts) {
   if (job.method == Method::structural)
     return fmt::format("{} structures fitted in {:.1f} s", facts.evaluations, facts.wall_s);
+  if (job.method == Method::diagnose) return fmt::format("nothing was evolved, {:.1f} s", facts.wall_s);
   return fmt::format("{} islands on {} workers, {} evaluations in {:.1f} s", facts.islands, facts.workers,
                      facts.evaluations, facts.wall_s);
 }
@@ -211,7 +223,7 @@ ExitCode run(CalibrateRequest request) {
   }
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
              effort(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
-             request.out, job.method == Method::structural ? "" : ", history.csv");
+             request.out, has_islands(job.method) ? ", history.csv" : "");
   if (end == RunEnd::interrupted) {
     fmt::print("  {}\n", resuming(request));
     return ExitCode::interrupted;
@@ -231,7 +243,11 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
                       "folder of a run that was broken off: goes on from its journal, and leaves the results there");
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
   command->add_option("--method", request->method, "learning method (default: the job's)")
-      ->check(CLI::IsMember({"direct", "distal", "structural"}));
+      ->check(CLI::IsMember({"direct", "distal", "diagnose", "structural"}));
+  command
+      ->add_flag("--no-evolution", request->no_evolution,
+                 "evolve nothing, as --method diagnose: what evolution earns is the difference")
+      ->excludes("--method");
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--data", request->data_file, "data set in place of the job's");

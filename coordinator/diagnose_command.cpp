@@ -172,6 +172,7 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
+  command->add_flag("--no-evolution")->description("evolve nothing; diagnose never does, whether this is said or not");
   command->add_flag("--json", request->json, "print report.json in place of the report for people");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);

@@ -83,7 +83,7 @@ std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
 
 std::vector<std::string> result_files(Method method) {
   std::vector<std::string> files{"model.yaml", "report.json", "report.html"};
-  if (method != Method::diagnose && method != Method::structural) files.emplace_back("history.csv");
+  if (has_islands(method)) files.emplace_back("history.csv");
   if (method == Method::distal) files.emplace_back("distal.csv");
   return files;
 }
@@ -145,7 +145,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
                                      .structure = result.structure,
                                      .runtime = result.facts});
   write_result(folder, "report.json", to_json(report));
-  const bool evolves = method != Method::diagnose && method != Method::structural;
+  const bool evolves = has_islands(method);
   const std::vector<HistoryRow> history = evolves ? history_rows(result.history) : std::vector<HistoryRow>{};
   if (report.distal) write_result(folder, "distal.csv", distal_csv(*report.distal));
   if (evolves) write_result(folder, "history.csv", history_csv(history));

@@ -53,14 +53,20 @@ struct CorrectionOptions {
   bool operator==(const CorrectionOptions&) const = default;
 };
 
-/// How joint corrections are learnt; `diagnose`: not at all, the model came from the closed loop alone; `structural`:
-/// not at all, transforms between the links are searched for.
+/// How joint corrections are learnt; `diagnose`: nothing is evolved, the model comes from the closed loop alone, in
+/// which joint corrections are sums of smooth terms; `structural`: not at all, transforms between the links are
+/// searched for.
 enum class Method { direct, distal, diagnose, structural };
 
 /// "direct", "distal", "diagnose", "structural".
 inline const char* to_string(Method method) {
   constexpr const char* kWords[] = {"direct", "distal", "diagnose", "structural"};
   return kWords[static_cast<std::size_t>(method)];
+}
+
+/// Whether populations are bred on islands.
+constexpr bool has_islands(Method method) {
+  return method == Method::direct || method == Method::distal;
 }
 
 struct IslandOptions {

@@ -118,8 +118,10 @@ Job read_job(const YamlNode& root) {
   job.name = path.stem().string();
   job.data_file = resolve(path, root.at("data").text()).string();
   if (const YamlNode* method = root.find("method")) {
-    job.method = method->one_of<Method>(
-        {{"direct", Method::direct}, {"distal", Method::distal}, {"structural", Method::structural}});
+    job.method = method->one_of<Method>({{"direct", Method::direct},
+                                         {"distal", Method::distal},
+                                         {"diagnose", Method::diagnose},
+                                         {"structural", Method::structural}});
   }
   if (const YamlNode* seed = root.find("seed")) job.seed = seed->seed();
   if (const YamlNode* model = root.find("model")) {

@@ -137,7 +137,7 @@ RuntimeEntry runtime_entry(const RunFacts& facts) {
 
 /// Whether the report says something of joints: where corrections were evolved, or are in the model all the same.
 bool has_joints(const CalibratedModel& model) {
-  const bool evolves = model.method != Method::diagnose && model.method != Method::structural;
+  const bool evolves = has_islands(model.method);
   return evolves || has_corrections(model.robot);
 }
 

@@ -146,6 +146,17 @@ void close_the_loop(const DataSet& data, const Job& job, IslandEvolver& islands,
   if (interrupt) result.end = RunEnd::interrupted;
 }
 
+/// By the closed loop alone, in this process.
+CalibrateResult calibrate_without_evolution(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
+                                            CalibrationObserver& observer) {
+  observer.on_learning_begins(data.robot);
+  Diagnosis diagnosis = diagnose(data, job, std::nullopt, [&](const Round& round) {
+    observer.on_round(round, data.robot);
+    return !interrupt;
+  });
+  return std::move(diagnosis.result);
+}
+
 }  // namespace
 
 CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration) {
@@ -169,9 +180,10 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& 
                           const std::atomic<bool>& interrupt, const CalibrateOptions& options) {
   const Clock::time_point begin = Clock::now();
   if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
-  CalibrateResult result;
   CalibrationObserver nobody;
   CalibrationObserver& observer = options.observer == nullptr ? nobody : *options.observer;
+  if (job.method == Method::diagnose) return calibrate_without_evolution(data, job, interrupt, observer);
+  CalibrateResult result;
   IslandEvolver islands(job, make_fleet, interrupt,
                         {options.patience, options.asynchronous, &observer, options.journal});
   if (evolves_on_islands(job)) islands.start_fleet();

@@ -79,8 +79,9 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
 
 /// Prepares, evolves on the fleet, concludes, and closes the loop unless the job allows it no effects. One fleet is
 /// asked for where joint corrections are evolved, and serves all evolutions; another takes its place after one that was
-/// stuck. The structural method evolves no corrections: it needs no fleet, and no loop follows. Throws InputError for
-/// data that the job cannot be fitted to.
+/// stuck. The structural method evolves no corrections: it needs no fleet, and no loop follows. Nor does the method
+/// diagnose, which is diagnose() with what the job declares. Throws InputError for data that the job cannot be fitted
+/// to.
 CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& make_fleet,
                           const std::atomic<bool>& interrupt, const CalibrateOptions& options);
 

@@ -109,6 +109,22 @@ TEST(Calibrate, DoesNotReadTheTruth) {
   EXPECT_EQ(job.text("with/model.yaml"), job.text("without/model.yaml"));
 }
 
+TEST(Calibrate, WithoutEvolutionNeedsNoWorkerAndWritesNoHistory) {
+  const SmallJob job;
+  const Ended ended = run("demecal", {"calibrate", job.job(), "--out", job.path("out"), "--no-evolution", "--workers",
+                                      "0", "--domain", private_domain()});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("nothing was evolved"), std::string::npos) << ended.out;
+  EXPECT_TRUE(job.text("out/history.csv").empty());
+  EXPECT_NE(job.text("out/model.yaml").find("method: diagnose"), std::string::npos);
+  const Json report = Json::parse(job.text("out/report.json"));
+  EXPECT_EQ(report["runtime"]["evaluations"], 0);
+  const Ended contradiction = run("demecal", {"calibrate", DEMECAL_SOURCE_DIR "/configs/jobs/structural.yaml", "--out",
+                                              job.path("other"), "--no-evolution"});
+  EXPECT_EQ(contradiction.code, 11);
+  EXPECT_NE(contradiction.err.find("--no-evolution"), std::string::npos) << contradiction.err;
+}
+
 TEST(Evaluate, ReproducesTheReportFromTheModelAlone) {
   const SmallJob job;
   ASSERT_EQ(run("demecal", calibrate(job, "out", 2)).code, 0);

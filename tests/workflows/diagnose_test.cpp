@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 
+#include "config/model_file.hpp"
 #include "errors/input_error.hpp"
 #include "workflows/lacking_puma.hpp"
 
@@ -78,6 +81,32 @@ TEST(Diagnose, WorksOnFewPosesWithoutValidation) {
   const DataSet data = simulate(scenario);
   const CalibrateResult result = diagnose(data, diagnosing_job(declared_by_default(data)), {}, {}).result;
   EXPECT_NE(result.loop.stopped, StopReason::not_run);
+}
+
+TEST(CalibrateWithoutEvolution, IsTheDiagnosisOfWhatTheJobDeclaresAndAsksForNoWorkers) {
+  const DataSet data = simulate(lacking_puma(true));
+  Job job = diagnosing_job(kSmooth);
+  job.closed_loop.candidates = {"backlash"};
+  const std::atomic<bool> interrupt{false};
+  bool asked = false;
+  const auto no_fleet = [&asked]() -> std::unique_ptr<Fleet> {
+    asked = true;
+    return nullptr;
+  };
+  const CalibrateResult result = calibrate(data, job, no_fleet, interrupt, {});
+  EXPECT_FALSE(asked);
+  EXPECT_EQ(result.end, RunEnd::finished);
+  EXPECT_EQ(result.facts.evaluations, 0U);
+  EXPECT_EQ(model_text(result.model), model_text(diagnose(data, job, {}, {}).result.model));
+  EXPECT_TRUE(std::ranges::any_of(result.model.robot.effects, is_backlash_of_joint_2));
+}
+
+TEST(CalibrateWithoutEvolution, IsInterruptedAfterARound) {
+  const std::atomic<bool> interrupt{true};
+  const CalibrateResult result =
+      calibrate(simulate(lacking_puma(true)), diagnosing_job(kSmooth), nullptr, interrupt, {});
+  EXPECT_EQ(result.end, RunEnd::interrupted);
+  EXPECT_EQ(result.loop.rounds.size(), 1U);
 }
 
 }  // namespace
