@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "seed must be a whole number"},
         BadInput{"NegativeSeed", "job.yaml", "seed: 7", "seed: -7", "job.yaml:5", "-7", "seed must be a whole number"},
         BadInput{"UnknownMethod", "job.yaml", "method: distal", "method: distant", "job.yaml:4", "distant",
-                 "method must be one of: direct distal structural; the nearest is 'distal'"},
+                 "method must be one of: direct distal diagnose structural; the nearest is 'distal'"},
         BadInput{"UnknownDistalForm", "job.yaml", "form: sequential", "form: sequentiel", "job.yaml:35", "sequentiel",
                  "distal.form must be one of: parallel sequential; the nearest is 'sequential'"},
         BadInput{"UnknownAmplitudes", "job.yaml", "amplitudes: fitted", "amplitudes: fit", "job.yaml:35", "fit",

@@ -66,6 +66,8 @@ const std::map<std::string, std::string> kCovered = {
     {"scripts/workers stop --hosts hosts.txt", "StartOnEveryHostOfAListServeACoordinatorAndStop"},
     {"demecal study configs/jobs/shared-functions.yaml --out study --grid configs/grids/shared-functions.yaml",
      "PrintsATableAndLeavesEveryRun"},
+    {"demecal study configs/jobs/demo.yaml --set method=direct,diagnose --closed-loop --out study",
+     "ComparesEvolutionAndTheClosedLoopAlone"},
     {"ctest --preset release -L applied", "scripts/test"},
     {"systemctl enable --now demecal-worker", "TheSystemdUnitStartsAWorkerWithTheOptionsOfItsFile"},
     {"echo 'OPTIONS=--discovery-server 192.0.2.10:11811' > /etc/default/demecal-worker",

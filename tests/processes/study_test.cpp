@@ -40,6 +40,17 @@ TEST(Study, PrintsATableAndLeavesEveryRun) {
   EXPECT_FALSE(json["blocks"].empty());
 }
 
+TEST(Study, ComparesEvolutionAndTheClosedLoopAlone) {
+  const SmallJob job(10, 1);
+  const Ended ended = run(
+      "demecal", study(job, {"--set", "method=direct,diagnose", "--closed-loop", "--seeds", "1", "--workers", "2"}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json cells = Json::parse(job.text("out/study.json"))["cells"];
+  ASSERT_EQ(cells.size(), 2U);
+  EXPECT_GT(cells[0]["evaluations"]["median"], 0);
+  EXPECT_EQ(cells[1]["evaluations"]["median"], 0);
+}
+
 TEST(Study, InterruptedKeepsWhatItReached) {
   const SmallJob job(200);
   Program program("demecal", study(job, {"--seeds", "500", "--workers", "2"}));
