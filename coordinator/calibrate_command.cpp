@@ -61,6 +61,7 @@ Job job_of(const CalibrateRequest& request) {
       throw InputError({request.job_file, 0}, to_string(job.method),
                        "is a search by evolution: --no-evolution leaves nothing of that method");
     job.method = Method::diagnose;
+    job.explanations.variations = 0;
   }
   return job;
 }

@@ -49,7 +49,7 @@ struct DiagnoseRequest {
   std::uint64_t seed = 1;
   ClosedLoopOptions loop;
   int proposed = 0;
-  bool json = false, quiet = false, force = false;
+  bool json = false, quiet = false, force = false, no_evolution = false;
 };
 
 /// Each word of a list must be one of `words`.
@@ -78,6 +78,7 @@ Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   job.seed = request.seed;
   job.declared = declared;
   job.closed_loop = request.loop;
+  if (request.no_evolution) job.explanations.variations = 0;
   return job;
 }
 
@@ -172,7 +173,8 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
-  command->add_flag("--no-evolution")->description("evolve nothing; diagnose never does, whether this is said or not");
+  command->add_flag("--no-evolution", request->no_evolution,
+                    "only leave causes out of what was added one effect after another, search for no better sets");
   command->add_flag("--json", request->json, "print report.json in place of the report for people");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);

@@ -82,7 +82,7 @@ std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
 }  // namespace
 
 std::vector<std::string> result_files(Method method) {
-  std::vector<std::string> files{"model.yaml", "report.json", "report.html"};
+  std::vector<std::string> files{"model.yaml", "model-best.yaml", "report.json", "report.html"};
   if (has_islands(method)) files.emplace_back("history.csv");
   if (method == Method::distal) files.emplace_back("distal.csv");
   return files;
@@ -129,6 +129,11 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
   const Method method = result.model.method;
   const std::string model_path = folder + "/model.yaml";
   write_result(folder, "model.yaml", model_text(result.model));
+  if (result.best) {
+    write_result(folder, "model-best.yaml", model_text(*result.best));
+  } else {
+    std::filesystem::remove(folder + "/model-best.yaml");
+  }
   CalibratedModel written = load_model(model_path);
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;

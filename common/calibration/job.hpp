@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "evolution/archipelago.hpp"
+#include "explanations/explanation_search.hpp"
 #include "expression/tree.hpp"
 #include "fitness/parameters.hpp"
 #include "fitting/declared_model.hpp"
@@ -82,7 +83,7 @@ struct IslandOptions {
 };
 
 struct ClosedLoopOptions {
-  int max_effects = 100;                ///< that the loop may add; 0: it does not run
+  int max_effects = 150;                ///< that the loop may add; 0: it does not run
   double family_error = 0.05;           ///< chance of adding anything to a model that lacks nothing
   std::vector<std::string> candidates;  ///< kinds of effects to consider, by the words of reports; empty: all
   int highest_ratio = 200;              ///< of the scan over gear harmonics
@@ -119,6 +120,7 @@ struct Job {
   TargetOptions targets;
   IslandOptions islands;
   ClosedLoopOptions closed_loop;
+  ExplanationSearch explanations;  ///< at the loop's end; its most effects are those that the loop may add
   DistalOptions distal;
 
   bool operator==(const Job&) const = default;

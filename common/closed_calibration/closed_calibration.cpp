@@ -39,12 +39,12 @@ class LoopPasses {
         preparation_(preparation),
         first_(first),
         selection_poses_(selection_poses(data, preparation.declared.robot)),
-        closed_{first.robot, first, {}} {}
+        closed_{.before = first.robot, .calibration = first, .loop = {}} {}
 
   ClosedCalibration run(const RoundWatcher& watch);
 
  private:
-  void adopt(DiagnosedModel model);
+  void adopt(LoopResult found);
   bool run_pass(const RoundWatcher& watch);
   Fit loop_start_from(const CorrectedRobot& robot) const;
   LoopResult run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
@@ -70,6 +70,8 @@ class LoopPasses {
   ClosedCalibration closed_;
   DiagnosedModel before_;                  ///< that of closed_.before
   std::optional<DiagnosedModel> adopted_;  ///< that of closed_.calibration, where it is the loop's
+  ExplanationFront front_;                 ///< about that
+  std::optional<DiagnosedModel> best_;     ///< of its points, where it is another
   int pass_ = 1;
   bool stopped_ = false;  ///< by the watcher
 };
@@ -80,9 +82,11 @@ bool LoopPasses::is_better(const CorrectedRobot& robot) const {
          performance_index_mm2(closed_.calibration.robot, data_, selection_poses_);
 }
 
-void LoopPasses::adopt(DiagnosedModel model) {
-  closed_.calibration = calibration_of(data_, job_.declared, preparation_, model);
-  adopted_ = std::move(model);
+void LoopPasses::adopt(LoopResult found) {
+  closed_.calibration = calibration_of(data_, job_.declared, preparation_, found.model);
+  adopted_ = std::move(found.model);
+  front_ = std::move(found.front);
+  best_ = std::move(found.best);
 }
 
 Fit LoopPasses::loop_start_from(const CorrectedRobot& robot) const {
@@ -116,7 +120,7 @@ bool LoopPasses::run_pass(const RoundWatcher& watch) {
     before_ = found.before;
   }
   closed_.loop = first ? std::move(found.outcome) : joined(std::move(closed_.loop), std::move(found.outcome));
-  if ((first && added) || is_better(found.model.robot)) adopt(std::move(found.model));
+  if ((first && added) || is_better(found.model.robot)) adopt(std::move(found));
   return added && !stopped_;
 }
 
@@ -160,7 +164,12 @@ void LoopPasses::refit_with_validation() {
       adopted_ ? *adopted_ : with_fixed_corrections(data_, declared, preparation_.declared, closed_.calibration.robot);
   ends.before = added_any(closed_.loop) ? before_ : ends.after;
   std::optional<LastFit> last = last_fit(data_, declared, ends);
-  ErrorBudget budget = error_budget_of(data_, declared, ends.after, last ? last->ends.after : ends.after, job_.seed);
+  const DiagnosisProblem problem{data_, declared, poses_of(data_, PoseSet::calibration),
+                                 poses_of(data_, PoseSet::validation)};
+  const ExplanationFront front = adopted_ ? front_ : pruned_front(problem, ends.after);
+  ErrorBudget budget =
+      error_budget_of(data_, declared, ends.after, front, last ? last->ends.after : ends.after, job_.seed);
+  if (adopted_) closed_.best = calibration_of_best(data_, declared, preparation_, std::move(best_));
   if (last) {
     closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);
     closed_.calibration.unseen = last->unseen;
@@ -209,7 +218,7 @@ void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
     return;
   }
   closed_.loop = joined(std::move(closed_.loop), std::move(found.outcome));
-  adopt(std::move(found.model));
+  adopt(std::move(found));
 }
 
 ClosedCalibration LoopPasses::run(const RoundWatcher& watch) {

@@ -14,9 +14,10 @@
 namespace demecal::inline closed_calibration {
 
 struct ClosedCalibration {
-  CorrectedRobot before;    ///< what the loop started from: everything declared
-  Calibration calibration;  ///< the model with the effects added; where none was, that of `before`
-  LoopOutcome loop;         ///< of all passes
+  CorrectedRobot before;              ///< what the loop started from: everything declared
+  Calibration calibration;            ///< the model with the effects added; where none was, that of `before`
+  std::optional<Calibration> best{};  ///< of the least error on the validation poses, where it has more causes
+  LoopOutcome loop;                   ///< of all passes
 };
 
 /// Closes the loop around `first`. Where effects were added and joint corrections are declared, the corrections are

@@ -58,6 +58,7 @@ LoopOptions loop_options(const Job& job, std::size_t held) {
   options.family_error = job.closed_loop.family_error;
   options.highest_ratio = job.closed_loop.highest_ratio;
   options.stated_ratios = job.closed_loop.ratios;
+  options.explanations = job.explanations;
   options.seed = job.seed;
   return options;
 }
@@ -127,11 +128,19 @@ DiagnosedModel with_fixed_corrections(const DataSet& data, const DeclaredModel& 
 }
 
 ErrorBudget error_budget_of(const DataSet& data, const DeclaredModel& declared, const DiagnosedModel& model,
-                            const DiagnosedModel& last, std::uint64_t seed) {
+                            const ExplanationFront& front, const DiagnosedModel& last, std::uint64_t seed) {
   const DiagnosisProblem problem{data, declared, poses_of(data, PoseSet::calibration),
                                  poses_of(data, PoseSet::validation)};
-  return error_budget(problem, model, poses_of_last_fit(data), last,
+  return error_budget(problem, model, front, poses_of_last_fit(data), last,
                       RandomStream{seed, number_of(RandomPurpose::cause_cost)});
+}
+
+std::optional<Calibration> calibration_of_best(const DataSet& data, const DeclaredModel& declared,
+                                               const Preparation& preparation, std::optional<DiagnosedModel> best) {
+  if (!best) return std::nullopt;
+  DiagnosedModel model = final_fit(data, declared, std::move(*best));
+  drop_negligible_terms(model);
+  return calibration_of(data, declared, preparation, model);
 }
 
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends) {

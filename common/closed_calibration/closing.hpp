@@ -33,6 +33,10 @@ void drop_negligible_terms(DiagnosedModel& model);
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
                            const DiagnosedModel& model);
 
+/// The same of the model of the least error, where it is not the chosen one, after the last fit.
+std::optional<Calibration> calibration_of_best(const DataSet& data, const DeclaredModel& declared,
+                                               const Preparation& preparation, std::optional<DiagnosedModel> best);
+
 /// What stands before corrections are evolved anew: the declared model is `model` without its corrections, and the
 /// joints learn what its effects leave.
 Preparation prepare_beside_effects(const DataSet& data, const Preparation& first, const CorrectedRobot& model);
@@ -54,9 +58,10 @@ struct LastFit {
   UnseenValidation unseen;  ///< of the ends before that
 };
 
-/// The causes behind the effects of `model`, which the calibration poses made; `last` is the same after the last fit.
+/// The causes behind the effects of `model`, which the calibration poses made; `front` is about them; `last` is the
+/// same after the last fit.
 ErrorBudget error_budget_of(const DataSet& data, const DeclaredModel& declared, const DiagnosedModel& model,
-                            const DiagnosedModel& last, std::uint64_t seed);
+                            const ExplanationFront& front, const DiagnosedModel& last, std::uint64_t seed);
 
 /// Nothing where it would change neither end.
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends);

@@ -28,11 +28,6 @@ std::optional<double> joined(std::optional<double> earlier, std::optional<double
   return 1.0 - (1.0 - *earlier) * (1.0 - *later);
 }
 
-const Effect* held_effect(const CorrectedRobot& model, const Effect& effect) {
-  const auto found = std::ranges::find_if(model.effects, [&](const Effect& one) { return one.same_law_as(effect); });
-  return found == model.effects.end() ? nullptr : &*found;
-}
-
 constexpr double kSignificantDeviations = 2.0;  ///< standard errors
 
 }  // namespace
@@ -58,21 +53,6 @@ LoopOutcome joined(LoopOutcome earlier, LoopOutcome later) {
   if (earlier.lack_of_fit_p) later.lack_of_fit_p = earlier.lack_of_fit_p;
   later.explained_share = joined(earlier.explained_share, later.explained_share);
   return later;
-}
-
-void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described) {
-  for (Round& round : outcome.rounds) {
-    if (round.verdict != Verdict::added) continue;
-    if (const Effect* effect = held_effect(model, round.effect)) {
-      round.effect = *effect;
-      if (!effect->standard_errors.empty()) round.interval = confidence_intervals(*effect);
-      round.diagnosis = law_of(*effect).diagnosis(*effect, described);
-      round.formula = law_of(*effect).formula(*effect, described);
-    } else {
-      round.verdict = Verdict::rejected;
-      round.reason = "taken back: the model that was kept does without it";
-    }
-  }
 }
 
 CorrectedRobot without_formulas(const CorrectedRobot& robot) {

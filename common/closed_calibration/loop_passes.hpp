@@ -20,10 +20,6 @@ bool added_any(const LoopOutcome& outcome);
 /// asked of the loop's start.
 LoopOutcome joined(LoopOutcome earlier, LoopOutcome later);
 
-/// Brings the rounds up to date with the final model: added effects with their values in it; those that are no longer
-/// in it were not added after all.
-void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described);
-
 /// The robot without formulas from outside the catalogue.
 CorrectedRobot without_formulas(const CorrectedRobot& robot);
 

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::int64_t kMostDemes = 1000;
 constexpr std::int64_t kMostEffects = 1000;
+constexpr std::int64_t kMostVariations = 10'000'000;
 constexpr std::int64_t kMostRounds = 1000;
 constexpr std::int64_t kHighestRatio = 10000;
 
@@ -104,6 +105,16 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
   return options;
 }
 
+ExplanationSearch read_explanations(const YamlNode& node) {
+  node.with_keys({"variations", "max_causes"});
+  ExplanationSearch search;
+  if (const YamlNode* variations = node.find("variations"))
+    search.variations = static_cast<int>(variations->whole_number(0, kMostVariations));
+  if (const YamlNode* most = node.find("max_causes"))
+    search.most_causes = static_cast<std::size_t>(most->whole_number(1, kMostEffects));
+  return search;
+}
+
 }  // namespace
 
 Job load_job(const std::filesystem::path& path) {
@@ -113,7 +124,7 @@ Job load_job(const std::filesystem::path& path) {
 Job read_job(const YamlNode& root) {
   const std::filesystem::path path = root.file;
   root.with_version("job", 1).with_keys({"demecal_job", "data", "method", "seed", "model", "gp", "islands",
-                                         "closed_loop", "distal", "targets", "joint_error_mrad"});
+                                         "closed_loop", "explanations", "distal", "targets", "joint_error_mrad"});
   Job job;
   job.name = path.stem().string();
   job.data_file = resolve(path, root.at("data").text()).string();
@@ -133,6 +144,7 @@ Job read_job(const YamlNode& root) {
   }
   if (const YamlNode* islands = root.find("islands")) job.islands = read_islands(*islands, job.gp.population_size);
   if (const YamlNode* loop = root.find("closed_loop")) job.closed_loop = read_closed_loop(*loop);
+  if (const YamlNode* search = root.find("explanations")) job.explanations = read_explanations(*search);
   if (const YamlNode* distal = root.find("distal")) job.distal = read_distal(*distal);
   job.targets = read_targets(root);
   if (!job.corrections.seeds.empty() && job.method == Method::distal && job.distal.form == DistalForm::sequential)

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "data/data_set.hpp"
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/scan.hpp"
 #include "effects/law_terms.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {
@@ -21,14 +21,8 @@ constexpr double kEquivalentCosine = 0.9;   ///< cosine
 constexpr double kIdenticalCosine = 0.995;  ///< cosine
 constexpr double kNatsToDistinguish = 5.0;
 constexpr double kNatsAboutEqual = 3.0;
-constexpr double kStable = 0.95;  ///< share of resamples that must agree with a sign
 constexpr double kGains = 0.5;    ///< share of a change borne out: errors decrease above it
 constexpr double kEvident = 2.0;  ///< times the largest gain from noise alone: no need to draw again
-
-double mean(const std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 }  // namespace
 
@@ -180,7 +174,7 @@ std::string Group::rejection_reason(const Round& round, const Projection::Trial&
   if (projection_.freedom() - static_cast<double>(trial.rank) < kLeastFreedom)
     return "too few measured numbers are left";
   if (!linearization_.validation.poses.empty() && round.confirmed <= kGains) return "no gain on the validation poses";
-  if (round.sign_stability < kStable) return "unstable under bootstrap resampling";
+  if (round.sign_stability < kStableSign) return "unstable under bootstrap resampling";
   return {};
 }
 

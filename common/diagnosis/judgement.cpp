@@ -243,6 +243,11 @@ bool tilt_is_implausible(const Effect& effect) {
   return !law_of(effect).implausibility(effect).empty();
 }
 
+bool is_implausibly_large(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  const LargestMotion largest = largest_motion(effect, robot, states);
+  return largest.turn_rad > kLargestTurn_rad || largest.shift_m > kLargestShift_m;
+}
+
 std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
                            const std::vector<ArmState>& states) {
   const LargestMotion largest = largest_motion(effect, problem.data.robot, states);

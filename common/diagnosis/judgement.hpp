@@ -48,6 +48,8 @@ LargestMotion largest_motion(const Effect& effect, const Robot& robot, const std
 /// The same of what stays the same too: how far the effect moves any place at most.
 LargestMotion farthest_motion(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
 
+inline constexpr double kStableSign = 0.95;  ///< share of resamples that must agree with a sign
+
 /// How coefficients scatter when the fitted poses are drawn anew with replacement.
 struct Resampled {
   double sign_stability = 1.0;                  ///< share of draws that agree with the sign of the whole effect
@@ -61,6 +63,9 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
 /// reports its joints: the sentence says so.
 std::string implausibility(const Effect& effect, const DiagnosisProblem& problem, const DiagnosedModel& model,
                            const std::vector<ArmState>& states);
+
+/// Whether it moves a place by more than any real arm's effects do.
+bool is_implausibly_large(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
 
 /// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in truth.
 bool tilt_is_implausible(const Effect& effect);

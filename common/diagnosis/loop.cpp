@@ -2,21 +2,18 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/detectable.hpp"
+#include "diagnosis/explain.hpp"
 #include "diagnosis/group.hpp"
 #include "effects/arm_state.hpp"
-#include "effects/effect.hpp"
 #include "fitting/observation.hpp"
-#include "next_measurement/next_measurement.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"
@@ -31,6 +28,7 @@ namespace {
 constexpr int kFirstSteps = 12;  ///< of Gauss and Newton, from the declared fit
 constexpr int kLaterSteps = 3;   ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
+constexpr int kMostOneByOne = 100;  ///< effects after which the search for sets of them gains more than a further one
 /// Of more poses the many small errors that no model has are larger than what noise has in common, and taken for it.
 constexpr std::size_t kMostPosesForNoise = 400;
 constexpr double kOutlier = 0.05;                    ///< root of a pose's weight below which it counts as far out
@@ -47,14 +45,14 @@ class ClosedLoop {
   void make_candidates(const Linearization& linearization);
   void measure_pure_error(const Linearization& linearization);
   GroupRules rules() const;
+  int most_one_by_one() const { return std::min(options_.max_effects, kMostOneByOne + held_at_start_); }
   std::vector<bool> excluded_candidates() const;
   void estimate_noise();
   void record_decoys(const Group& group, const GroupOutcome& outcome);
   bool run_group(const Linearization& linearization);
   bool gain_suffices(const GroupOutcome& outcome) const;
   StopReason reason_to_stop(const GroupOutcome& last) const;
-  void describe_added();
-  void find_next_measurements();
+  Linearization choose_explanation(Linearization linearization, LoopResult& result);
   void finish(const Linearization& linearization);
   RandomStream random(RandomPurpose purpose) const {
     return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
@@ -74,7 +72,8 @@ class ClosedLoop {
   std::vector<double> null_maxima_;
   std::optional<double> start_excess_;  ///< mean square of the residual above that of repeats, m^2
   double p_structure_ = 1.0;
-  int group_ = 0;
+  int group_ = 0, held_at_start_ = 0;
+  bool interrupted_ = false;  ///< by the watcher
 };
 
 void ClosedLoop::make_candidates(const Linearization& linearization) {
@@ -148,7 +147,7 @@ GroupRules ClosedLoop::rules() const {
   return {.family_error = options_.family_error,
           .null_draws = options_.null_draws,
           .resamples = options_.resamples,
-          .most = std::min(options_.group_size, options_.max_effects - static_cast<int>(model_.robot.effects.size())),
+          .most = std::min(options_.group_size, most_one_by_one() - static_cast<int>(model_.robot.effects.size())),
           .seed = options_.seed,
           .group = group_,
           .first_round = static_cast<int>(outcome_.rounds.size()) + 1,
@@ -196,6 +195,7 @@ bool ClosedLoop::run_group(const Linearization& linearization) {
   Group group(problem_, model_, linearization, candidates_, columns_, excluded_candidates(), null_maxima_, rules());
   GroupOutcome outcome = group.run(watch_);
   record_decoys(group, outcome);
+  interrupted_ = outcome.stopped;
   const bool added = !outcome.added.empty();
   for (Effect effect : outcome.added) {
     // A group's values hold beside its own linear steps of all other numbers: the joint refit begins without them.
@@ -213,6 +213,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   model_ = refined(problem_, std::move(start), kFirstSteps);
   estimate_noise();
   result.before = model_;
+  held_at_start_ = static_cast<int>(model_.robot.effects.size());
   Linearization linearization = linearize(problem_, model_);
   make_candidates(linearization);
   measure_pure_error(linearization);
@@ -220,7 +221,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   outcome_.stopped = StopReason::no_gain;
   p_structure_ = structure(linearization);
   for (group_ = 1; group_ <= kMostGroups; ++group_) {
-    if (static_cast<int>(model_.robot.effects.size()) >= options_.max_effects) {
+    if (static_cast<int>(model_.robot.effects.size()) >= most_one_by_one()) {
       outcome_.stopped = StopReason::max_effects;
       break;
     }
@@ -238,6 +239,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   if (outcome_.stopped == StopReason::no_structure && p_structure_ <= options_.family_error) {
     outcome_.stopped = StopReason::no_gain;
   }
+  linearization = choose_explanation(std::move(linearization), result);
   measure_pure_error(linearization);
   finish(linearization);
   result.model = model_;
@@ -245,29 +247,29 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   return result;
 }
 
-/// Added effects stand in their rounds as they ended, not as they were first guessed.
-void ClosedLoop::describe_added() {
-  for (Round& round : outcome_.rounds) {
-    if (round.verdict != Verdict::added) continue;
-    for (const Effect& effect : model_.robot.effects) {
-      if (effect.same_law_as(round.effect)) round.effect = effect;
-    }
-    if (!round.effect.standard_errors.empty()) round.interval = confidence_intervals(round.effect);
-    round.diagnosis = law_of(round.effect).diagnosis(round.effect, problem_.data.robot);
-    round.formula = law_of(round.effect).formula(round.effect, problem_.data.robot);
+/// What the effects amount to: better sets of them are looked for, and the fewest causes chosen that do as well.
+Linearization ClosedLoop::choose_explanation(Linearization linearization, LoopResult& result) {
+  if (model_.robot.effects.empty()) return linearization;
+  ++group_;
+  ExplanationSearch search = options_.explanations;
+  if (interrupted_) search.variations = 0;
+  search.most_effects = static_cast<std::size_t>(options_.max_effects);
+  Explained found =
+      explained({problem_, model_, linearization, candidates_, columns_, outcome_.rounds, null_maxima_, rules()},
+                search, random(RandomPurpose::explanation_search), watch_);
+  if (found.rounds.empty() && found.model.robot.effects.size() == model_.robot.effects.size()) {
+    result.front = std::move(found.front);
+    return linearization;
   }
-}
-
-/// What to measure next, for the first few effects that have rivals.
-void ClosedLoop::find_next_measurements() {
-  constexpr std::size_t kMost = 3;
-  std::size_t asked = 0;
-  for (Round& round : outcome_.rounds) {
-    if (!is_ambiguous(round, outcome_.rounds) || asked == kMost) continue;
-    round.next_measurement =
-        find_next_measurement(problem_, model_, round.effect, round.rivals, random(RandomPurpose::next_measurement));
-    ++asked;
-  }
+  model_ = std::move(found.model);
+  std::ranges::move(found.rounds, std::back_inserter(outcome_.rounds));
+  estimate_noise();
+  linearization = eliminate_backward(problem_, model_, candidates_, outcome_);
+  p_structure_ = structure(linearization);
+  result.front = std::move(found.front);
+  result.best = std::move(found.best);
+  choose(problem_, model_, result.front);
+  return linearization;
 }
 
 void ClosedLoop::finish(const Linearization& linearization) {
@@ -275,9 +277,9 @@ void ClosedLoop::finish(const Linearization& linearization) {
   outcome_.noise = model_.noise;
   outcome_.noise_estimated = model_.noise_estimated;
   outcome_.independent_m = model_.scales[kPosition];
-  describe_added();
+  update_rounds(outcome_, model_.robot, problem_.data.robot);
   exclude_own_forms(outcome_.rounds);
-  find_next_measurements();
+  find_next_measurements(problem_, model_, random(RandomPurpose::next_measurement), outcome_.rounds);
   outcome_.not_found = not_found_beyond(
       {problem_.data.robot, model_, linearization, candidates_, columns_, outcome_.rounds}, null_maxima_,
       {options_.family_error, options_.null_draws}, random(RandomPurpose::null_distribution));

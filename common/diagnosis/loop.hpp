@@ -4,21 +4,25 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "explanations/error_budget.hpp"
+#include "explanations/explanation_search.hpp"
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline diagnosis {
 
 struct LoopOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue to consider; empty: all
-  int max_effects = 100;
+  int max_effects = 150;
   double family_error = 0.05;  ///< chance of adding anything to a model that lacks nothing
   int null_draws = 999;
   int resamples = 400;
@@ -33,6 +37,8 @@ struct LoopOptions {
   std::vector<double> evolved_null_gains{};
   bool decoys = true;
   bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
+  /// For sets of effects, when nothing more can be added; without variations effects can only be left out.
+  ExplanationSearch explanations{};
   std::uint64_t seed = 1;
 };
 
@@ -40,15 +46,17 @@ struct LoopOptions {
 using RoundWatcher = std::function<bool(const Round&)>;
 
 struct LoopResult {
-  DiagnosedModel before;  ///< everything declared, at its least-squares values: the loop's start
-  DiagnosedModel model;   ///< with the effects added
+  DiagnosedModel before;                 ///< everything declared, at its least-squares values: the loop's start
+  DiagnosedModel model;                  ///< with the effects that were chosen
+  std::optional<DiagnosedModel> best{};  ///< the model of the least error on the validation poses, where it is another
+  ExplanationFront front{};              ///< about the model
   LoopOutcome outcome;
 };
 
-/// Runs the ten steps from `start`, a declared model already fitted (its corrections are kept and, where joint
-/// corrections are declared, smooth terms added to them). Calibration poses fit, validation poses confirm (where there
-/// are none, resampling of the calibration poses alone does); accept poses are never looked at. A function of its
-/// arguments.
+/// Runs the ten steps and the search for explanations from `start`, a declared model already fitted (its corrections
+/// are kept and, where joint corrections are declared, smooth terms added to them). Calibration poses fit, validation
+/// poses confirm (where there are none, resampling of the calibration poses alone does); accept poses are never looked
+/// at. A function of its arguments.
 LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const Fit& start, const LoopOptions& options,
                       const RoundWatcher& watch = {});
 
@@ -56,6 +64,14 @@ LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const 
 /// the model after each. Dropped effects are noted in the outcome. Returns the surroundings of the model that is left.
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome);
+
+/// Brings the rounds up to date with the final model: added effects with their values in it; those that are no longer
+/// in it were not added after all.
+void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described);
+
+/// What to measure next, for the first few effects that have rivals.
+void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedModel& model, const RandomStream& random,
+                            std::vector<Round>& rounds);
 
 /// The poses of the last fit: calibration and validation poses where there are accept poses to tell the error by,
 /// calibration poses alone where there are none.

@@ -93,7 +93,38 @@ double capped_index_m2(const DiagnosisProblem& problem, const CorrectedRobot& ro
   return squares / static_cast<double>(errors_m.size());
 }
 
+const Effect* held_effect(const CorrectedRobot& model, const Effect& effect) {
+  const auto found = std::ranges::find_if(model.effects, [&](const Effect& one) { return one.same_law_as(effect); });
+  return found == model.effects.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described) {
+  for (Round& round : outcome.rounds) {
+    if (round.verdict != Verdict::added) continue;
+    if (const Effect* effect = held_effect(model, round.effect)) {
+      round.effect = *effect;
+      if (!effect->standard_errors.empty()) round.interval = confidence_intervals(*effect);
+      round.diagnosis = law_of(*effect).diagnosis(*effect, described);
+      round.formula = law_of(*effect).formula(*effect, described);
+    } else {
+      round.verdict = Verdict::rejected;
+      round.reason = "taken back: the model that was kept does without it";
+    }
+  }
+}
+
+void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedModel& model, const RandomStream& random,
+                            std::vector<Round>& rounds) {
+  constexpr std::size_t kMost = 3;
+  std::size_t asked = 0;
+  for (Round& round : rounds) {
+    if (!is_ambiguous(round, rounds) || asked == kMost) continue;
+    round.next_measurement = find_next_measurement(problem, model, round.effect, round.rivals, random);
+    ++asked;
+  }
+}
 
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome) {

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -145,6 +146,17 @@ double Scan::best_gain(const Eigen::VectorXd& moments, double squares) const {
   return best;
 }
 
+bool is_rival(const Effect& named, const Effect& other, double cosine, double nats_behind) {
+  if (is_symbolic(other) && !is_symbolic(named)) return false;  // a name is preferred to a formula
+  if (is_its_wave(named, other)) return false;
+  return cosine > kRivalCosine || (cosine > kRelated && std::abs(nats_behind) < kRivalNats);
+}
+
+void keep_nearest(std::vector<Rival>& rivals) {
+  std::ranges::stable_sort(rivals, std::greater{}, &Rival::cosine);
+  if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
+}
+
 std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
                              const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
                              const ResidualField& field) {
@@ -154,15 +166,10 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == named || all[i].decoy_kind != DecoyKind::none) continue;
     const double behind = scores[named].gain_nats - scores[i].gain_nats;
-    const bool unnamed = is_symbolic(all[i].effect) && !is_symbolic(all[named].effect);
-    if (unnamed) continue;  // a name is preferred to a formula: formulas are no rivals of named effects
-    if (is_its_wave(all[named].effect, all[i].effect)) continue;
-    if (cosines[i] > kRivalCosine || (cosines[i] > kRelated && std::abs(behind) < kRivalNats)) {
+    if (is_rival(all[named].effect, all[i].effect, cosines[i], behind))
       rivals.push_back({all[i].effect, cosines[i], behind});
-    }
   }
-  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cosine > b.cosine; });
-  if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
+  keep_nearest(rivals);
   return rivals;
 }
 

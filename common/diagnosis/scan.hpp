@@ -67,10 +67,14 @@ class Scan {
   double poses_ = 0.0;
 };
 
-/// Candidates other than `named` whose cosine with it is above 0.9, or whose description length is within 5 nats of its
-/// own at a cosine above one half; nearest first, at most eight.
-/// Formulas outside the catalogue are rivals only of each other. The cosine is between what the named one explains
-/// beyond the model and the best that the rival can make of it.
+/// Whether another effect is a rival of the one named: the cosine with it is above 0.9, or the description's length
+/// within 5 nats at a cosine above one half. Formulas outside the catalogue are rivals only of each other.
+bool is_rival(const Effect& named, const Effect& other, double cosine, double nats_behind);
+/// Nearest first, at most eight.
+void keep_nearest(std::vector<Rival>& rivals);
+
+/// Rivals of `named`. The cosine is between what it explains beyond the model and the best that the rival can make of
+/// it.
 std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
                              const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
                              const ResidualField& field);

@@ -17,14 +17,6 @@ namespace {
 
 using SquaredErrors_mm2 = std::vector<double>;  ///< of the judging poses
 
-/// The effects of some of the causes.
-std::vector<std::size_t> effects_of(const std::vector<ErrorCause>& causes, const std::vector<std::size_t>& some) {
-  std::vector<std::size_t> effects;
-  for (const std::size_t cause : some) std::ranges::copy(causes[cause].effects, std::back_inserter(effects));
-  std::ranges::sort(effects);
-  return effects;
-}
-
 SquaredErrors_mm2 squared_errors(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
   SquaredErrors_mm2 errors;
   for (const std::size_t pose : poses)
@@ -68,129 +60,121 @@ std::array<double, 2> fall_interval(const SquaredErrors_mm2& without, const Squa
   return {falls_mm[kDraws / 40], falls_mm[kDraws - 1 - kDraws / 40]};
 }
 
-/// For every number of causes, from all of them down to none, those that are left out.
-std::vector<std::vector<std::size_t>> left_out_by_number(const ReducedModels& models,
-                                                         const std::vector<ErrorCause>& causes) {
-  const auto rise = [&](const std::vector<std::size_t>& out) { return models.rise(effects_of(causes, out)); };
-  std::vector<bool> is_out(causes.size(), false);
-  std::vector<std::size_t> out;
-  const auto lower_by_exchange = [&] {
-    double least = rise(out);
-    for (std::size_t place = 0; place < out.size(); ++place) {
-      for (std::size_t other = 0; other < causes.size(); ++other) {
-        if (is_out[other]) continue;
-        const std::size_t present = std::exchange(out[place], other);
-        if (const double tried = rise(out); tried < least) {
-          is_out[present] = false;
-          is_out[other] = true;
-          least = tried;
-          return true;
-        }
-        out[place] = present;
-      }
-    }
-    return false;
-  };
-  std::vector<std::vector<std::size_t>> all{out};
-  while (out.size() < causes.size()) {
-    std::size_t next = causes.size();
-    double least = std::numeric_limits<double>::infinity();
-    out.push_back(0);
-    for (std::size_t cause = 0; cause < causes.size(); ++cause) {
-      if (is_out[cause]) continue;
-      out.back() = cause;
-      if (const double tried = rise(out); tried < least) {
-        least = tried;
-        next = cause;
-      }
-    }
-    out.back() = next;
-    is_out[next] = true;
-    while (lower_by_exchange()) {
-    }
-    all.push_back(out);
+/// The mean of the differences by pose over its standard error, and more than that where they hardly differ.
+bool is_within_one_standard_error(const SquaredErrors_mm2& errors, const SquaredErrors_mm2& best) {
+  const auto count = static_cast<double>(errors.size());
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double more = errors[i] - best[i];
+    sum += more;
+    squares += more * more;
   }
-  return all;
+  const double mean = sum / count;
+  const double variance = std::max(squares / count - mean * mean, 0.0) * count / std::max(count - 1.0, 1.0);
+  return mean <= std::sqrt(variance / count);
+}
+
+/// Whether the point's error is hardly larger than that of the best, and by less than one standard error unless it has
+/// as many causes as a person acts on.
+bool does_nearly_as_well(const ExplanationFront& front, const std::vector<SquaredErrors_mm2>& errors,
+                         std::size_t point) {
+  constexpr std::size_t kManyCauses = 10;
+  constexpr double kHardlyMore = 1.02;  ///< of the rms error: few poses tell even large differences not surely
+  const ExplanationFront::Point &one = front.points[point], &best = front.points[front.best];
+  if (one.validation_rms_mm > kHardlyMore * best.validation_rms_mm) return false;
+  return one.causes >= kManyCauses || is_within_one_standard_error(errors[point], errors[front.best]);
+}
+
+/// All effects of a model, at no price.
+std::vector<PricedEffect> effects_of(const DiagnosedModel& model) {
+  std::vector<PricedEffect> effects;
+  for (const Effect& effect : model.robot.effects) effects.push_back({effect, 0.0});
+  return effects;
 }
 
 }  // namespace
 
-ReducedModels::ReducedModels(const DiagnosisProblem& problem, const DiagnosedModel& model)
-    : model_(model), linearization_(linearize(problem, model)) {}
-
-std::vector<Eigen::Index> ReducedModels::columns_of(std::span<const std::size_t> effects) const {
-  std::vector<Eigen::Index> columns;
-  for (std::size_t i = 0; i < linearization_.ids.size(); ++i) {
-    const ParameterId& id = linearization_.ids[i];
-    if (id.kind == ParameterId::Kind::effect && std::ranges::binary_search(effects, static_cast<std::size_t>(id.index)))
-      columns.push_back(static_cast<Eigen::Index>(i));
+ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
+                              std::vector<PricedEffect> effects, const std::vector<EffectSet>& sets) {
+  ExplanationFront front;
+  front.effects = std::move(effects);
+  const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
+  std::vector<SquaredErrors_mm2> errors;
+  for (const EffectSet& set : sets) {
+    errors.push_back(squared_errors(problem.data, judging, models.with(set.effects).robot));
+    front.points.push_back({set.effects, set.causes, std::sqrt(mean_of(errors.back()))});
   }
-  return columns;
+  if (sets.empty()) return front;
+  const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
+  front.best = static_cast<std::size_t>(best - front.points.begin());
+  if (problem.validation.empty()) front.best = front.points.size() - 1;
+  front.chosen = front.best;
+  if (problem.validation.empty()) return front;
+  front.chosen = 0;
+  while (!does_nearly_as_well(front, errors, front.chosen)) ++front.chosen;
+  return front;
 }
 
-ReducedModels::WaldTerms ReducedModels::wald_terms(const std::vector<Eigen::Index>& columns) const {
-  const auto size = static_cast<Eigen::Index>(columns.size());
-  WaldTerms terms{Eigen::VectorXd(size), Eigen::VectorXd(size)};
-  if (columns.empty()) return terms;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Eigen::Index column = columns[static_cast<std::size_t>(i)];
-    const ParameterId& id = linearization_.ids[static_cast<std::size_t>(column)];
-    terms.values[i] = parameter_value(model_.robot, id) + linearization_.changes[column];
-  }
-  const Eigen::MatrixXd covariance = linearization_.covariance(columns, columns);
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> solver(scale.asDiagonal() * covariance * scale.asDiagonal());
-  terms.weighted = scale.cwiseProduct(solver.solve(scale.cwiseProduct(terms.values)));
-  return terms;
+bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& other) {
+  if (problem.validation.empty()) return true;
+  const std::vector<std::size_t> judging = judging_poses(problem, other.robot);
+  return is_within_one_standard_error(squared_errors(problem.data, judging, model.robot),
+                                      squared_errors(problem.data, judging, other.robot));
 }
 
-double ReducedModels::rise(std::span<const std::size_t> effects) const {
-  const WaldTerms terms = wald_terms(columns_of(effects));
-  return terms.values.dot(terms.weighted);
+void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, ExplanationFront& front) {
+  ExplanationFront::Point point;
+  for (std::size_t i = 0; i < front.effects.size(); ++i)
+    for (const Effect& effect : model.robot.effects)
+      if (effect.same_law_as(front.effects[i].effect)) point.set.push_back(i);
+  point.causes = causes_of(model.robot).size();
+  point.validation_rms_mm =
+      std::sqrt(mean_of(squared_errors(problem.data, judging_poses(problem, model.robot), model.robot)));
+  if (!front.points.empty()) front.points.erase(front.points.begin() + static_cast<std::ptrdiff_t>(front.chosen));
+  std::erase_if(front.points, [&](const ExplanationFront::Point& one) { return one.causes == point.causes; });
+  const auto place = std::ranges::lower_bound(front.points, point.causes, {}, &ExplanationFront::Point::causes);
+  front.chosen = static_cast<std::size_t>(place - front.points.begin());
+  front.points.insert(place, std::move(point));
+  const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
+  front.best = static_cast<std::size_t>(best - front.points.begin());
 }
 
-CorrectedRobot ReducedModels::without(std::span<const std::size_t> effects) const {
-  const std::vector<Eigen::Index> columns = columns_of(effects);
-  const WaldTerms terms = wald_terms(columns);
-  Eigen::VectorXd changes = linearization_.changes;
-  for (Eigen::Index i = 0; i < terms.weighted.size(); ++i)
-    changes -= linearization_.covariance.col(columns[static_cast<std::size_t>(i)]) * terms.weighted[i];
-  const ParameterSpace space(model_.robot, linearization_.ids);
-  CorrectedRobot robot = space.at(changes.head(space.size())).robot;
-  SmoothCorrections smooth = model_.smooth;
-  smooth.coefficients += changes.tail(smooth.coefficients.size());
-  robot.corrections = smooth.corrections();
-  for (std::size_t i = effects.size(); i-- > 0;)
-    robot.effects.erase(robot.effects.begin() + static_cast<std::ptrdiff_t>(effects[i]));
-  return robot;
+ExplanationFront pruned_front(const DiagnosisProblem& problem, const DiagnosedModel& model) {
+  std::vector<PricedEffect> effects = effects_of(model);
+  const SetModels models(problem, model, effects);
+  ExplanationFront front =
+      judged_front(problem, model, models, std::move(effects), prunings(models.problem(), models.held()));
+  front.chosen = front.best = front.points.size() - 1;
+  return front;
 }
 
-ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& model,
+ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& model, const ExplanationFront& front,
                          std::span<const std::size_t> last_fitted, const DiagnosedModel& last, RandomStream random) {
   ErrorBudget budget;
   const std::vector<ErrorCause> causes = causes_of(model.robot);
   const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
   if (causes.empty() || judging.empty()) return budget;
-  const ReducedModels models(problem, model);
   const DiagnosisProblem last_problem{problem.data, problem.declared, {last_fitted.begin(), last_fitted.end()}, {}};
-  const ReducedModels last_models(last_problem, last);
+  const SetModels last_models(last_problem, last, front.effects);
   const std::vector<std::size_t> accept = poses_of(problem.data, PoseSet::accept);
-
-  for (const std::vector<std::size_t>& out : left_out_by_number(models, causes)) {
-    const std::vector<std::size_t> effects = effects_of(causes, out);
-    FrontPoint point{.causes = {}, .chosen = out.empty()};
-    for (std::size_t cause = 0; cause < causes.size(); ++cause)
-      if (!std::ranges::count(out, cause)) point.causes.push_back(cause);
-    point.validation_rms_mm = std::sqrt(mean_of(squared_errors(problem.data, judging, models.without(effects))));
-    if (!accept.empty()) point.accept_rms_mm = error_figures(last_models.without(effects), problem.data, accept).rms_mm;
-    budget.front.push_back(std::move(point));
+  for (const ExplanationFront::Point& at : front.points) {
+    FrontPoint point{
+        .causes = at.causes, .validation_rms_mm = at.validation_rms_mm, .chosen = &at == &front.points[front.chosen]};
+    const CorrectedRobot robot = point.chosen ? last.robot : last_models.with(at.set).robot;
+    if (!accept.empty()) point.accept_rms_mm = error_figures(robot, problem.data, accept).rms_mm;
+    budget.front.push_back(point);
   }
-  std::ranges::reverse(budget.front);
 
-  const SquaredErrors_mm2 with = squared_errors(problem.data, judging, models.without({}));
-  const double bare_mm2 = std::pow(budget.front.front().validation_rms_mm, 2);
+  const SetModels models(problem, model, effects_of(model));
+  const auto errors_of = [&](const std::vector<std::size_t>& set) {
+    return squared_errors(problem.data, judging, models.with(set).robot);
+  };
+  const SquaredErrors_mm2 with = errors_of(models.held());
+  const double bare_mm2 = mean_of(errors_of({}));
   for (const ErrorCause& cause : causes) {
-    const SquaredErrors_mm2 without = squared_errors(problem.data, judging, models.without(cause.effects));
+    std::vector<std::size_t> others = models.held();
+    std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(cause.effects, effect); });
+    const SquaredErrors_mm2 without = errors_of(others);
     const double without_mm2 = mean_of(without), with_mm2 = mean_of(with);
     budget.causes.push_back({.cause = cause,
                              .without_mm = std::sqrt(without_mm2),

@@ -3,38 +3,18 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "explanations/causes.hpp"
+#include "explanations/explanation_search.hpp"
+#include "explanations/set_models.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline explanations {
-
-/// A model to first order about its least-squares values: with some of its effects left out, all other numbers are
-/// where the fitted poses then want them.
-class ReducedModels {
- public:
-  ReducedModels(const DiagnosisProblem& problem, const DiagnosedModel& model);
-
-  /// By how much the weighted sum of squares of the fitted poses rises without these of the robot's effects (Wald).
-  double rise(std::span<const std::size_t> effects) const;
-  /// The robot without them.
-  CorrectedRobot without(std::span<const std::size_t> effects) const;
-
- private:
-  std::vector<Eigen::Index> columns_of(std::span<const std::size_t> effects) const;
-  struct WaldTerms {
-    Eigen::VectorXd values;    ///< of those columns' coefficients, at least squares
-    Eigen::VectorXd weighted;  ///< the inverse of their covariance times these
-  };
-  WaldTerms wald_terms(const std::vector<Eigen::Index>& columns) const;
-
-  DiagnosedModel model_;
-  Linearization linearization_;
-};
 
 /// One cause, and what its loss would cost.
 struct CauseCost {
@@ -47,24 +27,54 @@ struct CauseCost {
   std::array<double, 2> interval_mm{};
 };
 
-/// The best model of a number of causes.
+/// The best set of effects for every number of causes, and the one that is chosen.
+struct ExplanationFront {
+  std::vector<PricedEffect> effects;  ///< of any of the sets
+  struct Point {
+    std::vector<std::size_t> set;  ///< places among `effects`
+    std::size_t causes = 0;
+    double validation_rms_mm = 0.0;
+  };
+  std::vector<Point> points;  ///< by number of causes, from none
+  std::size_t chosen = 0;     ///< among `points`: the fewest causes that do as well, see judged_front()
+  std::size_t best = 0;       ///< the smallest error
+};
+
+/// Judges sets of the effects by the errors they leave at problem.validation (where there are no such poses at those
+/// that were fitted, and the most causes are chosen), poses in gross error by `model` left out: a model of every set to
+/// first order about `model`. `sets` are by number of causes, from none. Of them the one of the fewest causes is chosen
+/// whose error is at most 1.02 times the least and whose mean square is within one standard error of it (paired); from
+/// ten causes on the first is enough.
+ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
+                              std::vector<PricedEffect> effects, const std::vector<EffectSet>& sets);
+
+/// Whether the model errs no more than another at problem.validation, or more by less than one standard error (paired).
+bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& other);
+
+/// Makes `model`, fitted to problem.fitted, the chosen point of the front, whatever was chosen before.
+void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, ExplanationFront& front);
+
+/// The front of `model` and of what is left of it without the causes that are missed least, one after another; the
+/// whole model is chosen.
+ExplanationFront pruned_front(const DiagnosisProblem& problem, const DiagnosedModel& model);
+
+/// One model of the front.
 struct FrontPoint {
-  std::vector<std::size_t> causes;  ///< places in the model's causes_of(), ascending
+  std::size_t causes = 0;
   double validation_rms_mm = 0.0;
-  std::optional<double> accept_rms_mm{};  ///< of the same causes in the last fit; none without accept poses
+  std::optional<double> accept_rms_mm{};  ///< of the same effects in the last fit; none without accept poses
   bool chosen = false;                    ///< what the model holds
 };
 
 struct ErrorBudget {
   std::vector<CauseCost> causes;  ///< the costliest first
-  std::vector<FrontPoint> front;  ///< from no cause to all
+  std::vector<FrontPoint> front;  ///< from no cause to the most
 };
 
 /// `model` was fitted to problem.fitted; problem.validation judges (where there are none, the fitted poses do), all but
-/// those in gross error. `last` is the same model fitted to `last_fitted`. Of every number of causes those
-/// are kept without which the fitted poses' sum of squares rises most: by leaving out one after another, and then by
-/// exchanges as long as these gain. Poses in gross error (see gross_error_limit) do not judge.
-ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& model,
+/// those in gross error (see gross_error_limit). `last` is the same model fitted to `last_fitted`. `front` is that of
+/// the model's effects: its chosen point is the model.
+ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& model, const ExplanationFront& front,
                          std::span<const std::size_t> last_fitted, const DiagnosedModel& last, RandomStream random);
 
 }  // namespace demecal::inline explanations

@@ -21,6 +21,8 @@ double median_coverage(std::size_t count, std::size_t rank);
 
 /// The upper one of the two middle values where there are as many below as above. There must be a value.
 double median(std::vector<double> values);
+/// Not a number where there are no values.
+double mean(const std::vector<double>& values);
 
 /// `lower` to `upper` holds the median of what the sample was drawn from with probability `confidence`; where that is
 /// nothing, they are the least and the largest value, since the sample is too small for the confidence asked for.

@@ -19,6 +19,7 @@ enum class RandomPurpose : std::uint64_t {
   formula_null = 31,         ///< permuted poses in which formulas are sought as in the measured ones
   proposed_poses = 32,       ///< poses worth measuring next
   cause_cost = 33,           ///< bootstrap interval of what a cause costs
+  explanation_search = 34,   ///< variations of sets of effects
   distal_sequence = 406,     ///< distal learning, one joint at a time
   structure_search = 0x5354525543,
 };

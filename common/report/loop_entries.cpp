@@ -219,7 +219,7 @@ void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Ro
   }
   for (const FrontPoint& point : budget.front) {
     report.front.push_back(
-        {point.causes.size(), if_finite(point.validation_rms_mm), if_any(point.accept_rms_mm), point.chosen});
+        {point.causes, if_finite(point.validation_rms_mm), if_any(point.accept_rms_mm), point.chosen});
   }
 }
 

@@ -87,6 +87,34 @@ ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, cons
   return columns;
 }
 
+/// Takes effects that are left out from the numbers of the model, and gives the residual what they explain of it. The
+/// columns that stay: of those numbers, and of the `terms` smooth terms after them.
+std::vector<Eigen::Index> without_effects(const std::vector<bool>& left_out, const CorrectedRobot& robot,
+                                          Eigen::Index terms, std::vector<ParameterId>& ids, ResidualField& fitted,
+                                          ResidualField& validation) {
+  std::vector<Eigen::Index> kept;
+  std::vector<ParameterId> kept_ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    if (ids[i].kind == ParameterId::Kind::effect && left_out[static_cast<std::size_t>(ids[i].index)]) {
+      const double value = parameter_value(robot, ids[i]);
+      fitted.residual += fitted.declared.col(column) * value;
+      validation.residual += validation.declared.col(column) * value;
+    } else {
+      kept.push_back(column);
+      kept_ids.push_back(ids[i]);
+    }
+  }
+  for (Eigen::Index i = 0; i < terms; ++i) kept.push_back(static_cast<Eigen::Index>(ids.size()) + i);
+  ids = std::move(kept_ids);
+  return kept;
+}
+
+ModelColumns those_of(const ModelColumns& columns, const std::vector<Eigen::Index>& kept) {
+  return {columns.fitted(Eigen::all, kept), columns.validation(Eigen::all, kept), columns.precision(kept),
+          columns.offset(kept)};
+}
+
 void append(ModelColumns& columns, const SharedErrors& shared) {
   const Eigen::Index known = columns.precision.size(), more = shared.fitted.cols();
   columns.fitted = beside(columns.fitted, shared.fitted);
@@ -172,6 +200,11 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
 }
 
 Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model) {
+  return linearize_without(problem, model, std::vector<bool>(model.robot.effects.size(), false));
+}
+
+Linearization linearize_without(const DiagnosisProblem& problem, const DiagnosedModel& model,
+                                const std::vector<bool>& left_out) {
   const FitOptions options;
   std::vector<ParameterId> ids = free_ids(problem, model.robot, options);
   const ParameterSpace space(model.robot, ids);
@@ -181,6 +214,9 @@ Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& m
   believe_effects_small(ids, model.robot, problem.data.robot, fitted.states, prior);
   const SharedErrors shared = shared_errors(model.noise, fitted, validation);
   ModelColumns columns = model_columns(space, prior, model.smooth, model.precision, fitted, validation, shared.fitted);
+  const std::vector<Eigen::Index> kept =
+      without_effects(left_out, model.robot, model.smooth.coefficients.size(), ids, fitted, validation);
+  if (std::ssize(kept) < columns.precision.size()) columns = those_of(columns, kept);
   const Eigen::Index own = columns.precision.size();
   append(columns, shared);
   Projection projection(columns, fitted.residual, validation.residual);

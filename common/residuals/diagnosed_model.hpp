@@ -60,6 +60,11 @@ RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
 /// near their maker's figures.
 Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model);
 
+/// The same without some of the model's effects (`left_out`: one flag each): they are no numbers of the model any more,
+/// and what they explain is part of the residual.
+Linearization linearize_without(const DiagnosisProblem& problem, const DiagnosedModel& model,
+                                const std::vector<bool>& left_out);
+
 /// The model at its least-squares values: Gauss and Newton's steps, far poses down-weighted and the scales of the kinds
 /// of rows taken from what is left, until neither changes; at most `steps`. Effects get standard errors.
 DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps);

@@ -41,6 +41,8 @@ class Projection {
   const Eigen::VectorXd& validation_residual() const { return validation_residual_; }
   /// Least-squares changes of the coefficients of the columns it was made from.
   const Eigen::VectorXd& changes() const { return changes_; }
+  /// By how much they change where the fitted rows' share along the basis is less by `along`: rank().
+  Eigen::VectorXd changes_along(const Eigen::VectorXd& along) const { return to_basis_ * along; }
   /// Of the same, in rows of unit variance.
   Eigen::MatrixXd covariance() const { return to_basis_ * to_basis_.transpose(); }
   /// Sum of squares left, prior values included, and degrees of freedom of the fitted rows.

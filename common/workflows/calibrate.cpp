@@ -143,6 +143,7 @@ void close_the_loop(const DataSet& data, const Job& job, IslandEvolver& islands,
   result.before = std::move(closed.before);
   result.calibration = std::move(closed.calibration);
   result.loop = std::move(closed.loop);
+  if (closed.best) result.best = make_model(data, job, *closed.best);
   if (interrupt) result.end = RunEnd::interrupted;
 }
 

@@ -109,8 +109,11 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   drop_negligible_terms(found.model);
   LoopModels ends{std::move(found.before), std::move(found.model)};
   std::optional<LastFit> last = last_fit(data, job.declared, ends);
-  ErrorBudget budget = error_budget_of(data, job.declared, ends.after, last ? last->ends.after : ends.after, job.seed);
+  ErrorBudget budget =
+      error_budget_of(data, job.declared, ends.after, found.front, last ? last->ends.after : ends.after, job.seed);
   if (last) ends = std::move(last->ends);
+  if (const auto best = calibration_of_best(data, job.declared, result.preparation, std::move(found.best)))
+    result.best = make_model(data, job, *best);
   result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
   result.calibration.budget = std::move(budget);
   if (last) result.calibration.unseen = last->unseen;

@@ -61,6 +61,7 @@ struct CalibrateOptions {
 struct CalibrateResult {
   RunEnd end = RunEnd::finished;
   CalibratedModel model;
+  std::optional<CalibratedModel> best{};  ///< of the least error on the validation poses, where it has more causes
   Preparation preparation;
   Calibration calibration;
   CorrectedRobot before;  ///< what the closed loop started from

@@ -112,6 +112,8 @@ TEST(LoadJob, ReadsEveryKey) {
   EXPECT_THAT(job.closed_loop.candidates, ElementsAre("backlash", "compliance"));
   EXPECT_EQ(job.closed_loop.highest_ratio, 90);
   EXPECT_THAT(job.closed_loop.ratios, ElementsAre(161.0, 211.5));
+  EXPECT_EQ(job.explanations.variations, 2000);
+  EXPECT_EQ(job.explanations.most_causes, 8U);
 }
 
 TEST(LoadJob, ReadsHowConstantsAreFitted) {
@@ -205,7 +207,7 @@ TEST(LoadJob, KeepsDefaultsForWhatIsLeftOut) {
   EXPECT_EQ(job.islands.per_joint, defaults.islands.per_joint);
   EXPECT_EQ(job.declared.registration, defaults.declared.registration);
   EXPECT_TRUE(job.closed_loop.candidates.empty());
-  EXPECT_EQ(job.closed_loop.max_effects, 100);
+  EXPECT_EQ(job.closed_loop.max_effects, 150);
   EXPECT_EQ(job.targets.kind, TargetKind::posterior);
   EXPECT_EQ(job.targets.joint_error_rad, 1e-3);
 }

@@ -83,6 +83,7 @@ closed_loop:
 distal: {form: sequential, rounds: 3, amplitudes: fitted}
 targets: posterior
 joint_error_mrad: 2.5
+explanations: {variations: 2000, max_causes: 8}
 )yaml";
 
 inline const std::string kScenarioText = R"yaml(# the arm of two joints, simulated

@@ -68,7 +68,8 @@ class TwoCauses : public testing::Test {
   void SetUp() override { ASSERT_EQ(model_.robot.effects.size(), 2U); }
 
   static ErrorBudget budgeted() {
-    return error_budget(*problem_, model_, problem_->fitted, model_, RandomStream{1, 2});
+    return error_budget(*problem_, model_, pruned_front(*problem_, model_), problem_->fitted, model_,
+                        RandomStream{1, 2});
   }
 
   static std::unique_ptr<DataSet> data_;
@@ -80,15 +81,22 @@ std::unique_ptr<DataSet> TwoCauses::data_;
 std::unique_ptr<DiagnosisProblem> TwoCauses::problem_;
 DiagnosedModel TwoCauses::model_;
 
+/// Models with the effects of a model, at no price.
+SetModels models_about(const DiagnosisProblem& problem, const DiagnosedModel& model) {
+  std::vector<PricedEffect> effects;
+  for (const Effect& one : model.robot.effects) effects.push_back({one, 0.0});
+  return {problem, model, effects};
+}
+
 TEST_F(TwoCauses, AModelWithoutAnEffectIsWhatAFitWithoutItGives) {
-  const ReducedModels models(*problem_, model_);
+  const SetModels models = models_about(*problem_, model_);
   for (const std::size_t gone : {std::size_t{0}, std::size_t{1}}) {
     DiagnosedModel again = model_;
     again.noise_estimated = false;  // else nearly all poses are far out by the scatter about the whole model
     again.noise = {};
     again.robot.effects.erase(again.robot.effects.begin() + static_cast<std::ptrdiff_t>(gone));
     again = refined(*problem_, again, 12);
-    const CorrectedRobot reduced = models.without({&gone, 1});
+    const CorrectedRobot reduced = models.with({1 - gone}).robot;
     ASSERT_EQ(reduced.effects.size(), 1U);
     EXPECT_EQ(reduced.effects[0].kind, again.robot.effects[0].kind);
     for (const std::size_t pose : problem_->validation) {
@@ -96,17 +104,37 @@ TEST_F(TwoCauses, AModelWithoutAnEffectIsWhatAFitWithoutItGives) {
       EXPECT_NEAR(1e3 * tool_error_m(reduced, *data_, data_->poses[pose]), cost_mm, 0.1 * cost_mm + 0.02);
     }
   }
-  EXPECT_NEAR(models.rise({}), 0.0, 1e-12);
 }
 
-TEST_F(TwoCauses, RisesAddUpToNoMoreThanTheLossOfBoth) {
-  const ReducedModels models(*problem_, model_);
-  const std::vector<std::size_t> both{0, 1};
-  const double all = models.rise(both);
-  for (const std::size_t one : both) {
-    EXPECT_GT(models.rise({&one, 1}), 0.0);
-    EXPECT_LT(models.rise({&one, 1}), all);
+TEST_F(TwoCauses, AModelWithAllItsEffectsIsItself) {
+  const SetModels models = models_about(*problem_, model_);
+  EXPECT_THAT(models.held(), testing::ElementsAre(0, 1));
+  const CorrectedRobot same = models.with({0, 1}).robot;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < same.effects[i].values.size(); ++k)
+      EXPECT_NEAR(same.effects[i].values[k], model_.robot.effects[i].values[k],
+                  0.01 * std::abs(model_.robot.effects[i].values[k]));
+}
+
+TEST_F(TwoCauses, WhatSetsLeaveFallsWithEveryEffect) {
+  const SetModels models = models_about(*problem_, model_);
+  const FittedSet both(models.problem(), {0, 1});
+  for (const std::size_t one : {std::size_t{0}, std::size_t{1}}) {
+    const FittedSet alone(models.problem(), {one});
+    EXPECT_LT(alone.squares(), models.problem().squares);
+    EXPECT_LT(both.squares(), alone.squares());
+    EXPECT_NEAR(both.squares() + both.rise_without(1 - one), alone.squares(), 1e-6 * alone.squares());
   }
+}
+
+TEST_F(TwoCauses, AModelThatErrsLessIsChosenOverItsParts) {
+  const SetModels models = models_about(*problem_, model_);
+  const ExplanationFront front = judged_front(*problem_, model_, models, {}, prunings(models.problem(), models.held()));
+  EXPECT_EQ(front.points.size(), 3U);
+  EXPECT_EQ(front.best, 2U);
+  EXPECT_EQ(front.chosen, 2U);
+  EXPECT_TRUE(does_as_well(*problem_, model_, models.with({})));
+  EXPECT_FALSE(does_as_well(*problem_, models.with({}), model_));
 }
 
 TEST_F(TwoCauses, CostWhatTheyAreWorthAndTheDearerStandsFirst) {
@@ -128,7 +156,7 @@ TEST_F(TwoCauses, FrontGoesFromNoneToAllAndEveryCauseHelps) {
   ASSERT_EQ(budget.front.size(), 3U);
   for (std::size_t number = 0; number < budget.front.size(); ++number) {
     const FrontPoint& point = budget.front[number];
-    EXPECT_EQ(point.causes.size(), number);
+    EXPECT_EQ(point.causes, number);
     EXPECT_EQ(point.chosen, number == 2);
     ASSERT_TRUE(point.accept_rms_mm.has_value());
     if (number > 0) {
@@ -145,7 +173,8 @@ TEST_F(TwoCauses, OneGrossErrorChangesNoCost) {
   DataSet spoilt = *data_;
   spoilt.poses[problem_->validation.front()].position_m->x() += 2.0;
   const DiagnosisProblem problem{spoilt, kZeroed, problem_->fitted, problem_->validation};
-  const ErrorBudget after = error_budget(problem, model_, problem_->fitted, model_, RandomStream{1, 2});
+  const ErrorBudget after =
+      error_budget(problem, model_, pruned_front(problem, model_), problem_->fitted, model_, RandomStream{1, 2});
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_NEAR(after.causes[i].without_mm, before.causes[i].without_mm, 0.1 * before.causes[i].without_mm);
 }
@@ -155,7 +184,7 @@ TEST(ErrorBudget, OfAModelWithoutEffectsIsEmpty) {
   const DiagnosisProblem problem{data, kZeroed, poses_of(data, PoseSet::calibration), {}};
   const DiagnosedModel model =
       diagnosed_model(problem, fit_declared(data, problem.fitted, kZeroed, nominal_robot(data)));
-  const ErrorBudget budget = error_budget(problem, model, problem.fitted, model, RandomStream{1});
+  const ErrorBudget budget = error_budget(problem, model, {}, problem.fitted, model, RandomStream{1});
   EXPECT_TRUE(budget.causes.empty());
   EXPECT_TRUE(budget.front.empty());
 }

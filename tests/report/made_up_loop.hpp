@@ -126,9 +126,8 @@ inline ErrorBudget made_up_budget(const CorrectedRobot& robot) {
   ErrorBudget budget;
   double without_mm = 0.52;
   for (const ErrorCause& cause : causes_of(robot)) {
-    budget.front.push_back({.causes = std::vector<std::size_t>(budget.front.size()),
-                            .validation_rms_mm = without_mm + 0.1,
-                            .accept_rms_mm = without_mm + 0.11});
+    budget.front.push_back(
+        {.causes = budget.front.size(), .validation_rms_mm = without_mm + 0.1, .accept_rms_mm = without_mm + 0.11});
     budget.causes.push_back({.cause = cause,
                              .without_mm = without_mm,
                              .with_mm = 0.311,
@@ -136,10 +135,8 @@ inline ErrorBudget made_up_budget(const CorrectedRobot& robot) {
                              .interval_mm = {0.9 * without_mm, 1.1 * without_mm}});
     without_mm = 0.311 + 0.6 * (without_mm - 0.311);
   }
-  budget.front.push_back({.causes = std::vector<std::size_t>(budget.front.size()),
-                          .validation_rms_mm = 0.311,
-                          .accept_rms_mm = 0.32,
-                          .chosen = true});
+  budget.front.push_back(
+      {.causes = budget.front.size(), .validation_rms_mm = 0.311, .accept_rms_mm = 0.32, .chosen = true});
   return budget;
 }
 

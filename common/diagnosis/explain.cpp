@@ -1,0 +1,217 @@
+#include "diagnosis/explain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include "diagnosis/judgement.hpp"
+#include "diagnosis/scan.hpp"
+#include "explanations/causes.hpp"
+#include "explanations/set_models.hpp"
+
+namespace demecal::inline diagnosis {
+namespace {
+
+using Places = std::vector<std::size_t>;
+
+bool was_implausible(const LoopEnd& end, const Effect& effect) {
+  return std::ranges::any_of(end.rounds,
+                             [&](const Round& round) { return round.implausible && round.effect.same_law_as(effect); });
+}
+
+/// The candidates of each cause, the one that gains most first.
+std::vector<Places> ranked_by_cause(const LoopEnd& end, const std::vector<Score>& scores) {
+  std::vector<ErrorCause> causes;
+  std::vector<Places> places;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (was_implausible(end, end.candidates[i].effect) || end.candidates[i].decoy_kind != DecoyKind::none ||
+        scores[i].rank == 0)
+      continue;
+    const ErrorCause own = cause_at(end.candidates[i].effect.kind, end.candidates[i].effect.joint);
+    const auto known = std::ranges::find_if(causes, [&](const ErrorCause& one) { return one.is_same_as(own); });
+    const auto cause = static_cast<std::size_t>(known - causes.begin());
+    if (known == causes.end()) {
+      causes.push_back(own);
+      places.emplace_back();
+    }
+    places[cause].push_back(i);
+  }
+  for (Places& own : places)
+    std::ranges::stable_sort(own, std::greater{}, [&](std::size_t i) { return scores[i].gain_nats; });
+  return places;
+}
+
+/// Which candidates the search looks at: those of the model, and of every cause those that gain most beside the model
+/// and those that do without any effect; fewer where there are so many rows that the products of all columns would take
+/// long.
+std::vector<PricedEffect> preselected(const LoopEnd& end, const std::vector<std::vector<Score>>& scores) {
+  constexpr double kMostProducts = 4e10;    ///< of rows and pairs of columns
+  constexpr std::size_t kMostOfCause = 40;  ///< by each of the scores
+  const auto rows = static_cast<double>(end.linearization.fitted.rows());
+  const auto most_columns = static_cast<Eigen::Index>(std::sqrt(kMostProducts / rows));
+  std::set<std::size_t> taken;
+  Eigen::Index columns = 0;
+  const auto take = [&](std::size_t i) {
+    if (taken.insert(i).second) columns += end.columns.spans()[i].count;
+  };
+  for (std::size_t i = 0; i < end.candidates.size(); ++i) {
+    const auto is_it = [&](const Effect& effect) { return effect.same_law_as(end.candidates[i].effect); };
+    if (end.candidates[i].decoy_kind == DecoyKind::none && std::ranges::any_of(end.model.robot.effects, is_it)) take(i);
+  }
+  std::vector<std::vector<Places>> ranked;
+  for (const std::vector<Score>& each : scores) ranked.push_back(ranked_by_cause(end, each));
+  for (std::size_t rank = 0; rank < kMostOfCause; ++rank)
+    for (const std::vector<Places>& causes : ranked)
+      for (const Places& own : causes)
+        if (rank < own.size() && columns < most_columns) take(own[rank]);
+  std::vector<PricedEffect> effects;
+  for (const std::size_t i : taken) effects.push_back({end.candidates[i].effect, end.candidates[i].naming_cost_nats});
+  return effects;
+}
+
+std::vector<Score> scores_beside(const LoopEnd& end, const Linearization& linearization) {
+  return Scan(end.columns, naming_costs_nats(end.candidates), linearization.fitted, linearization.projection).scores();
+}
+
+/// What the search may use: the model's effects, and candidates where there is to be any variation.
+std::vector<PricedEffect> searched_effects(const LoopEnd& end, bool vary) {
+  // An effect must gain what noise alone hardly gives.
+  const std::size_t most = end.null_maxima.size();
+  const double least_gain_nats =
+      most == 0 ? 0.0
+                : std::max(0.0, end.null_maxima[static_cast<std::size_t>((1.0 - end.rules.family_error) *
+                                                                         static_cast<double>(most - 1))]);
+
+  std::vector<PricedEffect> effects;
+  if (vary) {
+    const std::vector<bool> all(end.model.robot.effects.size(), true);
+    effects = preselected(end, {scores_beside(end, linearize_without(end.problem, end.model, all)),
+                                scores_beside(end, end.linearization)});
+  } else {
+    for (const Effect& effect : end.model.robot.effects)
+      effects.push_back({effect, naming_cost_nats(effect, end.candidates)});
+  }
+  for (PricedEffect& one : effects) one.naming_cost_nats += least_gain_nats;
+  return effects;
+}
+
+/// Takes effects out that some of the sets hold in a size that no real arm has; whether there were any.
+bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const std::vector<EffectSet>& sets,
+                           std::vector<PricedEffect>& effects) {
+  const auto& states = end.linearization.fitted.states;
+  std::vector<Effect> implausible;
+  for (const EffectSet& set : sets)
+    for (const Effect& effect : models.with(set.effects).robot.effects)
+      if (is_implausibly_large(effect, end.problem.data.robot, states)) implausible.push_back(effect);
+  const auto is_out = [&](const PricedEffect& one) {
+    const auto is_it = [&](const Effect& other) { return other.same_law_as(one.effect); };
+    return std::ranges::any_of(implausible, is_it) && std::ranges::none_of(end.model.robot.effects, is_it);
+  };
+  return std::erase_if(effects, is_out) > 0;
+}
+
+/// By number of causes, what is left of the model or what evolution found, each shorter than all of fewer causes.
+std::vector<EffectSet> worth_having(const SetModels& models, std::vector<EffectSet> pruned,
+                                    const std::vector<EffectSet>& evolved) {
+  constexpr double kNatsToDistinguish = 5.0;
+  for (const EffectSet& set : evolved) {
+    const auto same = std::ranges::find(pruned, set.causes, &EffectSet::causes);
+    if (same != pruned.end() && set.description_nats > same->description_nats - kNatsToDistinguish) continue;
+    if (same != pruned.end()) {
+      *same = set;
+    } else {
+      pruned.push_back(set);
+    }
+  }
+  std::ranges::sort(pruned, {}, &EffectSet::causes);
+  std::vector<EffectSet> sets;
+  for (EffectSet& set : pruned) {
+    const bool known = std::ranges::equal(set.effects, models.held());
+    const double least = known ? 0.0 : kNatsToDistinguish;
+    if (sets.empty() || set.description_nats < sets.back().description_nats - least) sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+/// As rivals_of() says, among the effects that were searched.
+std::vector<Rival> rivals_beside(const FittedSet& set, std::size_t place, const std::vector<PricedEffect>& effects) {
+  std::vector<Rival> rivals;
+  const Effect& own = effects[set.effects()[place]].effect;
+  for (const Alike& other : set.alike(place))
+    if (is_rival(own, effects[other.effect].effect, other.cosine, other.nats_behind))
+      rivals.push_back({effects[other.effect].effect, other.cosine, other.nats_behind});
+  keep_nearest(rivals);
+  return rivals;
+}
+
+/// Leaves effects out of the chosen model that the present one lacks and that do not stand the judgement.
+void judge_new_effects(const LoopEnd& end, const SetModels& models, const std::vector<PricedEffect>& effects,
+                       const std::function<bool(const Round&)>& watch, Explained& found) {
+  constexpr int kSteps = 3;
+  const std::vector<std::size_t>& set = found.front.points[found.front.chosen].set;
+  found.model = refined(end.problem, models.with(set), kSteps);
+  found.rounds = judged_together(end, found.model);
+  const FittedSet fitted(models.problem(), set);
+  for (Round& round : found.rounds) {
+    const auto place =
+        std::ranges::find_if(set, [&](std::size_t effect) { return effects[effect].effect.same_law_as(round.effect); });
+    round.rivals = rivals_beside(fitted, static_cast<std::size_t>(place - set.begin()), effects);
+    found.stopped = found.stopped || (watch && !watch(round));
+    if (round.verdict == Verdict::added) continue;
+    std::erase_if(found.model.robot.effects, [&](const Effect& effect) { return effect.same_law_as(round.effect); });
+  }
+  if (std::ranges::any_of(found.rounds, [](const Round& round) { return round.verdict != Verdict::added; }))
+    found.model = refined(end.problem, std::move(found.model), kSteps);
+}
+
+/// Sets of effects by number of causes, and what they are places among.
+struct SearchedSets {
+  std::vector<PricedEffect> effects;
+  SetModels models;
+  std::vector<EffectSet> sets;
+};
+
+/// Evolution begins anew without effects that it made larger than any arm's.
+SearchedSets searched_sets(const LoopEnd& end, const ExplanationSearch& search, const RandomStream& random) {
+  constexpr int kMostAttempts = 10;
+  const bool vary = search.variations > 0;
+  std::vector<PricedEffect> effects = searched_effects(end, vary);
+  for (int attempt = 1;; ++attempt) {
+    SetModels models(end.problem, end.model, effects);
+    std::vector<EffectSet> sets = prunings(models.problem(), models.held());
+    if (!vary || attempt == kMostAttempts) return {std::move(effects), std::move(models), std::move(sets)};
+    const auto evolved = search_explanations(models.problem(), models.held(), search, random);
+    if (leave_out_implausible(end, models, evolved, effects)) continue;
+    sets = worth_having(models, std::move(sets), evolved);
+    return {std::move(effects), std::move(models), std::move(sets)};
+  }
+}
+
+}  // namespace
+
+Explained explained(const LoopEnd& end, const ExplanationSearch& search, const RandomStream& random,
+                    const std::function<bool(const Round&)>& watch) {
+  constexpr int kSteps = 3;
+  const SearchedSets searched = searched_sets(end, search, random);
+  const std::vector<EffectSet>& sets = searched.sets;
+  Explained found{.front = judged_front(end.problem, end.model, searched.models, searched.effects, sets),
+                  .model = end.model,
+                  .best = {},
+                  .rounds = {}};
+  const auto is_present = [&](std::size_t point) { return sets[point].effects == searched.models.held(); };
+  if (!is_present(found.front.chosen)) {
+    judge_new_effects(end, searched.models, searched.effects, watch, found);
+    if (!found.rounds.empty() && !does_as_well(end.problem, found.model, end.model))
+      return explained(end, {.variations = 0}, random, watch);
+  }
+  if (found.front.best != found.front.chosen)
+    found.best = is_present(found.front.best)
+                     ? end.model
+                     : refined(end.problem, searched.models.with(sets[found.front.best].effects), kSteps);
+  return found;
+}
+
+}  // namespace demecal::inline diagnosis

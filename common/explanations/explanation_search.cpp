@@ -1,0 +1,224 @@
+#include "explanations/explanation_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace demecal::inline explanations {
+namespace {
+
+class SetSearch {
+ public:
+  SetSearch(const ExplanationProblem& problem, const std::vector<std::size_t>& known, const ExplanationSearch& search,
+            RandomStream random)
+      : problem_(problem), search_(search), random_(std::move(random)) {
+    const FittedSet first(problem, known);
+    most_columns_ = std::max(first.columns(), static_cast<Eigen::Index>(search.most_freedom * problem.freedom));
+    search_.most_causes = std::max(search.most_causes, first.causes().size());
+    search_.most_effects = std::max(search.most_effects, known.size());
+  }
+
+  std::vector<EffectSet> run(const std::vector<std::size_t>& known);
+
+ private:
+  static constexpr std::size_t kKept = 4;        ///< sets of every number of causes
+  static constexpr std::size_t kPromising = 12;  ///< effects among which an addition is drawn
+
+  void begin_with(const std::vector<std::size_t>& known);
+  void note(const FittedSet& set);
+  const FittedSet& any_kept();
+  std::vector<std::size_t> promising(const FittedSet& set, bool of_its_causes) const;
+  void add_promising(FittedSet& set, bool of_its_causes);
+  void exchange_neighbour(FittedSet& set);
+  void leave_out_a_cause(FittedSet& set);
+  FittedSet mixed(const FittedSet& one, const FittedSet& other);
+  void leave_out_what_earns_nothing(FittedSet& set) const;
+  void fill(FittedSet& set, int most);
+  FittedSet varied();
+
+  const ExplanationProblem& problem_;
+  ExplanationSearch search_;
+  RandomStream random_;
+  Eigen::Index most_columns_ = 0;
+  std::map<std::size_t, std::vector<FittedSet>> kept_;  ///< by number of causes, the shortest description first
+};
+
+void SetSearch::note(const FittedSet& set) {
+  const std::size_t causes = set.causes().size();
+  if (causes > search_.most_causes || set.columns() > most_columns_ || set.effects().size() > search_.most_effects)
+    return;
+  std::vector<FittedSet>& kept = kept_[causes];
+  const double nats = set.description_nats();
+  constexpr double kSame_nats = 1e-6;
+  const auto same = [&](const FittedSet& other) { return std::abs(other.description_nats() - nats) < kSame_nats; };
+  if (std::ranges::any_of(kept, same)) return;
+  if (kept.size() == kKept && nats >= kept.back().description_nats()) return;
+  // Afresh, so that rounding does not gather over generations.
+  FittedSet afresh(problem_, set.effects());
+  const auto place =
+      std::ranges::find_if(kept, [&](const FittedSet& other) { return nats < other.description_nats(); });
+  kept.insert(place, std::move(afresh));
+  if (kept.size() > kKept) kept.pop_back();
+}
+
+const FittedSet& SetSearch::any_kept() {
+  auto at = kept_.begin();
+  std::advance(at, random_.index(kept_.size()));
+  return at->second[random_.index(at->second.size())];
+}
+
+std::vector<std::size_t> SetSearch::promising(const FittedSet& set, bool of_its_causes) const {
+  const std::vector<std::size_t> causes = set.causes();
+  const Eigen::VectorXd left = set.moments_left();
+  std::vector<std::pair<double, std::size_t>> gains;
+  for (std::size_t i = 0; i < problem_.spans.size(); ++i) {
+    const ColumnSpan& span = problem_.spans[i];
+    if (span.count == 0 || set.holds(i)) continue;
+    if (of_its_causes && !std::ranges::binary_search(causes, problem_.cause[i])) continue;
+    const double share = std::min(left.segment(span.first, span.count).squaredNorm() / set.squares(), 0.99);
+    gains.emplace_back(-0.5 * problem_.rows * std::log1p(-share) - set.price_nats(i), i);
+  }
+  const auto most = static_cast<std::ptrdiff_t>(std::min(kPromising, gains.size()));
+  std::partial_sort(gains.begin(), gains.begin() + most, gains.end(), std::greater{});
+  std::vector<std::size_t> best;
+  for (std::ptrdiff_t i = 0; i < most; ++i) best.push_back(gains[static_cast<std::size_t>(i)].second);
+  return best;
+}
+
+void SetSearch::add_promising(FittedSet& set, bool of_its_causes) {
+  const std::vector<std::size_t> choice = promising(set, of_its_causes);
+  if (!choice.empty()) set.add(choice[random_.index(choice.size())]);
+}
+
+/// Another of the same cause, near by in the order of proposals: the next ratio, another form.
+void SetSearch::exchange_neighbour(FittedSet& set) {
+  if (set.effects().empty()) return;
+  const std::size_t place = random_.index(set.effects().size()), present = set.effects()[place];
+  constexpr std::ptrdiff_t kFarthest = 3;
+  std::vector<std::size_t> choice;
+  for (std::ptrdiff_t step = -kFarthest; step <= kFarthest; ++step) {
+    const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(present) + step;
+    if (other < 0 || other >= std::ssize(problem_.spans)) continue;
+    const auto index = static_cast<std::size_t>(other);
+    if (problem_.cause[index] == problem_.cause[present] && !set.holds(index)) choice.push_back(index);
+  }
+  if (choice.empty()) return;
+  set.remove(place);
+  set.add(choice[random_.index(choice.size())]);
+}
+
+void SetSearch::leave_out_a_cause(FittedSet& set) {
+  if (!set.effects().empty()) set.remove_cause(problem_.cause[set.effects()[random_.index(set.effects().size())]]);
+}
+
+/// Every cause as the one or the other has it.
+FittedSet SetSearch::mixed(const FittedSet& one, const FittedSet& other) {
+  std::set<std::size_t> causes;
+  for (const FittedSet* set : {&one, &other})
+    for (const std::size_t cause : set->causes()) causes.insert(cause);
+  FittedSet both(problem_);
+  for (const std::size_t cause : causes) {
+    const FittedSet& from = random_.chance(0.5) ? one : other;
+    for (const std::size_t effect : from.effects())
+      if (problem_.cause[effect] == cause) both.add(effect);
+  }
+  return both;
+}
+
+void SetSearch::leave_out_what_earns_nothing(FittedSet& set) const {
+  for (;;) {
+    std::optional<std::size_t> worst;
+    double most = 0.0;
+    for (std::size_t place = 0; place < set.effects().size(); ++place) {
+      const double gain = set.gain_without(place);
+      if (gain <= most) continue;
+      most = gain;
+      worst = place;
+    }
+    if (!worst) return;
+    set.remove(*worst);
+  }
+}
+
+/// Adds what its causes still lack, the best first, as long as that shortens the description.
+void SetSearch::fill(FittedSet& set, int most) {
+  for (int i = 0; i < most; ++i) {
+    const std::vector<std::size_t> choice = promising(set, true);
+    if (choice.empty()) return;
+    FittedSet more = set;
+    more.add(choice.front());
+    if (more.description_nats() >= set.description_nats()) return;
+    set = std::move(more);
+  }
+}
+
+FittedSet SetSearch::varied() {
+  constexpr double kMixed = 0.15, kAdded = 0.35, kNeighbour = 0.50, kCauseOut = 0.65;
+  const double draw = random_.real();
+  FittedSet set = any_kept();
+  if (draw < kMixed) {
+    set = mixed(set, any_kept());
+  } else if (draw < kAdded) {
+    add_promising(set, random_.chance(0.5));
+  } else if (draw < kNeighbour) {
+    exchange_neighbour(set);
+  } else {
+    if (draw < kCauseOut) {
+      leave_out_a_cause(set);
+    } else if (!set.effects().empty()) {
+      set.remove(random_.index(set.effects().size()));
+    }
+    add_promising(set, random_.chance(0.5));
+  }
+  constexpr int kMostFilled = 4;
+  fill(set, kMostFilled);
+  leave_out_what_earns_nothing(set);
+  return set;
+}
+
+/// `known`, and what is left of it without the causes that are missed least, one after another.
+void SetSearch::begin_with(const std::vector<std::size_t>& known) {
+  FittedSet set(problem_, known);
+  note(FittedSet(problem_));
+  note(set);
+  while (!set.effects().empty()) {
+    std::optional<FittedSet> best;
+    for (const std::size_t cause : set.causes()) {
+      FittedSet less = set;
+      less.remove_cause(cause);
+      if (!best || less.description_nats() < best->description_nats()) best = std::move(less);
+    }
+    set = std::move(*best);
+    note(set);
+  }
+}
+
+std::vector<EffectSet> SetSearch::run(const std::vector<std::size_t>& known) {
+  begin_with(known);
+  for (int i = 0; i < search_.variations; ++i) note(varied());
+  std::vector<EffectSet> front;
+  for (const auto& [causes, sets] : kept_) {
+    EffectSet best{sets.front().effects(), causes, sets.front().description_nats()};
+    std::ranges::sort(best.effects);
+    front.push_back(std::move(best));
+  }
+  return front;
+}
+
+}  // namespace
+
+std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const std::vector<std::size_t>& known,
+                                           const ExplanationSearch& search, RandomStream random) {
+  return SetSearch(problem, known, search, std::move(random)).run(known);
+}
+
+std::vector<EffectSet> prunings(const ExplanationProblem& problem, const std::vector<std::size_t>& known) {
+  return search_explanations(problem, known, {.variations = 0}, RandomStream{0});
+}
+
+}  // namespace demecal::inline explanations

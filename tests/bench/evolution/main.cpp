@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "closed_loop/summary.hpp"
+#include "config/data_set_file.hpp"
+#include "config/input_files.hpp"
+#include "evolution_case.hpp"
+
+namespace {
+
+using namespace demecal;
+using namespace demecal::bench;
+
+constexpr std::array<const char*, 3> kRobots{"puma761.yaml", "ur10.yaml", "elbow-offset.yaml"};
+constexpr std::size_t kMostOfFront = 10;
+
+struct MeasuredArm {
+  const char* name;
+  const char* file;  ///< in the shared data
+  bool joint_corrections;
+};
+constexpr std::array<MeasuredArm, 5> kMeasured{{{"ur5", "ur5-tracker/ur5-grid.yaml", true},
+                                                {"wam", "wam-tracker/wam-grid.yaml", true},
+                                                {"ur10 A", "ur10-leica/series-a.yaml", false},
+                                                {"ur10 B", "ur10-leica/series-b.yaml", false},
+                                                {"ur10 C", "ur10-leica/series-c.yaml", false}}};
+
+struct Options {
+  int arms = 30;
+  int seeds = 1;
+  std::string data = std::string(DEMECAL_SOURCE_DIR) + "/../shared/data";
+  std::vector<std::string> only;
+  int threads = 2;
+  bool json = false;
+};
+
+nlohmann::json json_of(const DiagnosisFigures& figures, bool simulated) {
+  nlohmann::json front = nlohmann::json::array();
+  for (const FrontPoint& point : figures.front)
+    front.push_back({{"causes", point.causes},
+                     {"validation_rms_mm", point.validation_rms_mm},
+                     {"accept_rms_mm", point.accept_rms_mm.value_or(0.0)},
+                     {"chosen", point.chosen}});
+  nlohmann::json json{{"causes", figures.causes},       {"effects", figures.effects},
+                      {"accept_mm", figures.accept_mm}, {"validation_mm", figures.validation_mm},
+                      {"seconds", figures.seconds},     {"front", front}};
+  if (simulated) {
+    json["true_causes_named"] = figures.true_causes_named;
+    json["false_effects"] = figures.false_effects;
+  }
+  return json;
+}
+
+/// Cases in the order of their numbers, whichever thread ran them.
+class Bench {
+ public:
+  explicit Bench(const Options& options) : options_(options) {
+    for (int seed = 1; seed <= options.seeds; ++seed)
+      for (const MeasuredArm& arm : kMeasured)
+        if (is_wanted(arm.name) && std::filesystem::exists(options.data)) plan(arm, static_cast<std::uint64_t>(seed));
+    for (int number = 0; number < options.arms && is_wanted("simulated"); ++number)
+      tasks_.emplace_back([number] {
+        return run_simulated(number, load_robot(std::filesystem::path(DEMECAL_SOURCE_DIR) / "configs/robots" /
+                                                kRobots[static_cast<std::size_t>(number) % kRobots.size()]));
+      });
+    cases_.resize(tasks_.size());
+  }
+
+  void run() {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
+  }
+  void write() const;
+
+ private:
+  bool is_wanted(const std::string& name) const {
+    return options_.only.empty() || std::ranges::count(options_.only, name) > 0;
+  }
+  void plan(const MeasuredArm& arm, std::uint64_t seed) {
+    tasks_.emplace_back([this, arm, seed]() -> std::optional<EvolutionCase> {
+      const DeclaredModel declared{.registration = true,
+                                   .tool = true,
+                                   .joint_offset = true,
+                                   .geometry = true,
+                                   .joint_corrections = arm.joint_corrections};
+      return run_measured(fmt::format("{}, seed {}", arm.name, seed), load_data_set(options_.data + "/" + arm.file),
+                          declared, seed);
+    });
+  }
+  void work() {
+    for (std::size_t i = next_++; i < tasks_.size(); i = next_++) {
+      cases_[i] = tasks_[i]();
+      const std::lock_guard lock(progress_);
+      std::cerr << '\r' << ++done_ << " of " << tasks_.size() << " cases" << std::flush;
+      if (done_ == tasks_.size()) std::cerr << '\n';
+    }
+  }
+  void write_json() const;
+  void write_table() const;
+  void write_totals() const;
+
+  Options options_;
+  std::vector<std::function<std::optional<EvolutionCase>()>> tasks_;
+  std::vector<std::optional<EvolutionCase>> cases_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex progress_;
+  std::size_t done_ = 0;
+};
+
+void Bench::write_json() const {
+  for (const auto& one : cases_) {
+    if (!one) continue;
+    const bool simulated = one->true_causes > 0;
+    std::cout << nlohmann::json{{"name", one->name},
+                                {"true_causes", one->true_causes},
+                                {"outside", one->outside},
+                                {"without", json_of(one->without, simulated)},
+                                {"with", json_of(one->with, simulated)}}
+              << '\n';
+  }
+}
+
+void Bench::write_table() const {
+  fmt::print("{:<22}{:>32}{:>32}\n", "", "without evolution", "with evolution");
+  fmt::print("{:<22}{:>7}{:>9}{:>9}{:>7}{:>7}{:>9}{:>9}{:>7}{:>12}\n", "arm", "causes", "effects", "accept", "s",
+             "causes", "effects", "accept", "s", "true named");
+  for (const auto& one : cases_) {
+    if (!one) continue;
+    const auto side = [](const DiagnosisFigures& figures) {
+      return fmt::format("{:>7}{:>9}{:>9.4f}{:>7.1f}", figures.causes, figures.effects, figures.accept_mm,
+                         figures.seconds);
+    };
+    const std::string named = one->true_causes == 0 ? ""
+                                                    : fmt::format("{}/{}+{}", one->with.true_causes_named,
+                                                                  one->true_causes, one->with.false_effects);
+    fmt::print("{:<22}{}{}{:>12}\n", one->name, side(one->without), side(one->with), named);
+  }
+}
+
+void Bench::write_totals() const {
+  std::vector<double> accept, all_named_with, all_named_without, outside;
+  for (const auto& one : cases_) {
+    if (!one) continue;
+    accept.push_back(one->with.accept_mm / one->without.accept_mm);
+    if (one->true_causes == 0) continue;
+    const auto is_exact = [&](const DiagnosisFigures& figures) {
+      return figures.true_causes_named == one->true_causes && figures.false_effects == 0 ? 1.0 : 0.0;
+    };
+    all_named_with.push_back(is_exact(one->with));
+    all_named_without.push_back(is_exact(one->without));
+  }
+  const auto mean = [](const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+  };
+  fmt::print("\naccept error with evolution over that without: median {:.3f}, largest {:.3f}\n", quantile(accept, 0.5),
+             quantile(accept, 1.0));
+  fmt::print("validation error of the front with evolution over that without, median, at\n");
+  for (std::size_t causes = 1; causes <= kMostOfFront; ++causes) {
+    std::vector<double> ratios;
+    for (const auto& one : cases_)
+      if (one) ratios.push_back(one->with.validation_with(causes) / one->without.validation_with(causes));
+    fmt::print("  {:>2} causes {:.3f}, largest {:.3f}\n", causes, quantile(ratios, 0.5), quantile(ratios, 1.0));
+  }
+  if (all_named_with.empty()) return;
+  fmt::print("simulated arms of which all causes are named and nothing else: {:.3f} without, {:.3f} with\n",
+             mean(all_named_without), mean(all_named_with));
+}
+
+void Bench::write() const {
+  if (options_.json) return write_json();
+  write_table();
+  write_totals();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "What the search for explanations earns: measured robots of the shared data and simulated arms with three to six "
+      "undeclared causes, diagnosed with it and without it."};
+  Options options;
+  app.add_flag("--json", options.json, "one JSON object an arm instead of the table");
+  app.add_option("--arms", options.arms, "simulated arms")->capture_default_str()->check(CLI::NonNegativeNumber);
+  app.add_option("--seeds", options.seeds, "of every measured robot")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--data", options.data, "folder of the measured robots; without it only simulated arms are run");
+  app.add_option("--only", options.only, "names of measured robots, or simulated");
+  app.add_option("--threads", options.threads, "arms at a time; figures but times do not depend on it")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 10;
+  }
+  Bench bench(options);
+  bench.run();
+  bench.write();
+  return 0;
+}
