@@ -5,10 +5,14 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
+#include <future>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <variant>
 
@@ -144,7 +148,51 @@ bool DdsTransport::flush(milliseconds patience) {
   return arrived;
 }
 
+/// Leaves the domain within a bounded time: Fast DDS can wait for itself for ever where another participant goes at the
+/// same moment as its timer asks whether it is still there (eProsima/Fast-DDS, issue 6502).
+class LeavingTransport final : public Transport {
+ public:
+  explicit LeavingTransport(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}
+  ~LeavingTransport() override {
+    constexpr milliseconds kPatience{10000};
+    leave_within(kPatience, [transport = std::shared_ptr(std::move(transport_))]() mutable { transport.reset(); });
+  }
+
+  void publish(const Message& message) override { transport_->publish(message); }
+  std::optional<Message> receive(milliseconds patience) override { return transport_->receive(patience); }
+  void wake() override { transport_->wake(); }
+  void follow_migrants(std::uint32_t joint) override { transport_->follow_migrants(joint); }
+  void assert_alive() override { transport_->assert_alive(); }
+  bool flush(milliseconds patience) override { return transport_->flush(patience); }
+  RunId new_run() override { return transport_->new_run(); }
+  void reject(const std::string& source, const std::string& why) override { transport_->reject(source, why); }
+  std::uint64_t rejected() const override { return transport_->rejected(); }
+
+ private:
+  std::unique_ptr<Transport> transport_;
+};
+
 }  // namespace
+
+bool leave_within(milliseconds patience, std::function<void()> leave) {
+  std::promise<void> left;
+  const std::future<void> end = left.get_future();
+  std::thread([leave = std::move(leave), left = std::move(left)]() mutable {
+    leave();
+    leave = nullptr;
+    left.set_value();
+  }).detach();
+  if (end.wait_for(patience) == std::future_status::ready) return true;
+  // What the thread is stuck in would be waited for again by the library's static objects.
+  static const int once = ::on_exit(
+      [](int status, void*) {
+        std::fflush(nullptr);
+        std::_Exit(status);
+      },
+      nullptr);
+  static_cast<void>(once);
+  return false;
+}
 
 std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command) {
   const auto dds = std::make_shared<DdsOptions>();
@@ -182,7 +230,7 @@ std::vector<std::string> dds_arguments(const DdsOptions& options) {
 }
 
 std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name) {
-  return std::make_unique<DdsTransport>(options, role, name);
+  return std::make_unique<LeavingTransport>(std::make_unique<DdsTransport>(options, role, name));
 }
 
 }  // namespace demecal::inline dds

@@ -1,7 +1,9 @@
 // The transport over Fast DDS.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,8 +36,13 @@ std::shared_ptr<DdsOptions> add_dds_arguments(CLI::App& command);
 /// `options` as the arguments that add_dds_arguments() reads.
 std::vector<std::string> dds_arguments(const DdsOptions& options);
 
-/// Joins the domain. `name` identifies a worker in WorkerLost. Throws std::runtime_error where no participant can be
-/// made, and InputError where an address is none or a certificate is missing or not accepted.
+/// Runs `leave` on a thread of its own. Whether it ended within `patience`: where not, the thread is abandoned, and the
+/// process will exit without waiting for it, with the status that it exits with.
+bool leave_within(std::chrono::milliseconds patience, std::function<void()> leave);
+
+/// Joins the domain; the transport leaves it, when it is destroyed, within ten seconds. `name` identifies a worker in
+/// WorkerLost. Throws std::runtime_error where no participant can be made, and InputError where an address is none or a
+/// certificate is missing or not accepted.
 std::unique_ptr<Transport> join_dds(const DdsOptions& options, Role role, const std::string& name);
 
 }  // namespace demecal::inline dds

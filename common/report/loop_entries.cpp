@@ -155,15 +155,21 @@ std::string_view judging_set(const Report& report) {
 
 std::string front_sentence(const Report& report) {
   constexpr std::uint64_t kFew = 10;
-  std::string fewer;
+  const auto chosen = std::ranges::find(report.front, true, &FrontEntry::chosen);
+  if (report.front.size() < 3 || chosen == report.front.end() || !chosen->validation_rms_mm) return {};
+  std::string fewer, more;
   for (const FrontEntry& point : report.front) {
-    if (point.chosen || point.causes > kFew || !point.validation_rms_mm) continue;
-    const std::string causes = point.causes == 0 ? "none" : "the best " + std::to_string(point.causes);
-    fewer += fmt::format("{}{} {:.3f}", fewer.empty() ? "" : ", ", causes, *point.validation_rms_mm);
+    if (point.chosen || !point.validation_rms_mm) continue;
+    if (point.causes > chosen->causes) {
+      more += fmt::format("{}{} {:.3f}", more.empty() ? "; with more: the best " : ", ", point.causes,
+                          *point.validation_rms_mm);
+    } else if (point.causes <= kFew) {
+      const std::string causes = point.causes == 0 ? "none" : "the best " + std::to_string(point.causes);
+      fewer += fmt::format("{}{} {:.3f}", fewer.empty() ? "; with fewer: " : ", ", causes, *point.validation_rms_mm);
+    }
   }
-  if (report.front.size() < 3 || !report.front.back().validation_rms_mm) return {};
-  return fmt::format("Left on {} poses (rms, mm) with all {} causes {:.3f}; with fewer: {}.", judging_set(report),
-                     report.front.back().causes, *report.front.back().validation_rms_mm, fewer);
+  return fmt::format("Left on {} poses (rms, mm) with the model's {} causes {:.3f}{}{}.", judging_set(report),
+                     chosen->causes, *chosen->validation_rms_mm, fewer, more);
 }
 
 EffectEntry effect_entry(const Effect& effect, const Robot& robot) {
