@@ -16,6 +16,7 @@ std::string library_of(const std::string& header) {
                                                                {"yaml-cpp/", "yaml-cpp"},
                                                                {"openssl/", "OpenSSL::Crypto"},
                                                                {"CLI/", "CLI11::CLI11"},
+                                                               {"httplib.h", "PkgConfig::HTTPLIB"},
                                                                {"fastdds/", "fastrtps"},
                                                                {"fastrtps/", "fastrtps"},
                                                                {"fastcdr/", "fastcdr"},
@@ -77,8 +78,11 @@ Violations check_libraries(const Source& source, const Map& map) {
 }
 
 Violations check_owners(const Source& source) {
-  static const std::map<std::string, std::string> owners = {
-      {"yaml-cpp", "yaml"}, {"fastrtps", "dds"}, {"fastcdr", "tests"}, {"demecal_idl", "tests"}};
+  static const std::map<std::string, std::string> owners = {{"yaml-cpp", "yaml"},
+                                                            {"fastrtps", "dds"},
+                                                            {"fastcdr", "tests"},
+                                                            {"demecal_idl", "tests"},
+                                                            {"PkgConfig::HTTPLIB", "http"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;
