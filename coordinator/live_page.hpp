@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "http/live_server.hpp"
@@ -19,6 +20,9 @@ class LivePage {
   LivePage(const std::string& where, const std::string& token_file, std::string place);
 
   std::string address() const { return server_.address(); }
+
+  /// Shows what concerns no message: an arm, as arm_event() gives it.
+  void show_arm(std::string event) { server_.publish(std::move(event), ""); }
 
   void take(const Message& message, double now_s);
   /// To be called some times a second.

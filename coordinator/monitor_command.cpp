@@ -157,6 +157,16 @@ void add_monitor(CLI::App& app, ExitCode& exit_code) {
                    "of --http: the token that is to be shown stands there (default: none on this machine alone, "
                    "otherwise one that is drawn)")
       ->needs(http);
+  CLI::Option* data = command
+                          ->add_option("--data", request->options.data_file,
+                                       "of --http: the data set whose arm and poses the page shows, with their errors")
+                          ->type_name("DATASET.yaml")
+                          ->needs(http);
+  command
+      ->add_option("--model", request->options.model_file,
+                   "of --data: a model of that arm, whose errors are shown, too")
+      ->type_name("MODEL.yaml")
+      ->needs(data);
   command
       ->add_option("--record", request->options.record,
                    "write what is seen to this file, for --replay and for viewers of MCAP files, until interrupted")

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "coordinator/arm_view.hpp"
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/events.hpp"
@@ -54,7 +55,9 @@ MonitorOutput::MonitorOutput(const MonitorOptions& options) : options_(options),
   if (options_.ros2 != nullptr) ros2_.emplace(*options_.ros2);
   if (options_.json) put(first_event_line());
   if (options_.http.empty()) return;
+  const std::string arm = options_.data_file.empty() ? "" : arm_event(options_.data_file, options_.model_file);
   page_.emplace(options_.http, options_.token_file, options_.place);
+  if (!arm.empty()) page_->show_arm(arm);
   put("live page of " + options_.place + ": " + page_->address());
 }
 

@@ -24,6 +24,7 @@ struct MonitorOptions {
   std::string place;                         ///< where one watches, for people: "domain 3"
   std::string http;                          ///< where a page is served to browsers; empty: nowhere
   std::string token_file;                    ///< of it
+  std::string data_file, model_file;         ///< whose arm and poses the page shows; empty: none
   std::string record;                        ///< the file that is recorded to; empty: none
   const DdsOptions* ros2 = nullptr;          ///< where it is published for ROS 2; null: nowhere
 };

@@ -16,8 +16,6 @@
 #include "languages/named_languages.hpp"
 #include "monitor/events.hpp"
 #include "monitor/made_up_run.hpp"
-#include "monitor/paced_events.hpp"
-#include "monitor/state_json.hpp"
 #include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
 #include "programs/summary.hpp"
@@ -151,29 +149,6 @@ TEST(WrittenFormats, EventsHaveTheKeysOfThePage) {
     for (const std::string& key : paths_of(json, {})) paths.insert(json.at("event").get<std::string>() + '.' + key);
   }
   expect_documented(formats_section("Events"), paths);
-}
-
-/// Less those that the page documents among events of this word.
-std::set<std::string> without_those_of(const std::string& word, const std::string& at, std::set<std::string> paths) {
-  const std::set<std::string> events = formats_section("Events").keys();
-  std::erase_if(paths, [&](const std::string& path) {
-    return path.starts_with(at) && events.contains(word + '.' + path.substr(at.size()));
-  });
-  return paths;
-}
-
-TEST(WrittenFormats, TheLivePagesStateAndFiguresHaveTheKeysOfThePage) {
-  PacedEvents events(0.5);
-  for (const Message& message : made_up_messages(made_up_data())) events.take(message, 1.0);
-  std::set<std::string> paths = paths_of(Json::parse(state_json(events.watched(), 2.0, "domain 3")), {});
-  paths =
-      without_those_of("round", "calibration.rounds[].", without_those_of("stage", "calibration.", std::move(paths)));
-  paths = without_those_of("progress", "run.islands[].", without_those_of("run", "run.", std::move(paths)));
-  paths = without_those_of("worker", "workers[].", std::move(paths));
-  for (const PacedLine& line : events.due(2.0)) {
-    for (const std::string& key : paths_of(Json::parse(line.text), {})) paths.insert("figures." + key);
-  }
-  expect_documented(formats_section("monitor --http"), paths);
 }
 
 TEST(WrittenFormats, DataSetsHaveTheColumnsOfThePage) {

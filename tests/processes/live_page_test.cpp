@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "program.hpp"
 #include "small_job.hpp"
@@ -97,6 +100,46 @@ TEST(LivePage, ShowsARecordedRun) {
   EXPECT_EQ(state["run"]["islands"].size(), 12u);
   monitor.signal(SIGINT);
   EXPECT_EQ(monitor.wait(std::chrono::seconds(20)).code, 0);
+}
+
+TEST(LivePage, DrawsTheArmOfADataSetAndWhereItWasMeasured) {
+  const SmallJob job;
+  ASSERT_EQ(run("demecal", calibrate_on(job, "out", 6)).code, 0);
+  Program monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0", "--data",
+                              job.data(), "--model", job.path("out/model.yaml")});
+  const std::string url = address_of(monitor);
+  Json arm;
+  std::istringstream events(fetched(url + "api/events"));
+  for (std::string line; std::getline(events, line);) {
+    if (line.starts_with("{\"event\":\"arm\"")) arm = Json::parse(line);
+  }
+  ASSERT_FALSE(arm.is_null());
+  const std::size_t count = arm["poses_mm"].size();
+  EXPECT_GT(count, 0u);
+  EXPECT_EQ(arm["before_mm"].size(), count);
+  EXPECT_EQ(arm["after_mm"].size(), count);
+  const auto mean_size = [&](const Json& errors) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; i += 3)
+      sum += std::hypot(errors[i].get<double>(), errors[i + 1].get<double>(), errors[i + 2].get<double>());
+    return 3.0 * sum / static_cast<double>(count);
+  };
+  EXPECT_GT(mean_size(arm["before_mm"]), mean_size(arm["after_mm"]));
+  // Each arm ends near a measured point.
+  for (const Json& line : arm["arms_mm"]) {
+    double nearest_mm = 1e9;
+    for (std::size_t i = 0; i < count; i += 3) {
+      const auto apart = [&](std::size_t axis) {
+        return line[line.size() - 3 + axis].get<double>() - arm["poses_mm"][i + axis].get<double>();
+      };
+      nearest_mm = std::min(nearest_mm, std::hypot(apart(0), apart(1), apart(2)));
+    }
+    EXPECT_LT(nearest_mm, 20.0);
+  }
+  const Json seen = seen_by_browser(url, "finished");
+  EXPECT_TRUE(seen["faults"].empty()) << seen["faults"];
+  EXPECT_TRUE(seen["now"]["inked"]["arm"]);
+  EXPECT_EQ(run("demecal", {"monitor", "--http", "0", "--data", job.path("nothing.yaml")}).code, 11);
 }
 
 TEST(LivePage, ChangesNothingOfTheModelThoughABrowserIsStopped) {

@@ -189,22 +189,22 @@ function roundElement(round) {
   return made;
 }
 
-function drawArm(calibration) {
-  const arm = calibration === null ? undefined : state.arms.get(calibration.id);
-  $('armbox').hidden = arm === undefined;
-  if (arm === undefined) return;
+function drawArm() {
+  const arm = state.arm;
+  $('armbox').hidden = arm === null;
+  if (arm === null) return;
   const hasAfter = (arm.after_mm?.length ?? 0) > 0;
   $('which').disabled = !hasAfter;
   text($('which'), after && hasAfter ? 'errors after' : 'errors before');
   const enlarged = armView.draw(arm, after && hasAfter ? arm.after_mm : arm.before_mm, pose);
-  text($('armnote'), `${arm.poses_mm.length / 3} poses, errors enlarged ${short(enlarged)} times; drag to turn`);
+  text($('armnote'), `${arm.data}: ${arm.poses_mm.length / 3} poses, errors enlarged ${short(enlarged)} times; drag to turn`);
 }
 
 function draw() {
   fold();
   const calibration = shownCalibration(state), run = shownRun(state);
   drawHead(calibration, run);
-  drawArm(calibration);
+  drawArm();
   drawError(run);
   drawIslands(run);
   drawTables(calibration, run);

@@ -3,7 +3,7 @@
 const kMostNotices = 200;
 
 export function emptyState() {
-  return {time_s: 0, calibrations: new Map(), runs: new Map(), workers: new Map(), notices: [], arms: new Map(), shown: null};
+  return {time_s: 0, calibrations: new Map(), runs: new Map(), workers: new Map(), notices: [], arm: null};
 }
 
 function runOf(state, id) {
@@ -77,7 +77,7 @@ const kTakers = {
   run: (state, e) => { runOf(state, e.run).data = e; },
   run_state: (state, e) => { runOf(state, e.run).state = e.state; },
   figures: (state, e) => { runOf(state, e.run).figures = e; },
-  arm: (state, e) => { state.arms.set(e.calibration, e); },
+  arm: (state, e) => { state.arm = e; },
   round: (state, e) => {
     const calibration = calibrationOf(state, e.calibration);
     if (!calibration.rounds.has(e.round) && e.verdict === 'added') notice(state, e, `found: ${e.label}`);
