@@ -46,6 +46,21 @@ try {
   };
   found.now = await look();
   if (folder) await page.screenshot({path: `${folder}/desktop.png`, fullPage: true});
+  found.turned_ms = await page.evaluate(async () => {  // of one drawing of the arm while it is turned
+    const canvas = document.getElementById('arm'), send = (type, x) => canvas.dispatchEvent(new PointerEvent(type, {pointerId: 1, clientX: x, clientY: 50}));
+    if (canvas.clientWidth === 0) return null;
+    canvas.setPointerCapture = () => {};
+    const frame = () => new Promise(resolve => requestAnimationFrame(resolve));
+    send('pointerdown', 0);
+    await frame();
+    const begin = performance.now();
+    for (let i = 1; i <= 30; ++i) {
+      send('pointermove', 4 * i);
+      await frame();
+    }
+    send('pointerup', 120);
+    return (performance.now() - begin) / 30;
+  });
   await slide(0);
   found.begin = await look();
   await slide(300);

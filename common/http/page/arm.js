@@ -35,10 +35,7 @@ export class ArmView {
   draw(arm, errors, pose) {
     const {context, width, height} = cleared(this.canvas);
     const points = arm.poses_mm, line = arm.arms_mm[pose % Math.max(arm.arms_mm.length, 1)] ?? [];
-    const middle = [0, 0, 0];
-    let reach = 1;
-    for (let i = 0; i < points.length; ++i) middle[i % 3] += points[i] * 3 / points.length;
-    for (const list of [points, line]) for (let i = 0; i < list.length; ++i) reach = Math.max(reach, Math.abs(list[i] - middle[i % 3]));
+    const {middle, reach} = remembered(arm.poses_mm, () => extentOf(arm));
     const scale = this.zoom * (1 - kQuiet) * Math.min(width, height) / (2 * reach) * 1.4;
     const ct = Math.cos(this.turn), st = Math.sin(this.turn), ci = Math.cos(this.tilt), si = Math.sin(this.tilt);
     const place = (x, y, z) => {
@@ -46,8 +43,7 @@ export class ArmView {
       const away = st * x + ct * y;
       return [width / 2 + scale * (ct * x - st * y), height / 2 - scale * (ci * z + si * away)];
     };
-    const largest = Math.max(1e-9, ...rootsOf(errors));
-    const enlarged = 0.12 * reach / largest;
+    const enlarged = 0.12 * reach / remembered(errors, () => largestOf(errors));
     context.fillStyle = colour('--blue');
     context.strokeStyle = colour('--warm');
     context.lineWidth = 1;
@@ -86,10 +82,26 @@ export class ArmView {
   }
 }
 
-/// The largest of a sample of the errors' sizes, robust against one that is far out: their 95th percentile.
-function rootsOf(errors) {
+/// What does not change from one drawing to the next.
+const kept = new WeakMap();
+function remembered(list, make) {
+  if (!kept.has(list)) kept.set(list, make());
+  return kept.get(list);
+}
+
+/// The middle of the poses, and how far they and the arms reach from it.
+function extentOf(arm) {
+  const middle = [0, 0, 0], points = arm.poses_mm;
+  let reach = 1;
+  for (let i = 0; i < points.length; ++i) middle[i % 3] += points[i] * 3 / points.length;
+  for (const list of [points, ...arm.arms_mm]) for (let i = 0; i < list.length; ++i) reach = Math.max(reach, Math.abs(list[i] - middle[i % 3]));
+  return {middle, reach};
+}
+
+/// The 95th percentile of the errors' sizes: a single pose that is far out hides no other.
+function largestOf(errors) {
   const sizes = [];
   for (let i = 0; i + 2 < errors.length; i += 3) sizes.push(Math.hypot(errors[i], errors[i + 1], errors[i + 2]));
   sizes.sort((a, b) => a - b);
-  return sizes.length === 0 ? [] : [sizes[Math.floor(0.95 * (sizes.length - 1))]];
+  return Math.max(1e-6, sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0);
 }

@@ -14,7 +14,12 @@ const events = [];
 let state = emptyState(), folded = 0;  // of the events, as many as are in the state
 let live = true, playing = null, drawn_ms = 0, waiting = false, session = null, last = 0, trouble = 'connecting';
 let pose = 0, after = false;
-const armView = new ArmView($('arm'), () => request());
+let turning = false;
+const armView = new ArmView($('arm'), () => {  // at once, unlike what events change
+  if (turning) return;
+  turning = true;
+  requestAnimationFrame(() => { turning = false; drawArm(); });
+});
 
 function end_s() { return events.length === 0 ? 0 : events.at(-1).t_s ?? 0; }
 function shown_s() { return live ? Infinity : end_s() * Number($('time').value) / 1000; }
