@@ -27,6 +27,7 @@
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
 #include "protocol/messages.hpp"
+#include "report/figures.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "scheduling/evolution_run.hpp"

@@ -19,12 +19,12 @@ namespace {
 using Json = nlohmann::json;
 
 /// Domains of this file alone.
-std::string domain(int which) {
+std::string page_domain(int which) {
   return private_domain(160 + which);
 }
 
-std::vector<std::string> calibrate_on(const SmallJob& job, const std::string& out, int which) {
-  return {"calibrate", job.job(), "--out", job.path(out), "--workers", "2", "--domain", domain(which), "--quiet"};
+std::vector<std::string> calibrate_watched(const SmallJob& job, const std::string& out, int which) {
+  return {"calibrate", job.job(), "--out", job.path(out), "--workers", "2", "--domain", page_domain(which), "--quiet"};
 }
 
 /// The address that a monitor printed, whole.
@@ -49,10 +49,10 @@ Json seen_by_browser(const std::string& url, const std::string& word) {
 
 TEST(LivePage, ShowsARunInABrowserAndAnyMomentOfItAgain) {
   const SmallJob job(200, 2);
-  Program monitor("demecal", {"monitor", "--domain", domain(1), "--http", "0"});
+  Program monitor("demecal", {"monitor", "--domain", page_domain(1), "--http", "0"});
   const std::string url = address_of(monitor);
   ASSERT_TRUE(url.starts_with("http://127.0.0.1:")) << monitor.out_so_far() << monitor.err_so_far();
-  Program coordinator("demecal", calibrate_on(job, "out", 1));
+  Program coordinator("demecal", calibrate_watched(job, "out", 1));
   const Json seen = seen_by_browser(url, "finished");
   EXPECT_EQ(coordinator.wait().code, 0);
   ASSERT_TRUE(seen.contains("phone")) << seen.dump();
@@ -88,7 +88,7 @@ TEST(LivePage, ShowsARunInABrowserAndAnyMomentOfItAgain) {
 
 TEST(LivePage, ShowsARecordedRun) {
   const SmallJob job;
-  ASSERT_EQ(run("demecal", calibrate_on(job, "out", 2)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_watched(job, "out", 2)).code, 0);
   Program monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0"});
   const std::string url = address_of(monitor);
   Json state;
@@ -104,7 +104,7 @@ TEST(LivePage, ShowsARecordedRun) {
 
 TEST(LivePage, DrawsTheArmOfADataSetAndWhereItWasMeasured) {
   const SmallJob job;
-  ASSERT_EQ(run("demecal", calibrate_on(job, "out", 6)).code, 0);
+  ASSERT_EQ(run("demecal", calibrate_watched(job, "out", 6)).code, 0);
   Program monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0", "--data",
                               job.data(), "--model", job.path("out/model.yaml")});
   const std::string url = address_of(monitor);
@@ -144,12 +144,12 @@ TEST(LivePage, DrawsTheArmOfADataSetAndWhereItWasMeasured) {
 
 TEST(LivePage, ChangesNothingOfTheModelThoughABrowserIsStopped) {
   const SmallJob job(1000, 2);
-  ASSERT_EQ(run("demecal", calibrate_on(job, "alone", 3)).code, 0);
-  Program monitor("demecal", {"monitor", "--domain", domain(3), "--http", "0"});
+  ASSERT_EQ(run("demecal", calibrate_watched(job, "alone", 3)).code, 0);
+  Program monitor("demecal", {"monitor", "--domain", page_domain(3), "--http", "0"});
   const std::string url = address_of(monitor);
   Program reading("/usr/bin/curl", {"--silent", "--no-buffer", url + "api/stream"});
   Program stopped("/usr/bin/curl", {"--silent", "--no-buffer", "--limit-rate", "100", url + "api/stream"});
-  Program coordinator("demecal", calibrate_on(job, "watched", 3));
+  Program coordinator("demecal", calibrate_watched(job, "watched", 3));
   ASSERT_TRUE(reading.wait_for_out("\"progress\""));
   stopped.signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait().code, 0);
@@ -162,7 +162,7 @@ TEST(LivePage, ChangesNothingOfTheModelThoughABrowserIsStopped) {
 }
 
 TEST(LivePage, WantsATokenElsewhere) {
-  Program monitor("demecal", {"monitor", "--domain", domain(4), "--http", "0.0.0.0:0"});
+  Program monitor("demecal", {"monitor", "--domain", page_domain(4), "--http", "0.0.0.0:0"});
   ASSERT_TRUE(monitor.wait_for_out("#token="));
   const std::string out = monitor.out_so_far();
   const std::size_t colon = out.rfind(':') + 1;
@@ -177,14 +177,14 @@ TEST(LivePage, WantsATokenElsewhere) {
 
 TEST(LivePage, SaysWhatItCannotServe) {
   for (const char* const where : {"x", "70000", "example.org:80"}) {
-    const Ended ended = run("demecal", {"monitor", "--domain", domain(5), "--http", where});
+    const Ended ended = run("demecal", {"monitor", "--domain", page_domain(5), "--http", where});
     EXPECT_EQ(ended.code, 10) << where;
     EXPECT_NE(ended.err.find("ADDRESS:PORT"), std::string::npos) << ended.err;
   }
   EXPECT_EQ(run("demecal", {"monitor", "--http", "0", "--json"}).code, 10);
   EXPECT_EQ(run("demecal", {"monitor", "--http", "0", "--once"}).code, 10);
   EXPECT_EQ(run("demecal", {"monitor", "--token-file", "x"}).code, 10);
-  const Ended elsewhere = run("demecal", {"monitor", "--domain", domain(5), "--http", "192.0.2.1:1"});
+  const Ended elsewhere = run("demecal", {"monitor", "--domain", page_domain(5), "--http", "192.0.2.1:1"});
   EXPECT_EQ(elsewhere.code, 11);
   EXPECT_NE(elsewhere.err.find("cannot be listened on"), std::string::npos) << elsewhere.err;
 }

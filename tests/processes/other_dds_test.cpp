@@ -26,7 +26,7 @@ using ::testing::IsSubsetOf;
 using Json = nlohmann::json;
 using Lines = std::set<std::vector<std::string>>;
 
-std::string domain(int which) {
+std::string other_domain(int which) {
   return private_domain(200 + which);
 }
 
@@ -95,15 +95,15 @@ class OtherDds : public ::testing::Test {
   OtherDds() { set_up_cyclone(); }
 
   static std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, int which) {
-    return {"calibrate", job.job(), "--out", job.path(out), "--workers", "2", "--domain", domain(which), "--quiet"};
+    return {"calibrate", job.job(), "--out", job.path(out), "--workers", "2", "--domain", other_domain(which), "--quiet"};
   }
 };
 
 TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   const SmallJob job(1000, 2);
-  Program monitor("demecal", {"monitor", "--domain", domain(1), "--json", "--ros2"});
+  Program monitor("demecal", {"monitor", "--domain", other_domain(1), "--json", "--ros2"});
   ASSERT_TRUE(monitor.wait_for_out("begin"));
-  Program reader("read-topics", {domain(1), "60"});
+  Program reader("read-topics", {other_domain(1), "60"});
   ASSERT_TRUE(reader.wait_for_out("reading"));
   const Ended calibrated = run("demecal", calibrate(job, "out", 1));
   ASSERT_EQ(calibrated.code, 0) << calibrated.err;
@@ -159,10 +159,10 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
 TEST_F(OtherDds, ChangesNothingOfTheModelWithTwentyReadersOneOfThemStopped) {
   const SmallJob job(1000, 2);
   ASSERT_EQ(run("demecal", calibrate(job, "alone", 2)).code, 0);
-  Program monitor("demecal", {"monitor", "--domain", domain(2), "--json", "--ros2"});
+  Program monitor("demecal", {"monitor", "--domain", other_domain(2), "--json", "--ros2"});
   std::vector<std::unique_ptr<Program>> readers;
   for (int i = 0; i < 20; ++i)
-    readers.push_back(std::make_unique<Program>("read-topics", std::vector<std::string>{domain(2), "300"}));
+    readers.push_back(std::make_unique<Program>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
   for (const auto& reader : readers) ASSERT_TRUE(reader->wait_for_out("reading"));
   Program coordinator("demecal", calibrate(job, "read", 2));
   ASSERT_TRUE(readers[0]->wait_for_out("demecal/7/progress"));
