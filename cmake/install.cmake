@@ -32,13 +32,13 @@ add_custom_target(manual ALL DEPENDS ${pages})
 
 # Files to start from; jobs name data and robots by relative paths, so the folders stay together.
 set(shared ${CMAKE_INSTALL_DATADIR}/demecal)
-foreach(folder data grids jobs matrices preparation robots scenarios)
+foreach(folder data grids jobs matrices preparation robots ros2 scenarios)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/configs/${folder} DESTINATION ${shared} COMPONENT programs)
 endforeach()
-install(FILES ${CMAKE_SOURCE_DIR}/idl/calibration.idl DESTINATION ${shared}/idl COMPONENT programs)
+install(FILES ${CMAKE_SOURCE_DIR}/idl/calibration.idl ${CMAKE_SOURCE_DIR}/idl/ros2.idl DESTINATION ${shared}/idl COMPONENT programs)
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/scripts/security ${CMAKE_SOURCE_DIR}/scripts/workers DESTINATION ${shared}/scripts COMPONENT programs)
 # Documents stand to each other as in the source tree, so that their links lead somewhere.
-foreach(document README.md docs/GUIDE.md docs/FORMATS.md docs/EVALUATION.md docs/ARCHITECTURE.md docs/CONTRIBUTING.md configs/dds/README.md scripts/README.md idl/calibration.idl)
+foreach(document README.md docs/GUIDE.md docs/FORMATS.md docs/EVALUATION.md docs/ARCHITECTURE.md docs/CONTRIBUTING.md configs/dds/README.md scripts/README.md idl/calibration.idl idl/ros2.idl)
   cmake_path(GET document PARENT_PATH folder)
   install(FILES ${CMAKE_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT programs)
 endforeach()

@@ -27,6 +27,7 @@
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
 #include "protocol/messages.hpp"
+#include "report/figures.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "scheduling/evolution_run.hpp"
@@ -132,6 +133,14 @@ std::string effort(const Job& job, const RunFacts& facts) {
                      facts.evaluations, facts.wall_s);
 }
 
+/// For those who watch: the figures that the calibration is judged by.
+std::string finished_with(const Report& report) {
+  const std::optional<Improvement> figures = improvement(error_stages(report));
+  if (!figures || !figures->before.mean_mm || !figures->after.mean_mm) return "finished";
+  return fmt::format("finished: mean tool error {:.3f} -> {:.3f} mm on {} poses", *figures->before.mean_mm,
+                     *figures->after.mean_mm, figures->set.name);
+}
+
 /// Tells two what happens, one after the other.
 class ObserverPair final : public CalibrationObserver {
  public:
@@ -220,7 +229,7 @@ ExitCode run(CalibrateRequest request) {
   if (end == RunEnd::interrupted) {
     event_log.finish(LoopNews::Stage::interrupted, "interrupted");
   } else {
-    event_log.finish(LoopNews::Stage::finished, "finished");
+    event_log.finish(LoopNews::Stage::finished, finished_with(report));
   }
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
              effort(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",

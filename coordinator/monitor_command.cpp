@@ -19,23 +19,19 @@
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
 #include "coordinator/fleet.hpp"
+#include "coordinator/monitor_output.hpp"
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/events.hpp"
 #include "monitor/watched.hpp"
 #include "protocol/messages.hpp"
+#include "recording/event_recording.hpp"
+#include "recording/mcap_reader.hpp"
 #include "transport/transport.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
-
-struct MonitorOptions {
-  bool json = false;                         ///< a line for each event instead of pages
-  bool once = false;                         ///< the present state, then the end
-  std::chrono::milliseconds patience{5000};  ///< how long `once` waits for the present state to be complete
-  double speed = 1.0;                        ///< of a recorded run: how much faster than it was
-  std::string place;                         ///< where one watches, for people: "domain 3"
-};
 
 using MonitorClock = std::chrono::steady_clock;
 
@@ -58,47 +54,6 @@ bool is_complete(const Watched& watched, double now_s) {
          std::ranges::all_of(run->islands,
                              [&](const auto& island) { return watched.worker(island.second.worker) != nullptr; });
 }
-
-/// Messages on their way to people or programs.
-class MonitorOutput {
- public:
-  explicit MonitorOutput(const MonitorOptions& options) : options_(options), screen_(stdout, options.place) {
-    if (options_.json) put(first_event_line());
-  }
-
-  void take(const Message& message, double now_s) {
-    watched_.take(message, now_s);
-    changed_ = true;
-    if (options_.json) put(event_line(message, now_s));
-  }
-  /// To be called now and then.
-  void show(double now_s) {
-    if (!options_.json && !options_.once) screen_.offer(watched_, now_s, std::exchange(changed_, false));
-  }
-  /// The state as it is left.
-  void finish(double now_s) {
-    if (options_.json) return;
-    if (options_.once) {
-      screen_.print(watched_, now_s);
-    } else {
-      screen_.offer(watched_, now_s, changed_);
-      screen_.settle(watched_, now_s);
-    }
-  }
-  const Watched& watched() const { return watched_; }
-
- private:
-  static void put(const std::string& line) {
-    if (line.empty()) return;
-    std::puts(line.c_str());
-    std::fflush(stdout);
-  }
-
-  const MonitorOptions& options_;
-  MonitorScreen screen_;
-  Watched watched_;
-  bool changed_ = true;
-};
 
 /// Shows on standard output what the transport, a watcher's, brings, until `stop` is set. Done; or, where `once` saw
 /// nobody, no_worker.
@@ -124,7 +79,8 @@ ExitCode replay(const std::string& path, const std::atomic<bool>& stop, const Mo
   if (is_folder && !std::filesystem::exists(file)) {
     throw InputError({path, 0}, "", fmt::format("holds no {}: only `calibrate` records it", kEventFile));
   }
-  const std::vector<Event> events = read_events(file);
+  const std::string bytes = read_file(file);
+  const std::vector<Event> events = is_mcap(bytes) ? read_recording(bytes, file) : read_events(file);
   const MonitorClock::time_point begin = MonitorClock::now();
   MonitorOutput output(options);
   double time_s = 0.0;
@@ -139,6 +95,10 @@ ExitCode replay(const std::string& path, const std::atomic<bool>& stop, const Mo
     output.take(event.message, time_s);
   }
   output.finish(time_s);
+  while (!options.http.empty() && !stop) {  // it may be looked at for as long as one likes
+    output.show(time_s += std::chrono::duration<double>(kTick).count());
+    std::this_thread::sleep_for(kTick);
+  }
   return ExitCode::done;
 }
 
@@ -146,10 +106,17 @@ struct MonitorRequest {
   MonitorOptions options;
   std::string recorded;
   double wait_s = 5.0;
+  bool ros2 = false;
   std::shared_ptr<DdsOptions> dds;
 };
 
 ExitCode run(MonitorRequest& request) {
+  if (request.ros2) {
+    if (!request.dds->security.empty()) {
+      throw ArgumentError("--ros2 publishes what every program may read, and so not with --security");
+    }
+    request.options.ros2 = request.dds.get();
+  }
   const std::atomic<bool>& stop = watch_for_interrupt();
   if (!request.recorded.empty()) {
     request.options.place = request.recorded;
@@ -172,13 +139,47 @@ void add_monitor(CLI::App& app, ExitCode& exit_code) {
                           ->check(CLI::Range(0.1, 3600.0))
                           ->capture_default_str();
   CLI::Option* recorded = command->add_option(
-      "--replay", request->recorded, "show a recorded run: a folder that calibrate wrote, or its events.jsonl");
+      "--replay", request->recorded,
+      "show a recorded run: a folder that calibrate wrote, its events.jsonl, or what --record wrote");
   command->add_option("--speed", request->options.speed, "of --replay: how much faster than it was")
       ->needs(recorded)
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str();
+  CLI::Option* http = command
+                          ->add_option("--http", request->options.http,
+                                       "serve a live page to browsers until interrupted: PORT of this machine (0: any "
+                                       "that is free), or ADDRESS:PORT, where others see it who have the token")
+                          ->type_name("[ADDRESS:]PORT")
+                          ->excludes("--json")
+                          ->excludes("--once");
+  command
+      ->add_option("--token-file", request->options.token_file,
+                   "of --http: the token that is to be shown stands there (default: none on this machine alone, "
+                   "otherwise one that is drawn)")
+      ->needs(http);
+  CLI::Option* data = command
+                          ->add_option("--data", request->options.data_file,
+                                       "of --http: the data set whose arm and poses the page shows, with their errors")
+                          ->type_name("DATASET.yaml")
+                          ->needs(http);
+  command
+      ->add_option("--model", request->options.model_file,
+                   "of --data: a model of that arm, whose errors are shown, too")
+      ->type_name("MODEL.yaml")
+      ->needs(data);
+  command
+      ->add_option("--record", request->options.record,
+                   "write what is seen to this file, for --replay and for viewers of MCAP files, until interrupted")
+      ->type_name("FILE.mcap")
+      ->excludes("--once");
+  command
+      ->add_flag(
+          "--ros2", request->ros2,
+          "publish what is seen for programs of ROS 2: rt/demecal/..., by idl/ros2.idl, and rt/demecal/events, a "
+          "std_msgs/String of JSON each")
+      ->excludes("--once");
   request->dds = add_dds_arguments(*command);
-  wait->excludes(recorded);
+  wait->excludes(recorded)->excludes(http);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

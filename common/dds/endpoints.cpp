@@ -127,25 +127,25 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/6/data";
+      return "demecal/7/data";
     case Topic::task:
-      return "demecal/6/task";
+      return "demecal/7/task";
     case Topic::control:
-      return "demecal/6/control";
+      return "demecal/7/control";
     case Topic::migrants:
-      return "demecal/6/migrants/" + std::to_string(joint + 1);
+      return "demecal/7/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/6/progress";
+      return "demecal/7/progress";
     case Topic::checkpoint:
-      return "demecal/6/checkpoint";
+      return "demecal/7/checkpoint";
     case Topic::outcome:
-      return "demecal/6/outcome";
+      return "demecal/7/outcome";
     case Topic::loop:
-      return "demecal/6/loop";
+      return "demecal/7/loop";
     case Topic::worker:
       break;
   }
-  return "demecal/6/worker";
+  return "demecal/7/worker";
 }
 
 fastdds::DataWriterQos writer_qos(Topic topic) {

@@ -211,6 +211,11 @@ IslandFigures Island::figures() const {
           share_of_different(state_.population)};
 }
 
+const Individual* Island::best() const {
+  if (state_.population.empty()) return nullptr;
+  return &state_.population[ranking(fitness_of(state_.population)).front()];
+}
+
 void Island::restore(IslandState state) {
   DEMECAL_CHECK(state.epoch == 0 || state.population.size() == static_cast<std::size_t>(parameters_.population_size),
                 "epoch=" << state.epoch << " population=" << state.population.size());

@@ -65,6 +65,8 @@ class Island {
   /// The best individuals, at most `migrants`, no two with equal trees, all of finite fitness.
   Population emigrants() const;
   IslandFigures figures() const;
+  /// The fittest resident, whose figures these are; null before the first epoch.
+  const Individual* best() const;
 
   const IslandState& state() const { return state_; }
   /// Goes on from a state another worker reached; its fitness values are taken as they are.

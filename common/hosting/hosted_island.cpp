@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "errors/check.hpp"
+#include "expression/text.hpp"
 
 namespace demecal::inline hosting {
 
@@ -79,7 +82,21 @@ std::optional<Progress> HostedIsland::due_progress(const std::string& worker, st
                   .migrants_taken = present.migrants_taken,
                   .migrants_sent = migrants_sent_,
                   .waited_share = waited_.at(now),
+                  .best_formula = best_formula(),
                   .before = std::exchange(unreported_, {})};
+}
+
+/// For people: a formula that is too long is cut, and shows it.
+std::string HostedIsland::best_formula() const {
+  const Individual* const best = island_.best();
+  if (best == nullptr) return {};
+  VariableNames names = theta_only();
+  const std::size_t variables = run_->table(island().joint).variables.size();
+  while (names.size() < variables) names.push_back("x" + std::to_string(names.size() + 1));
+  std::string text = to_string(best->tree, names);
+  constexpr std::string_view kEllipsis = "...";
+  if (text.size() > kMostFormulaText) text.replace(kMostFormulaText - kEllipsis.size(), std::string::npos, kEllipsis);
+  return text;
 }
 
 std::optional<Checkpoint> HostedIsland::due_checkpoint(const std::string& worker, std::chrono::milliseconds interval) {

@@ -109,6 +109,8 @@ class HostedIsland {
   Outcome outcome(const std::string& worker) const;
 
  private:
+  std::string best_formula() const;
+
   std::shared_ptr<const RunData> run_;
   Island island_;
   std::uint32_t attempt_;

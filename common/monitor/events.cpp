@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "errors/input_error.hpp"
+#include "monitor/event_json.hpp"
 #include "monitor/event_members.hpp"
+#include "monitor/event_schema.hpp"
 
 namespace demecal::inline monitor {
 namespace {
@@ -40,7 +42,7 @@ void fields(auto& visit, Like<Progress> auto& m) {
   visit("best_fitness", FigureOr{m.figures.best, kInfinity}, "median_fitness", FigureOr{m.figures.median, kInfinity},
         "best_length", m.figures.best_length, "diversity", FigureOr{m.figures.diversity}, "evaluations", m.evaluations,
         "evaluations_per_s", FigureOr{m.evaluations_per_s}, "migrants_sent", m.migrants_sent, "migrants_taken",
-        m.migrants_taken, "waited_share", FigureOr{m.waited_share});
+        m.migrants_taken, "waited_share", FigureOr{m.waited_share}, "best_formula", Shown{m.best_formula});
 }
 
 void fields(auto& visit, Like<Control> auto& m) {
@@ -90,6 +92,7 @@ struct Kind {
   bool (*is_its)(const Message&);
   void (*write)(JsonWriter&, const Message&);
   Message (*read)(JsonReader&);
+  void (*describe)(SchemaWriter&);
 };
 
 template <class Plain>
@@ -100,6 +103,10 @@ constexpr Kind kind_of(const char* word) {
             Plain message;
             fields(read, message);
             return message;
+          },
+          [](SchemaWriter& describe) {
+            Plain message;
+            fields(describe, message);
           }};
 }
 
@@ -124,6 +131,10 @@ constexpr Kind kKinds[] = {
        LoopNews news;
        stage_fields(read, news);
        return news;
+     },
+     [](SchemaWriter& describe) {
+       LoopNews news;
+       stage_fields(describe, news);
      }},
     {"round", is_round,
      [](JsonWriter& write, const Message& message) { round_fields(write, std::get<LoopNews>(message)); },
@@ -131,14 +142,12 @@ constexpr Kind kKinds[] = {
        LoopNews news;
        round_fields(read, news);
        return news;
+     },
+     [](SchemaWriter& describe) {
+       LoopNews news;
+       round_fields(describe, news);
      }},
     kind_of<CalibrationLost>("calibration_lost")};
-
-std::string one_line(const nlohmann::ordered_json& json) {
-  std::string line = to_text(json, -1);
-  line.pop_back();
-  return line;
-}
 
 std::optional<Event> read(const JsonValue& json) {
   const std::string word = json["event"].text();
@@ -172,15 +181,37 @@ std::string first_event_line() {
   return one_line({{"event", "begin"}, {"demecal_events", kEventsVersion}, {"version", DEMECAL_VERSION}});
 }
 
-std::string event_line(const Message& message, double time_s) {
+std::string one_line(const nlohmann::ordered_json& json) {
+  std::string line = to_text(json, -1);
+  line.pop_back();
+  return line;
+}
+
+nlohmann::ordered_json event_json(const Message& message, double time_s) {
   for (const Kind& kind : kKinds) {
     if (!kind.is_its(message)) continue;
     nlohmann::ordered_json json{{"event", kind.word}, {"t_s", time_s}};
     JsonWriter write(json);
     kind.write(write, message);
-    return one_line(json);
+    return json;
   }
   return {};
+}
+
+std::vector<EventSchema> event_schemas() {
+  std::vector<EventSchema> schemas;
+  for (const Kind& kind : kKinds) {
+    SchemaWriter describe;
+    describe("event", std::string(), "t_s", 0.0);
+    kind.describe(describe);
+    schemas.push_back({kind.word, one_line(describe.schema(kind.word))});
+  }
+  return schemas;
+}
+
+std::string event_line(const Message& message, double time_s) {
+  const nlohmann::ordered_json json = event_json(message, time_s);
+  return json.is_null() ? std::string() : one_line(json);
 }
 
 std::optional<Event> read_event(const std::string& text, const std::string& file, int line) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/messages.hpp"
 
@@ -24,6 +25,14 @@ std::string first_event_line();
 /// migrants, checkpoints, outcomes). Joints and islands count from 1, numbers of runs are texts (they have more digits
 /// than some readers keep), figures that are not finite are null. Of a run's data the tables are left out.
 std::string event_line(const Message& message, double time_s);
+
+/// What the lines of a word hold, as JSON Schema of one line: every member with its type; those that may be null are of
+/// that type where they are not.
+struct EventSchema {
+  std::string word;
+  std::string json;
+};
+std::vector<EventSchema> event_schemas();
 
 struct Event {
   double time_s = 0.0;

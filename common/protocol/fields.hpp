@@ -185,6 +185,7 @@ void visit_fields(Visitor& visit, M& m) {
   visit("diversity", m.figures.diversity);
   visit("migrants_sent", m.migrants_sent);
   visit("waited_share", m.waited_share);
+  visit("best_formula", bounded<kMostFormulaText>(m.best_formula));
   visit("before", bounded<kMostReportedEpochs - 1>(m.before));
 }
 

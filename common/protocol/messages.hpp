@@ -27,6 +27,9 @@ inline constexpr int kMigrantEpochs = 128;
 /// More epochs than one progress reports.
 inline constexpr std::size_t kMostReportedEpochs = 256;
 
+/// Letters of the formula that a progress shows.
+inline constexpr std::size_t kMostFormulaText = 511;
+
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
 
@@ -91,6 +94,7 @@ struct Progress {
   std::uint64_t migrants_taken = 0;
   std::uint64_t migrants_sent = 0;     ///< where its worker took it over: with those of at most kMigrantEpochs before
   double waited_share = 0.0;           ///< of the time its worker has had it: spent waiting for neighbours
+  std::string best_formula{};          ///< the text of its best, cut to kMostFormulaText; for people
   std::vector<EpochFigures> before{};  ///< ascending, of epochs not reported yet; less than kMostReportedEpochs
 
   bool operator==(const Progress&) const = default;

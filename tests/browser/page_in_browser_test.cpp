@@ -23,7 +23,7 @@ using ::testing::IsEmpty;
 using Json = nlohmann::json;
 
 /// Where scripts/install-dependencies puts it.
-const std::filesystem::path kPuppeteer = std::string(DEMECAL_SOURCE_DIR) + "/build/browser/node_modules/puppeteer-core";
+const std::filesystem::path kPuppeteer = std::string(DEMECAL_SOURCE_DIR) + "/tests/browser/node_modules/puppeteer-core";
 const std::filesystem::path kBrowser = "/usr/bin/chromium";
 
 class PageInBrowser : public ::testing::Test {

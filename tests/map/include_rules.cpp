@@ -17,6 +17,7 @@ std::string library_of(const std::string& header) {
                                                                {"openssl/", "OpenSSL::Crypto"},
                                                                {"libxml/", "LibXml2::LibXml2"},
                                                                {"CLI/", "CLI11::CLI11"},
+                                                               {"httplib.h", "PkgConfig::HTTPLIB"},
                                                                {"fastdds/", "fastrtps"},
                                                                {"fastrtps/", "fastrtps"},
                                                                {"fastcdr/", "fastcdr"},
@@ -82,7 +83,8 @@ Violations check_owners(const Source& source) {
                                                             {"LibXml2::LibXml2", "certificate"},
                                                             {"fastrtps", "dds"},
                                                             {"fastcdr", "tests"},
-                                                            {"demecal_idl", "tests"}};
+                                                            {"demecal_idl", "tests"},
+                                                            {"PkgConfig::HTTPLIB", "http"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;

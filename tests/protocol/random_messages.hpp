@@ -71,7 +71,8 @@ class RandomMessages {
     return {number(), island(),       worker_,
             number(), number(),       {random_.real(), random_.real(), number(), random_.real()},
             number(), random_.real(), number(),
-            number(), random_.real(), before()};
+            number(), random_.real(), text(),
+            before()};
   }
   std::vector<EpochFigures> before() {
     std::vector<EpochFigures> figures(random_.index(kMostReportedEpochs));

@@ -1,0 +1,122 @@
+#include "http/access.hpp"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/random.h>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+
+#include "errors/check.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal::inline http {
+namespace {
+
+constexpr int kMostPort = 65535;
+
+bool is_ipv4(const std::string& text) {
+  in_addr address{};
+  return ::inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
+bool is_ipv6(const std::string& text) {
+  in6_addr address{};
+  return ::inet_pton(AF_INET6, text.c_str(), &address) == 1;
+}
+
+bool is_port(std::string_view text) {
+  int port = -1;
+  const char* const end = text.data() + text.size();
+  const auto [stop, fault] = std::from_chars(text.data(), end, port);
+  return !text.empty() && fault == std::errc() && stop == end && port >= 0 && port <= kMostPort;
+}
+
+/// What stands before the port, and the port, which may be missing.
+struct HostAndPort {
+  std::string host, port;
+  bool bracketed = false;
+};
+
+HostAndPort divide(const std::string& text) {
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == std::string::npos) return {text, "", false};
+    const std::string rest = text.substr(end + 1);
+    if (!rest.empty() && rest.front() != ':') return {text, "", false};
+    return {text.substr(1, end - 1), rest.empty() ? "" : rest.substr(1), true};
+  }
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return {text, "", false};
+  return {text.substr(0, colon), text.substr(colon + 1), false};
+}
+
+std::string lower(std::string text) {
+  for (char& letter : text) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return text;
+}
+
+}  // namespace
+
+Endpoint parse_endpoint(const std::string& text) {
+  Endpoint endpoint;
+  HostAndPort parts = divide(text);
+  if (is_port(text)) parts = {endpoint.address, text, false};
+  if (parts.host == "localhost") parts.host = endpoint.address;
+  const bool is_numeric = parts.bracketed ? is_ipv6(parts.host) : is_ipv4(parts.host);
+  if (!is_numeric || !is_port(parts.port)) {
+    throw InputError({"--http", 0}, text,
+                     "must be PORT, ADDRESS:PORT or [ADDRESS]:PORT with a numeric address of this machine and a port "
+                     "from 0 (any that is free) to 65535, as in 8080 or 192.0.2.10:8080");
+  }
+  endpoint.address = parts.host;
+  std::from_chars(parts.port.data(), parts.port.data() + parts.port.size(), endpoint.port);
+  return endpoint;
+}
+
+bool is_loopback(const std::string& address) {
+  return (is_ipv4(address) && address.starts_with("127.")) || address == "::1";
+}
+
+std::string origin_of(const Endpoint& endpoint) {
+  const std::string host = is_ipv6(endpoint.address) ? '[' + endpoint.address + ']' : endpoint.address;
+  return "http://" + host + ':' + std::to_string(endpoint.port);
+}
+
+bool is_trusted_host(const std::string& host, const Endpoint& endpoint, const std::string& own_name) {
+  const HostAndPort parts = divide(host);
+  if (!parts.port.empty() && !is_port(parts.port)) return false;
+  const std::string name = lower(parts.host);
+  if (name == "localhost" && !parts.bracketed) return true;
+  const bool is_numeric = parts.bracketed ? is_ipv6(name) : is_ipv4(name);
+  if (is_loopback(endpoint.address)) return is_numeric && is_loopback(name);
+  return is_numeric || (!own_name.empty() && name == lower(own_name));
+}
+
+bool shows_token(const std::string& authorization, const std::string& token) {
+  const std::string expected = "Bearer " + token;
+  if (authorization.size() != expected.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    difference |= static_cast<unsigned char>(authorization[i]) ^ static_cast<unsigned char>(expected[i]);
+  }
+  return difference == 0;
+}
+
+std::string random_token() {
+  std::array<std::uint8_t, 16> bytes{};
+  const auto drawn = ::getrandom(bytes.data(), bytes.size(), 0);
+  DEMECAL_CHECK(drawn == static_cast<ssize_t>(bytes.size()), "drawn=" << drawn);
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string token;
+  for (const std::uint8_t byte : bytes) {
+    token += kDigits[byte / 16];
+    token += kDigits[byte % 16];
+  }
+  return token;
+}
+
+}  // namespace demecal::inline http

@@ -1,0 +1,268 @@
+#include "http/live_server.hpp"
+
+#include <httplib.h>
+#include <unistd.h>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "errors/input_error.hpp"
+#include "http/connection_queue.hpp"
+#include "http/event_history.hpp"
+#include "http/page_files.hpp"
+
+namespace demecal::inline http {
+namespace {
+
+constexpr std::size_t kMostBytesAtOnce = 64 * 1024;
+constexpr std::chrono::milliseconds kBeat{1000};  // how long a stream waits for an event at a time
+constexpr int kBeatsOfSilence = 3;                // after which a comment shows either whether the other is there
+constexpr int kReadTimeout_s = 3;
+constexpr std::size_t kMostRequestBytes = 1024;
+
+/// Nothing may be fetched from elsewhere, no page may frame this one, and nothing is kept.
+const httplib::Headers kHeaders{
+    {"Content-Security-Policy",
+     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; "
+     "form-action 'none'; frame-ancestors 'none'"},
+    {"X-Content-Type-Options", "nosniff"},
+    {"X-Frame-Options", "DENY"},
+    {"Referrer-Policy", "no-referrer"},
+    {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Cross-Origin-Opener-Policy", "same-origin"},
+    {"Permissions-Policy", "camera=(), microphone=(), geolocation=()"},
+    {"Cache-Control", "no-store"}};
+
+std::string name_of_machine() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return {};
+  return name.data();
+}
+
+std::optional<std::uint64_t> number_in(const std::string& text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, fault] = std::from_chars(text.data(), end, number);
+  if (text.empty() || fault != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(why + "\n", "text/plain; charset=utf-8");
+  response.set_header("Connection", "close");
+}
+
+/// From which event on a request wants to be told: behind the last that it names; all where it names none.
+std::optional<std::uint64_t> last_seen(const httplib::Request& request) {
+  if (request.has_param("after")) return number_in(request.get_param_value("after"));
+  if (request.has_header("Last-Event-ID")) return number_in(request.get_header_value("Last-Event-ID"));
+  return 0;
+}
+
+}  // namespace
+
+class LiveServer::Implementation {
+ public:
+  explicit Implementation(LiveServerOptions options)
+      : options_(std::move(options)), history_(options_.most_events), own_name_(name_of_machine()) {
+    configure();
+    listen();
+  }
+
+  ~Implementation() {
+    history_.close();
+    if (queue_ != nullptr) queue_->end();
+    server_.stop();
+    listening_.join();
+  }
+
+  const LiveServerOptions& options() const { return options_; }
+  EventHistory& history() { return history_; }
+  std::size_t streams() const { return streams_; }
+  void set_state(std::string json) {
+    const std::lock_guard lock(mutex_);
+    state_ = std::move(json);
+  }
+
+ private:
+  void configure();
+  void listen();
+  void route();
+  bool admits(const httplib::Request& request, httplib::Response& response) const;
+  void stream(const httplib::Request& request, httplib::Response& response);
+  bool tell(std::uint64_t& told, int& silent, httplib::DataSink& sink);
+
+  LiveServerOptions options_;
+  EventHistory history_;
+  std::string own_name_;
+  std::string session_ = random_token();  ///< tells a server's numbers of events from those of another
+  httplib::Server server_;
+  ConnectionQueue* queue_ = nullptr;  ///< the server's
+  std::mutex mutex_;
+  std::string state_ = "{}\n";
+  std::atomic<std::size_t> streams_ = 0;
+  std::thread listening_;
+};
+
+void LiveServer::Implementation::configure() {
+  server_.new_task_queue = [this] {
+    queue_ = new ConnectionQueue(options_.most_connections);  // NOLINT: the server deletes it
+    return queue_;
+  };
+  // The library's default lets several programs listen on one port, and each would be told of some requests.
+  server_.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  server_.set_default_headers(kHeaders);
+  server_.set_read_timeout(kReadTimeout_s);
+  server_.set_keep_alive_timeout(kReadTimeout_s);
+  server_.set_write_timeout(options_.write_timeout_s);
+  server_.set_payload_max_length(kMostRequestBytes);
+  server_.set_tcp_nodelay(true);
+  server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    return admits(request, response) ? httplib::Server::HandlerResponse::Unhandled
+                                     : httplib::Server::HandlerResponse::Handled;
+  });
+  server_.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+    refuse(response, 500, "this request could not be answered");
+  });
+  route();
+}
+
+void LiveServer::Implementation::listen() {
+  const auto refused = [&] {
+    return InputError({}, origin_of(options_.endpoint),
+                      "cannot be listened on: the port is taken, or the address is not this machine's; name another");
+  };
+  Endpoint& endpoint = options_.endpoint;
+  if (endpoint.port == 0) {
+    endpoint.port = server_.bind_to_any_port(endpoint.address);
+    if (endpoint.port <= 0) throw refused();
+  } else if (!server_.bind_to_port(endpoint.address, endpoint.port)) {
+    throw refused();
+  }
+  listening_ = std::thread([this] { server_.listen_after_bind(); });
+  while (!server_.is_running()) std::this_thread::yield();
+}
+
+/// Only what is read, by a trusted name, and with the token where there is one; files of the page say nothing of a run.
+bool LiveServer::Implementation::admits(const httplib::Request& request, httplib::Response& response) const {
+  if (request.method != "GET" && request.method != "HEAD") {
+    response.set_header("Allow", "GET, HEAD");
+    refuse(response, 405, "this page can only be read");
+    return false;
+  }
+  const std::string length = request.get_header_value("Content-Length");
+  const bool has_body = request.has_header("Transfer-Encoding") || (!length.empty() && length != "0");
+  if (has_body) {
+    refuse(response, 400, "a request to read has no body");
+    return false;
+  }
+  if (!is_trusted_host(request.get_header_value("Host"), options_.endpoint, own_name_)) {
+    refuse(response, 421, "this server does not answer to that name: open " + origin_of(options_.endpoint));
+    return false;
+  }
+  const bool is_open = options_.token.empty() || !request.path.starts_with("/api/");
+  if (!is_open && !shows_token(request.get_header_value("Authorization"), options_.token)) {
+    response.set_header("WWW-Authenticate", "Bearer");
+    refuse(response, 401, "the token is missing or wrong: open the address that `demecal monitor --http` printed");
+    return false;
+  }
+  return true;
+}
+
+void LiveServer::Implementation::route() {
+  for (const PageFile& file : page_files()) {
+    server_.Get(file.path, [&file](const httplib::Request&, httplib::Response& response) {
+      response.set_content(file.text.data(), file.text.size(), file.type);
+    });
+  }
+  server_.Get("/api/state", [this](const httplib::Request&, httplib::Response& response) {
+    const std::lock_guard lock(mutex_);
+    response.set_content(state_, "application/json");
+  });
+  server_.Get("/api/events", [this](const httplib::Request& request, httplib::Response& response) {
+    const auto after = last_seen(request);
+    if (!after) return refuse(response, 400, "`after` must be the number of an event");
+    std::string lines;
+    std::uint64_t last = *after;
+    for (const NumberedLine& line : history_.after(last, 16 * kMostBytesAtOnce, std::chrono::milliseconds(0))) {
+      lines += *line.text + '\n';
+      last = line.number;
+    }
+    response.set_header("Demecal-Session", session_);
+    response.set_header("Demecal-Last-Event", std::to_string(last));
+    response.set_content(lines, "application/x-ndjson");
+  });
+  server_.Get("/api/stream",
+              [this](const httplib::Request& request, httplib::Response& response) { stream(request, response); });
+  server_.set_error_handler([](const httplib::Request&, httplib::Response& response) {
+    if (response.body.empty()) refuse(response, response.status, "there is nothing here");
+  });
+}
+
+void LiveServer::Implementation::stream(const httplib::Request& request, httplib::Response& response) {
+  const auto after = last_seen(request);
+  if (!after) return refuse(response, 400, "`after` must be the number of an event");
+  if (++streams_ > options_.most_streams) {
+    --streams_;
+    return refuse(response, 503, "too many pages are open: close one");
+  }
+  response.set_header("Demecal-Session", session_);
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [this, told = *after, silent = kBeatsOfSilence](std::size_t, httplib::DataSink& sink) mutable {
+        return tell(told, silent, sink);
+      },
+      [this](bool) { --streams_; });
+}
+
+/// The next events of a stream, or that there are none; false where it is to end.
+bool LiveServer::Implementation::tell(std::uint64_t& told, int& silent, httplib::DataSink& sink) {
+  std::string text;
+  for (const NumberedLine& line : history_.after(told, kMostBytesAtOnce, kBeat)) {
+    text += "id: " + std::to_string(line.number) + "\ndata: " + *line.text + "\n\n";
+    told = line.number;
+  }
+  if (history_.is_closed()) return false;
+  if (text.empty() && ++silent < kBeatsOfSilence) return true;
+  if (text.empty()) text = ": nothing new\n\n";
+  silent = 0;
+  return sink.write(text.data(), text.size());
+}
+
+LiveServer::LiveServer(LiveServerOptions options)
+    : implementation_(std::make_unique<Implementation>(std::move(options))) {}
+
+LiveServer::~LiveServer() = default;
+
+const Endpoint& LiveServer::endpoint() const {
+  return implementation_->options().endpoint;
+}
+
+std::string LiveServer::address() const {
+  const LiveServerOptions& options = implementation_->options();
+  return origin_of(options.endpoint) + '/' + (options.token.empty() ? "" : "#token=" + options.token);
+}
+
+std::size_t LiveServer::streams() const {
+  return implementation_->streams();
+}
+
+void LiveServer::publish(std::string line, std::string key) {
+  implementation_->history().add(std::move(line), std::move(key));
+}
+
+void LiveServer::set_state(std::string json) {
+  implementation_->set_state(std::move(json));
+}
+
+}  // namespace demecal::inline http

@@ -1,0 +1,85 @@
+#include "recording/event_recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "monitor/event_json.hpp"
+#include "recording/mcap_reader.hpp"
+
+namespace demecal::inline recording {
+namespace {
+
+constexpr double kChunk_s = 1.0;
+constexpr std::size_t kMostChunkBytes = 256 * 1024;
+constexpr std::size_t kMostChannels = 4096;
+
+/// Where an event stands among the channels.
+std::string topic_of(const nlohmann::ordered_json& event) {
+  std::string topic = "/demecal/" + event["event"].get<std::string>();
+  if (event.contains("island")) {
+    topic += "/joint_" + std::to_string(event["joint"].get<std::uint32_t>()) + "/island_" +
+             std::to_string(event["island"].get<std::uint32_t>());
+  }
+  return topic;
+}
+
+/// Without members that are null: their type would be another than the schema's.
+void leave_out_nulls(nlohmann::ordered_json& event) {
+  for (auto member = event.begin(); member != event.end();) {
+    member = member->is_null() ? event.erase(member) : std::next(member);
+  }
+}
+
+}  // namespace
+
+EventRecording::EventRecording(std::uint64_t begin_ns)
+    : begin_ns_(begin_ns), writer_(std::string("demecal ") + DEMECAL_VERSION) {
+  for (const EventSchema& schema : event_schemas()) {
+    schemas_[schema.word] = writer_.add_schema("demecal." + schema.word, schema.json);
+  }
+}
+
+void EventRecording::take(const Message& message, double now_s) {
+  nlohmann::ordered_json event = event_json(message, now_s);
+  if (event.is_null()) return;
+  leave_out_nulls(event);
+  const std::uint16_t channel = channel_of(event["event"], topic_of(event));
+  const auto time_ns = begin_ns_ + static_cast<std::uint64_t>(std::llround(1e9 * std::max(now_s, 0.0)));
+  writer_.add_message(channel, time_ns, one_line(event));
+}
+
+std::uint16_t EventRecording::channel_of(const std::string& word, const std::string& topic) {
+  const auto known = channels_.find(topic);
+  if (known != channels_.end()) return known->second;
+  // Of more islands than any run has, since somebody makes them up, the rest share one.
+  if (channels_.size() >= kMostChannels && topic != "/demecal/" + word) return channel_of(word, "/demecal/" + word);
+  return channels_[topic] = writer_.add_channel(schemas_.at(word), topic);
+}
+
+std::string EventRecording::due_bytes(double now_s) {
+  if (now_s - chunk_began_s_ >= kChunk_s || writer_.chunk_bytes() >= kMostChunkBytes) {
+    writer_.end_chunk();
+    chunk_began_s_ = now_s;
+  }
+  return writer_.take_bytes();
+}
+
+std::string EventRecording::finish() {
+  writer_.finish();
+  return writer_.take_bytes();
+}
+
+std::vector<Event> read_recording(std::string_view bytes, const std::string& file) {
+  std::vector<Event> events;
+  int number = 0;
+  for (const McapMessage& message : read_mcap(bytes, file)) {
+    ++number;
+    if (!message.topic.starts_with("/demecal/")) continue;
+    if (auto event = read_event(message.data, file, number)) events.push_back(std::move(*event));
+  }
+  return events;
+}
+
+}  // namespace demecal::inline recording

@@ -1,0 +1,177 @@
+// Every monitoring topic as a program of another DDS implementation reads it in a running calibration: it says what
+// `monitor --json` says, and the result is the same to the bit whoever reads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::_;
+using ::testing::ContainerEq;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsSubsetOf;
+using Json = nlohmann::json;
+using Lines = std::set<std::vector<std::string>>;
+
+std::string other_domain(int which) {
+  return private_domain(200 + which);
+}
+
+/// Cyclone DDS as ROS 2 sets it for one machine alone.
+void set_up_cyclone() {
+  ::setenv("CYCLONEDDS_URI",
+           "<General><Interfaces><NetworkInterface name=\"lo\" "
+           "multicast=\"false\"/></Interfaces><AllowMulticast>false</AllowMulticast>"
+           "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>99</"
+           "MaxAutoParticipantIndex>"
+           "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>",
+           1);
+}
+
+/// What was read of each topic, sample by sample.
+std::map<std::string, Lines> read_topics(const std::string& out) {
+  std::map<std::string, Lines> topics;
+  std::istringstream stream(out);
+  for (std::string line; std::getline(stream, line);) {
+    std::vector<std::string> cells;
+    std::istringstream rest(line);
+    for (std::string cell; std::getline(rest, cell, '\t');) cells.push_back(cell);
+    const std::string topic = cells.front();
+    cells.erase(cells.begin());
+    topics[topic].insert(cells);
+  }
+  return topics;
+}
+
+std::string text_of(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// The last line of every island that the samples are of.
+std::map<std::string, std::string> last_of_islands(const Lines& samples) {
+  std::map<std::string, std::pair<long, std::string>> last;
+  for (const auto& cells : samples) {
+    const std::string island = cells[0] + '/' + cells[1] + '/' + cells[2];
+    const long generation = std::stol(cells[3]);
+    const std::string figures = cells[3] + ' ' + cells[4] + ' ' + (cells.size() > 6 ? cells[6] : "");
+    if (!last.contains(island) || last[island].first <= generation) last[island] = {generation, figures};
+  }
+  std::map<std::string, std::string> texts;
+  for (const auto& [island, figures] : last) texts[island] = figures.second;
+  return texts;
+}
+
+/// Of every sample these cells.
+Lines chosen(const Lines& samples, const std::vector<std::size_t>& cells) {
+  Lines lines;
+  for (const auto& sample : samples) {
+    std::vector<std::string> line;
+    for (const std::size_t cell : cells) line.push_back(sample.at(cell));
+    lines.insert(line);
+  }
+  return lines;
+}
+
+/// States are numbers on the wire.
+std::string number_of_state(const std::string& state) {
+  return state == "running" ? "0" : state == "finished" ? "1" : "2";
+}
+
+class OtherDds : public ::testing::Test {
+ protected:
+  OtherDds() { set_up_cyclone(); }
+
+  static std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, int which) {
+    return {"calibrate", job.job(), "--out", job.path(out), "--workers", "2", "--domain", other_domain(which), "--quiet"};
+  }
+};
+
+TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
+  const SmallJob job(1000, 2);
+  Program monitor("demecal", {"monitor", "--domain", other_domain(1), "--json", "--ros2"});
+  ASSERT_TRUE(monitor.wait_for_out("begin"));
+  Program reader("read-topics", {other_domain(1), "60"});
+  ASSERT_TRUE(reader.wait_for_out("reading"));
+  const Ended calibrated = run("demecal", calibrate(job, "out", 1));
+  ASSERT_EQ(calibrated.code, 0) << calibrated.err;
+  ASSERT_TRUE(monitor.wait_for_out("\"finished\""));
+  ASSERT_TRUE(reader.wait_for_out("rt/demecal/loop\t")) << reader.out_so_far();
+  const Ended read = reader.wait(std::chrono::seconds(100));
+  ASSERT_EQ(read.code, 0);
+  monitor.signal(SIGINT);
+  const Ended printed = monitor.wait(std::chrono::seconds(20));
+
+  std::map<std::string, Lines> topics = read_topics(read.out);
+  Lines lines, loop, controls, workers, progress;
+  std::istringstream stream(printed.out);
+  for (std::string line; std::getline(stream, line);) {
+    const Json event = Json::parse(line);
+    const std::string word = event["event"];
+    if (word == "begin") continue;
+    lines.insert({line});
+    if (word == "run_state") controls.insert({event["run"], number_of_state(event["state"])});
+    if (word == "worker")
+      workers.insert({event["worker"], event["host"], text_of(event["process"]), text_of(event["slots"])});
+    if (word == "stage" || word == "round")
+      loop.insert({event["calibration"], word == "stage" ? "0" : text_of(event["round"]), event["text"]});
+    if (word == "progress") {
+      progress.insert({event["run"], text_of(event["joint"]), text_of(event["island"]), text_of(event["generation"]),
+                       text_of(event["evaluations"]), "", event["best_formula"]});
+    }
+  }
+  EXPECT_THAT(topics["rt/demecal/events"], ContainerEq(lines));
+  EXPECT_EQ(last_of_islands(progress).size() % 12, 0u);
+  for (const std::string own : {"demecal/7/", "rt/demecal/"}) {
+    EXPECT_EQ(last_of_islands(topics[own + "progress"]), last_of_islands(progress)) << own;
+    EXPECT_THAT(chosen(topics[own + "worker"], {0, 1, 2, 3}), ContainerEq(workers)) << own;
+  }
+  EXPECT_THAT(chosen(topics["rt/demecal/loop"], {0, 1, 4}), ContainerEq(loop));
+  EXPECT_THAT(chosen(topics["rt/demecal/run_state"], {0, 1}), ContainerEq(controls));
+  // Of these the writer keeps the last value alone: a reader that is slow misses what it replaced.
+  const Lines ends = chosen(topics["demecal/7/loop"], {0, 1, 4}), states = chosen(topics["demecal/7/control"], {0, 1});
+  EXPECT_THAT(ends, IsSubsetOf(loop));
+  EXPECT_THAT(loop, Contains(ElementsAre(_, "0", HasSubstr("finished"))));
+  for (const auto& line : loop) {
+    if (line[1] != "0" || line[2].starts_with("finished")) {
+      EXPECT_THAT(ends, Contains(line));
+    }
+  }
+  for (const auto& line : controls) {
+    if (line[1] == "1") {
+      EXPECT_THAT(states, Contains(line));
+    }
+  }
+}
+
+TEST_F(OtherDds, ChangesNothingOfTheModelWithTwentyReadersOneOfThemStopped) {
+  const SmallJob job(1000, 2);
+  ASSERT_EQ(run("demecal", calibrate(job, "alone", 2)).code, 0);
+  Program monitor("demecal", {"monitor", "--domain", other_domain(2), "--json", "--ros2"});
+  std::vector<std::unique_ptr<Program>> readers;
+  for (int i = 0; i < 20; ++i)
+    readers.push_back(std::make_unique<Program>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
+  for (const auto& reader : readers) ASSERT_TRUE(reader->wait_for_out("reading"));
+  Program coordinator("demecal", calibrate(job, "read", 2));
+  ASSERT_TRUE(readers[0]->wait_for_out("demecal/7/progress"));
+  readers[0]->signal(SIGSTOP);
+  EXPECT_EQ(coordinator.wait(std::chrono::seconds(240)).code, 0);
+  const std::string alone = job.text("alone/model.yaml");
+  ASSERT_FALSE(alone.empty());
+  EXPECT_EQ(job.text("read/model.yaml"), alone);
+}
+
+}  // namespace
+}  // namespace demecal
