@@ -84,7 +84,7 @@ std::size_t count_beyond(const std::vector<double>& ascending, double limit) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
+const char* to_string(Conformity verdict) {
   constexpr const char* kWords[] = {"conformity proved", "non-conformity proved", "undecided"};
   return kWords[static_cast<std::size_t>(verdict)];
 }
@@ -112,15 +112,15 @@ Judgement judge(std::span<const double> errors_m, double tolerance_m, double ins
   judged.upper_m = judged.assumes_normal ? normal_upper_limit(ascending) : ascending[upper - 1];
   if (lower > 0) judged.lower_m = ascending[lower - 1];
   if (*judged.upper_m + judged.guard_below_m <= tolerance_m) {
-    judged.verdict = Verdict::conformity;
+    judged.verdict = Conformity::conformity;
   } else if (judged.lower_m && *judged.lower_m - judged.guard_above_m > tolerance_m) {
-    judged.verdict = Verdict::non_conformity;
+    judged.verdict = Conformity::non_conformity;
   }
   return judged;
 }
 
 std::optional<std::size_t> poses_to_decide(std::span<const double> errors_m, const Judgement& judged) {
-  if (judged.verdict != Verdict::undecided || errors_m.empty()) return std::nullopt;
+  if (judged.verdict != Conformity::undecided || errors_m.empty()) return std::nullopt;
   const auto share = [&](double limit) {
     const auto beyond = std::ranges::count_if(errors_m, [limit](double error) { return error > limit; });
     return static_cast<double>(beyond) / static_cast<double>(errors_m.size());

@@ -105,9 +105,9 @@ class DccWriter : private DccResults {
   }
 
   void statements() {
-    const Verdict verdict = certificate_.judgement.verdict;
-    const char* const conformity = verdict == Verdict::conformity       ? "pass"
-                                   : verdict == Verdict::non_conformity ? "fail"
+    const Conformity verdict = certificate_.judgement.verdict;
+    const char* const conformity = verdict == Conformity::conformity       ? "pass"
+                                   : verdict == Conformity::non_conformity ? "fail"
                                                                         : nullptr;
     statement(to_string(verdict), verdict_sentence(certificate_), "ISO 14253-1", conformity);
     if (const std::string remedy = remedy_sentence(certificate_); !remedy.empty())

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 TEST(WherePage, IsOneWellFormedPieceWithItsScript) {
   const std::string page = report_html(with_measured_poses(made_up_report(), 40), {});
