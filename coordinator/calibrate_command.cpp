@@ -20,12 +20,14 @@
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
 #include "coordinator/fleet.hpp"
+#include "coordinator/prior_runs.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "dds/dds_transport.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
 #include "protocol/messages.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
@@ -40,7 +42,8 @@ namespace demecal {
 namespace {
 
 struct CalibrateRequest {
-  std::string job_file, out, resume, data_file, method;
+  std::string job_file, out, resume, data_file, prior_file, method;
+  std::vector<std::string> declared;
   FleetArguments fleet;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
@@ -56,6 +59,7 @@ Job job_of(const CalibrateRequest& request) {
   for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural}) {
     if (request.method == to_string(method)) job.method = method;
   }
+  if (!request.declared.empty()) job.declared = declared_model(request.declared);
   if (request.no_evolution) {
     if (job.method == Method::structural)
       throw InputError({request.job_file, 0}, to_string(job.method),
@@ -176,6 +180,16 @@ class ObserverPair final : public CalibrationObserver {
 };
 
 ExitCode run(CalibrateRequest request) {
+  if (!request.prior_file.empty()) {
+    if (request.out.empty() || !request.resume.empty())
+      throw ArgumentError("--prior needs --out, and cannot be resumed: it takes seconds");
+    return run_with_prior({.prior_file = request.prior_file,
+                           .out = request.out,
+                           .job = job_of(request),
+                           .declared_stated = !request.declared.empty(),
+                           .quiet = request.quiet,
+                           .force = request.force});
+  }
   if (request.out.empty()) request.out = request.resume;
   if (request.out.empty() || (!request.resume.empty() && !same_folder(request.out, request.resume))) {
     fmt::print(stderr,
@@ -252,6 +266,14 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--data", request->data_file, "data set in place of the job's");
+  command->add_option("--prior", request->prior_file,
+                      "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free; "
+                      "nothing is evolved");
+  command
+      ->add_option("--declare", request->declared,
+                   "LIST of what the model contains, in place of the job's or, with --prior, of the prior's")
+      ->delimiter(',')
+      ->check(CLI::IsMember(declared_words()));
   add_fleet_arguments(*command, request->fleet);
   command
       ->add_option("--worker-timeout-s", request->worker_timeout_s,

@@ -20,6 +20,7 @@ enum class ExitCode : int {
   wrong_arguments = 10,
   bad_input = 11,      ///< a file is missing, unreadable or invalid
   contradiction = 12,  ///< the data and the robot's description contradict each other
+  changed = 13,        ///< the robot has changed since its model was made
   no_worker = 20,
   run_failed = 21,
   interrupted = 130  ///< what was reached is saved and named
@@ -36,10 +37,12 @@ const std::atomic<bool>& watch_for_interrupt();
 /// Each of these adds a subcommand whose callback sets `exit_code`. User input that is wrong leaves it as InputError.
 void add_calibrate(CLI::App& app, ExitCode& exit_code);
 void add_apply(CLI::App& app, ExitCode& exit_code);
+void add_check(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_diagnose(CLI::App& app, ExitCode& exit_code);
 void add_evaluate(CLI::App& app, ExitCode& exit_code);
 void add_export(CLI::App& app, ExitCode& exit_code);
+void add_plan(CLI::App& app, ExitCode& exit_code);
 void add_prepare(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);

@@ -22,6 +22,7 @@
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
+#include "coordinator/prior_runs.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
@@ -44,7 +45,7 @@ namespace demecal {
 namespace {
 
 struct DiagnoseRequest {
-  std::string data_file, model_file, out;
+  std::string data_file, model_file, prior_file, out;
   std::vector<std::string> declared;
   std::uint64_t seed = 1;
   ClosedLoopOptions loop;
@@ -93,6 +94,15 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
 }
 
 ExitCode run(const DiagnoseRequest& request) {
+  if (!request.prior_file.empty()) {
+    return run_with_prior({.prior_file = request.prior_file,
+                           .out = request.out,
+                           .job = job_of(request, declared_model(request.declared)),
+                           .declared_stated = !request.declared.empty(),
+                           .json = request.json,
+                           .quiet = request.quiet,
+                           .force = request.force});
+  }
   const CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
   std::optional<CalibratedModel> known;
@@ -162,6 +172,10 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   command->add_option("data", request->data_file, "DATASET.yaml")->required();
   command->add_option("--out", request->out, "folder for the results")->required();
   command->add_option("--model", request->model_file, "MODEL.yaml to start from, with its corrections and effects");
+  command
+      ->add_option("--prior", request->prior_file,
+                   "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free")
+      ->excludes(command->get_option("--model"));
   command
       ->add_option("--declare", request->declared,
                    "LIST of what the model is known to contain, registration always (default: the model's own; without "

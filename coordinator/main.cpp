@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kExitStatus =
     "0: done. 10: wrong arguments. 11: a file is missing or invalid; the message names file, line, value and rule. 12: "
     "the "
-    "data and the robot file contradict each other; the message says what would fit, and --force goes on. 20: no "
+    "data and the robot file contradict each other; the message says what would fit, and --force goes on. 13: "
+    "`check` finds that the robot has changed. 20: no "
     "worker "
     "came. 21: the run failed. 130: interrupted; what was reached is saved and named.";
 
@@ -27,11 +28,13 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", DEMECAL_VERSION);
   ExitCode exit_code = ExitCode::done;
   demecal::add_calibrate(app, exit_code);
+  demecal::add_check(app, exit_code);
   demecal::add_compare(app, exit_code);
   demecal::add_diagnose(app, exit_code);
   demecal::add_evaluate(app, exit_code);
   demecal::add_apply(app, exit_code);
   demecal::add_export(app, exit_code);
+  demecal::add_plan(app, exit_code);
   demecal::add_prepare(app, exit_code);
   demecal::add_simulate(app, exit_code);
   demecal::add_report(app, exit_code);

@@ -22,6 +22,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -226,6 +227,15 @@ class CsvTargets {
   ProgramColumns joints_, position_, orientation_, approach_;
 };
 
+std::string csv_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  std::string text = "name";
+  for (int i = 0; i < arm.size(); ++i) text += ",q" + std::to_string(i + 1) + (is_revolute(arm, i) ? "_deg" : "_mm");
+  text += ",waits\n";
+  for (const ProgrammedStop& stop : stops)
+    text += stop.name + ',' + joints_text(arm, stop.joints, ",") + (stop.waits ? ",1\n" : ",0\n");
+  return text;
+}
+
 }  // namespace
 
 Language csv_language() {
@@ -234,9 +244,9 @@ Language csv_language() {
           .file_endings = {"csv"},
           .signs = {"q1_", "x_mm"},
           .comment = '#',
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return CsvTargets(text, file, arm).read();
-          }};
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return CsvTargets(text, file, arm).read(); },
+          .write = csv_text};
 }
 
 }  // namespace demecal::inline languages

@@ -17,6 +17,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -214,6 +215,16 @@ class KrlReader {
   Program program_;
 };
 
+std::string krl_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  if (!has_six_revolute_joints(arm)) return {};
+  std::string text = "DEF measure( )\n";
+  for (const ProgrammedStop& stop : stops) {
+    text += "  PTP {" + joints_text(arm, stop.joints, ",", numbered_names("A", arm.size())) + "} ; " + stop.name + '\n';
+    if (stop.waits) text += "  HALT\n";
+  }
+  return text + "END\n";
+}
+
 }  // namespace
 
 Language krl_language() {
@@ -223,9 +234,9 @@ Language krl_language() {
           .signs = {"e6pos", "e6axis", "defdat", "&access", "ptp {", "lin {"},
           .comment = ';',
           .headers = {"def ", "defdat", "deffct", "global def"},
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return KrlReader(text, file, arm).read();
-          }};
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return KrlReader(text, file, arm).read(); },
+          .write = krl_text};
 }
 
 }  // namespace demecal::inline languages

@@ -74,6 +74,10 @@ const Language* recognize_language(std::string_view text, const std::string& fil
   });
 }
 
+std::string_view written_ending(const Language& language) {
+  return language.file_endings.empty() ? language.name : language.file_endings.front();
+}
+
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm) {
   Program program = language.read(text, file, arm);
   program.language = language.name;

@@ -10,6 +10,7 @@
 
 #include "kinematics/chain.hpp"
 #include "languages/program.hpp"
+#include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
 
@@ -27,6 +28,9 @@ struct Language {
   /// how many joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing
   /// last line break make no difference.
   Program (*read)(std::string_view text, const std::string& file, const Chain& arm) = nullptr;
+  /// A program that drives to stops given by joints, each joint on its own, and waits where they say; empty where the
+  /// language has no targets of such an arm's joints. None: nothing writes programs in it.
+  std::string (*write)(std::span<const ProgrammedStop> stops, const Chain& arm) = nullptr;
 };
 
 /// All languages, in the order in which programs are searched for their signs.
@@ -37,6 +41,9 @@ const Language* find_language(std::string_view name, std::span<const Language> a
 /// That of a program by its file's ending or, where that is not known, by its signs; null where neither says.
 const Language* recognize_language(std::string_view text, const std::string& file,
                                    std::span<const Language> among = all_languages());
+
+/// The file ending of programs that `write` makes.
+std::string_view written_ending(const Language& language);
 
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm);
 

@@ -16,6 +16,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
 #include "languages/rapid_frames.hpp"
 
 namespace demecal::inline languages {
@@ -162,6 +163,18 @@ class RapidReader {
   Program program_;
 };
 
+std::string rapid_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  if (!has_six_revolute_joints(arm)) return {};
+  std::string targets, moves;
+  for (const ProgrammedStop& stop : stops) {
+    targets += "  CONST jointtarget " + stop.name + ":=[[" + joints_text(arm, stop.joints, ",") +
+               "],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n";
+    moves += "    MoveAbsJ " + stop.name + ",v100,fine,tool0;\n";
+    if (stop.waits) moves += "    Stop;\n";
+  }
+  return "MODULE measure\n" + targets + "  PROC main()\n" + moves + "  ENDPROC\nENDMODULE\n";
+}
+
 }  // namespace
 
 Language rapid_language() {
@@ -171,9 +184,9 @@ Language rapid_language() {
           .signs = {"robtarget", "jointtarget", "endmodule"},
           .comment = '!',
           .headers = {"module"},
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return RapidReader(text, file, arm).read();
-          }};
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return RapidReader(text, file, arm).read(); },
+          .write = rapid_text};
 }
 
 }  // namespace demecal::inline languages

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -206,6 +208,16 @@ class UrReader {
   std::map<std::size_t, std::size_t> literal_of_;          ///< the literal of a target, by its first number
 };
 
+std::string urscript_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  if (!has_six_revolute_joints(arm)) return {};
+  std::string text = "def measure():\n";
+  for (const ProgrammedStop& stop : stops) {
+    text += "  movej([" + joints_text_si(stop.joints, ", ") + "], a=0.5, v=0.3)  # " + stop.name + '\n';
+    if (stop.waits) text += "  popup(\"" + stop.name + "\", title=\"Measure\", blocking=True)\n";
+  }
+  return text + "end\n";
+}
+
 }  // namespace
 
 Language urscript_language() {
@@ -214,9 +226,9 @@ Language urscript_language() {
           .file_endings = {"script", "urscript"},
           .signs = {"movej", "movel(", "movep("},
           .comment = '#',
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return UrReader(text, file, arm).read();
-          }};
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return UrReader(text, file, arm).read(); },
+          .write = urscript_text};
 }
 
 }  // namespace demecal::inline languages

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,7 @@
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -256,6 +258,16 @@ class Val2Reader {
   Val2Frames frames_;
 };
 
+std::string val2_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  std::string moves = ".PROGRAM measure\n", points = ".LOCATIONS\n";
+  for (const ProgrammedStop& stop : stops) {
+    moves += "  MOVE #" + stop.name + "\n  BREAK\n";
+    if (stop.waits) moves += "  PAUSE\n";
+    points += '#' + stop.name + ' ' + joints_text(arm, stop.joints, " ") + '\n';
+  }
+  return moves + ".END\n" + points + ".END\n";
+}
+
 }  // namespace
 
 Language val2_language() {
@@ -265,9 +277,9 @@ Language val2_language() {
           .signs = {".locations", ".program"},
           .comment = ';',
           .headers = {".program", ".locations"},
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return Val2Reader(text, file, arm).read();
-          }};
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return Val2Reader(text, file, arm).read(); },
+          .write = val2_text};
 }
 
 }  // namespace demecal::inline languages

@@ -20,6 +20,7 @@ enum class RandomPurpose : std::uint64_t {
   proposed_poses = 32,       ///< poses worth measuring next
   cause_cost = 33,           ///< bootstrap interval of what a cause costs
   explanation_search = 34,   ///< variations of sets of effects
+  planned_poses = 35,        ///< poses that a plan chooses among, and its way
   distal_sequence = 406,     ///< distal learning, one joint at a time
   structure_search = 0x5354525543,
 };

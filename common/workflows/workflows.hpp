@@ -72,7 +72,8 @@ struct CalibrateResult {
   std::vector<FoundTransform> structure;   ///< of the structural method
   std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
   RunFacts facts;
-  DataCheck check;  ///< of the data, before anything was fitted
+  DataCheck check;                   ///< of the data, before anything was fitted
+  std::vector<std::string> remarks;  ///< sentences on how the result came about
 };
 
 /// The model of a calibration, and where it came from.
@@ -122,6 +123,11 @@ struct Diagnosis {
 /// Ends early when `watch` returns false. Throws InputError for data that the model cannot be fitted to.
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
                    const RoundWatcher& watch);
+
+/// Brings `prior`, a model found before, up to date: see updated(). Of many poses the loop's own model is kept where it
+/// leaves less of unseen validation poses. Throws InputError for data that base and tool cannot be fitted to.
+CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& prior,
+                             const RoundWatcher& watch);
 
 /// Throws InputError where the model has another number of joints than the data set's arm, or no tool for a target.
 void require_same_arm(const CalibratedModel& model, const DataSet& data);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <regex>
 
+#include "config/cell_file.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "config/job_file.hpp"
@@ -141,6 +142,13 @@ TEST(FormatsDocument, HasTheKeysOfRobots) {
 
 TEST(FormatsDocument, HasTheKeysOfDataSets) {
   expect_keys_of({.title = "DATASET.yaml", .read = load_data_set, .open_maps = {{"tools_mm", "TARGET"}}});
+}
+
+TEST(FormatsDocument, HasTheKeysOfCells) {
+  const ExampleFolder folder;
+  const Robot robot = load_robot(folder.path() / "robot.yaml");
+  const auto read = [&](const std::filesystem::path& path) { load_cell(path, robot); };
+  expect_keys_of({.title = "CELL.yaml", .read = read, .open_maps = {{"tools_mm", "TARGET"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfJobs) {

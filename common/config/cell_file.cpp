@@ -1,0 +1,200 @@
+#include "config/cell_file.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data/csv.hpp"
+#include "data/text.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/units.hpp"
+#include "planning/cell.hpp"
+#include "yaml/yaml_node.hpp"
+#include "yaml/yaml_text.hpp"
+
+namespace demecal::inline config {
+namespace {
+
+constexpr double kHalfTurn_deg = 180.0;
+
+Eigen::Vector3d point_m(const YamlNode& node) {
+  return metres(1.0) * node.vector3();
+}
+
+Eigen::Vector3d direction(const YamlNode& node) {
+  const Eigen::Vector3d vector = node.vector3();
+  if (vector.isZero()) node.fail("", "must not be zero: it is a direction");
+  return vector.normalized();
+}
+
+Eigen::AlignedBox3d read_box(const YamlNode& node) {
+  node.with_keys({"lower", "upper"});
+  const Eigen::Vector3d lower = point_m(node.at("lower")), upper = point_m(node.at("upper"));
+  if ((upper - lower).minCoeff() <= 0.0) node.fail("", "must have an upper corner above the lower one along each axis");
+  return {lower, upper};
+}
+
+HalfSpace read_half_space(const YamlNode& node) {
+  node.with_keys({"normal", "offset_mm", "of"});
+  HalfSpace space{direction(node.at("normal")), metres(node.at("offset_mm").number()), true};
+  if (const YamlNode* of = node.find("of")) space.of_arm = of->one_of<bool>({{"arm", true}, {"tool_point", false}});
+  return space;
+}
+
+Capsule read_obstacle(const YamlNode& node) {
+  node.with_keys({"from_mm", "to_mm", "radius_mm"});
+  return {point_m(node.at("from_mm")), point_m(node.at("to_mm")), metres(node.at("radius_mm").non_negative())};
+}
+
+std::vector<double> read_radii(const YamlNode& node, const Chain& chain) {
+  std::vector<double> radii(chain.joints.size() + 1);
+  if (node.kind == YamlNode::Kind::scalar) {
+    for (double& radius : radii) radius = metres(node.non_negative());
+    return radii;
+  }
+  const auto& items = node.list(radii.size());
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = metres(items[i].non_negative());
+  return radii;
+}
+
+ToolCone read_tool_cone(const YamlNode& node) {
+  node.with_keys({"tool_direction", "about", "half_angle_deg"});
+  return {direction(node.at("tool_direction")), direction(node.at("about")),
+          radians(node.at("half_angle_deg").number(0.0, kHalfTurn_deg))};
+}
+
+Instrument read_planned_instrument(const YamlNode& node) {
+  node.with_keys(
+      {"position_mm", "range_mm", "target_direction", "target_half_angle_deg", "orientation", "line_of_sight"});
+  Instrument instrument;
+  instrument.position_m = point_m(node.at("position_mm"));
+  if (const YamlNode* range = node.find("range_mm")) {
+    const auto [nearest, farthest] = range->range();
+    instrument.nearest_m = metres(nearest);
+    instrument.farthest_m = metres(farthest);
+  }
+  if (const YamlNode* looks = node.find("target_direction")) {
+    instrument.target_direction = direction(*looks);
+    instrument.half_angle_rad = radians(node.at("target_half_angle_deg").number(0.0, kHalfTurn_deg));
+  }
+  if (const YamlNode* orientation = node.find("orientation")) instrument.measures_orientation = orientation->boolean();
+  if (const YamlNode* sight = node.find("line_of_sight")) instrument.line_of_sight = sight->boolean();
+  return instrument;
+}
+
+std::vector<std::optional<Interval>> read_cell_ranges(const YamlNode& node, const Chain& chain) {
+  std::vector<std::string> stems, keys;
+  for (int i = 1; i <= chain.size(); ++i) stems.push_back("q" + std::to_string(i));
+  for (std::size_t i = 0; i < stems.size(); ++i)
+    keys.push_back(stems[i] + (is_revolute(chain.joints[i]) ? "_deg" : "_mm"));
+  node.with_keys(keys);
+  std::vector<std::optional<Interval>> ranges(chain.joints.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const YamlNode* range = node.find(keys[i]);
+    if (range == nullptr) continue;
+    const bool turns = is_revolute(chain.joints[i]);
+    const auto [lower, upper] = range->range();
+    ranges[i] = turns ? Interval{radians(lower), radians(upper)} : Interval{metres(lower), metres(upper)};
+    if (ranges[i]->lower < chain.joints[i].lower || ranges[i]->upper > chain.joints[i].upper)
+      range->fail("", "must lie within the limits of the robot file");
+  }
+  return ranges;
+}
+
+std::string joint_number(const Chain& chain, const JointVector& joints, int joint) {
+  constexpr double kPerUnit = 1e3;
+  const double value = is_revolute(chain, joint) ? degrees(joints[joint]) : millimetres(joints[joint]);
+  return number_text(std::round(value * kPerUnit) / kPerUnit + 0.0);
+}
+
+std::vector<std::string> joint_headings(const Chain& chain) {
+  std::vector<std::string> names;
+  for (int i = 0; i < chain.size(); ++i)
+    names.push_back("q" + std::to_string(i + 1) + (is_revolute(chain, i) ? "_deg" : "_mm"));
+  return names;
+}
+
+std::vector<std::string> approach_headings(const Chain& chain) {
+  std::vector<std::string> names;
+  for (int i = 0; i < chain.size(); ++i) names.push_back("s" + std::to_string(i + 1));
+  return names;
+}
+
+bool measures_orientation(const PlanRequest& request) {
+  return request.cell && request.cell->instrument && request.cell->instrument->measures_orientation;
+}
+
+}  // namespace
+
+CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
+  const YamlNode root = read_yaml(path);
+  root.with_version("cell", 1).with_keys({"demecal_cell", "tool_box_mm", "half_spaces", "obstacles", "link_radius_mm",
+                                          "tool_cone", "instrument", "joint_ranges", "noise_mm", "tools_mm"});
+  CellFile file;
+  if (const YamlNode* box = root.find("tool_box_mm")) file.cell.tool_box = read_box(*box);
+  if (const YamlNode* spaces = root.find("half_spaces"))
+    for (const YamlNode& space : spaces->list()) file.cell.half_spaces.push_back(read_half_space(space));
+  if (const YamlNode* obstacles = root.find("obstacles"))
+    for (const YamlNode& obstacle : obstacles->list()) file.cell.obstacles.push_back(read_obstacle(obstacle));
+  if (const YamlNode* radii = root.find("link_radius_mm")) file.cell.radii_m = read_radii(*radii, robot.chain);
+  if (const YamlNode* cone = root.find("tool_cone")) file.cell.tool_cone = read_tool_cone(*cone);
+  if (const YamlNode* instrument = root.find("instrument")) file.cell.instrument = read_planned_instrument(*instrument);
+  if (const YamlNode* ranges = root.find("joint_ranges")) file.cell.ranges = read_cell_ranges(*ranges, robot.chain);
+  if (const YamlNode* noise = root.find("noise_mm")) file.cell.noise_m = metres(noise->positive());
+  if (const YamlNode* tools = root.find("tools_mm"))
+    for (const YamlNode& tool : tools->children) file.tools_m[tool.name] = point_m(tool);
+  return file;
+}
+
+std::string planned_poses_csv(const Plan& plan, const PlanRequest& request) {
+  const Chain& chain = request.robot.chain;
+  CsvTable table{.file = {}, .header_line = 0, .columns = {"set", "pose_id"}, .rows = {}};
+  for (std::string& name : joint_headings(chain)) table.columns.push_back(std::move(name));
+  for (std::string& name : approach_headings(chain)) table.columns.push_back(std::move(name));
+  std::vector<std::string> targets;
+  for (const auto& [target, tool_m] : request.tools_m) targets.push_back(target);
+  if (targets.empty()) targets.emplace_back();
+  if (!request.tools_m.empty()) table.columns.emplace_back("target_id");
+  for (const PlannedStop& stop : plan.stops) {
+    for (const std::string& target : targets) {
+      CsvRow row{0, {std::string(to_string(stop.set)), stop.id}};
+      for (int i = 0; i < chain.size(); ++i) row.fields.push_back(joint_number(chain, stop.pose.joints, i));
+      for (const double sign : stop.pose.approach) row.fields.push_back(number_text(sign));
+      if (!request.tools_m.empty()) row.fields.push_back(target);
+      table.rows.push_back(std::move(row));
+    }
+  }
+  std::ostringstream text;
+  write_csv(text, table);
+  return text.str();
+}
+
+std::string planned_data_set_text(const Plan& plan, const PlanRequest& request) {
+  std::ostringstream text;
+  text << yaml_comment("Planned by demecal: add the columns of what was measured to poses.csv, nothing else is missing")
+       << "demecal_dataset: 1\nname: " << yaml_text(request.robot.name) << "\nrobot: robot.yaml\nposes: poses.csv\n"
+       << "columns:\n  set: set\n  pose: pose_id\n  joints: " << yaml_list(joint_headings(request.robot.chain)) << '\n'
+       << "  position: [x_mm, y_mm, z_mm]   # to be added\n";
+  if (measures_orientation(request)) text << "  orientation: [qw, qx, qy, qz]   # to be added\n";
+  if (!plan.stops.empty()) text << "  approach: " << yaml_list(approach_headings(request.robot.chain)) << '\n';
+  if (!request.tools_m.empty()) {
+    text << "  target: target_id\ntools_mm:\n";
+    for (const auto& [target, tool_m] : request.tools_m)
+      text << "  " << yaml_text(target) << ": " << yaml_mm(tool_m) << '\n';
+  }
+  text << "frame: sensor\n";
+  return text.str();
+}
+
+std::string planned_job_text(const PlanRequest& request) {
+  return "demecal_job: 1\ndata: DATASET.yaml\nmethod: " +
+         std::string(request.declared.joint_corrections ? "direct" : "diagnose") +
+         "\nseed: " + std::to_string(request.seed) + "\nmodel: {declared: " + yaml_list(request.declared.words()) +
+         "}\n";
+}
+
+}  // namespace demecal::inline config

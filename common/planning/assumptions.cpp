@@ -1,0 +1,151 @@
+#include "planning/assumptions.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "fitting/identifiable.hpp"
+#include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
+
+namespace demecal::inline planning {
+namespace {
+
+constexpr double kInstrument_m = 20e-6;             ///< a laser tracker's noise at a few metres
+constexpr double kUnknownNoise_m = 50e-6;           ///< where the arm's repeatability is not known either
+constexpr double kRepeatabilityToAxis = 1.0 / 3.6;  ///< ISO 9283: mean distance plus three deviations, of three axes
+
+std::string radii_sentence(const WorkCell& cell) {
+  return fmt::format(
+      "No cell file states how thick the arm is: links are taken to reach {:.0f} mm, the tool {:.0f} mm "
+      "about the lines between the joints.",
+      millimetres(cell.radii_m.front()), millimetres(cell.radii_m.back()));
+}
+
+void say_surroundings(const PlanRequest& request, const FeasibleSpace& space, Plan& plan) {
+  const WorkCell& cell = space.cell();
+  auto& say = plan.assumptions;
+  if (!request.cell) say.push_back(radii_sentence(cell));
+  if (request.cell && cell.radii_m.empty())
+    plan.warnings.push_back("The cell file states no link_radius_mm: that the arm may meet itself was not checked.");
+  if (!request.cell && !cell.half_spaces.empty())
+    say.push_back("The arm is taken to stand on the plane z = 0 of its base frame and to keep above it.");
+  if (cell.half_spaces.empty() && !cell.tool_box && cell.obstacles.empty())
+    plan.warnings.push_back(
+        "Nothing is known of what stands about the arm, not even where the floor is: state it with --cell CELL.yaml "
+        "before you run the programs.");
+  else if (!request.cell)
+    plan.warnings.push_back(
+        "Nothing is known of walls and obstacles about the arm: state them with --cell CELL.yaml, or run the programs "
+        "slowly first.");
+  if (!cell.instrument)
+    say.push_back(
+        "Where the instrument stands is not known: every pose is taken to be visible, positions alone are "
+        "measured.");
+}
+
+void say_ranges(const FeasibleSpace& space, Plan& plan) {
+  std::string joints;
+  for (std::size_t i = 0; i < space.ranges().size(); ++i) {
+    const Joint& joint = space.robot().chain.joints[i];
+    if (!is_revolute(joint) || joint.upper - joint.lower <= 2.0 * 3.2) continue;
+    joints += (joints.empty() ? "" : ", ") + std::to_string(i + 1);
+  }
+  if (!joints.empty())
+    plan.assumptions.push_back(
+        "Joints that may turn more than once stay within one turn about the middle of their "
+        "range (joint " +
+        joints + "); `joint_ranges` of a cell file says otherwise.");
+}
+
+void say_tool(const PlanRequest& request, Plan& plan) {
+  constexpr double kOnAxis_m = 5e-3;
+  const Chain& chain = request.robot.chain;
+  if (!request.tools_m.empty() || !is_revolute(chain, chain.size() - 1)) return;
+  const JointVector middle = JointVector::Zero(chain.size());
+  const Jacobian jacobian = joint_jacobian(chain, middle, chain.tool_m);
+  const double lever_m = jacobian.col(chain.size() - 1).head<3>().norm();
+  if (lever_m > kOnAxis_m) return;
+  plan.warnings.push_back(
+      fmt::format("The target is {:.1f} mm off the axis of joint {}: nothing can be known of that joint's zero. Mount "
+                  "it, or a second one, 50 mm or more off the axis.",
+                  millimetres(lever_m), chain.size()));
+}
+
+bool is_held(const std::vector<UnidentifiedDirection>& directions, const ParameterId& id) {
+  return std::ranges::any_of(directions, [&](const UnidentifiedDirection& direction) {
+    return std::ranges::any_of(direction.parts, [&](const auto& part) { return part.first == id; });
+  });
+}
+
+}  // namespace
+
+double noise_of(const Robot& robot, const WorkCell& cell) {
+  if (cell.noise_m) return *cell.noise_m;
+  if (!robot.repeatability_m) return kUnknownNoise_m;
+  return std::hypot(kInstrument_m, kRepeatabilityToAxis * *robot.repeatability_m);
+}
+
+int fewest_poses(const InformationModel& model) {
+  return static_cast<int>(model.ids().size()) / model.rows_per_pose() + 1;
+}
+
+void describe_numbers(const InformationModel& model, const std::vector<PlannedPose>& poses,
+                      const Eigen::MatrixXd& covariance, Plan& plan) {
+  constexpr double kFoundNineInTen = 1.645 + 1.282;
+  const FitOptions options;
+  const Eigen::VectorXd& beliefs = model.beliefs();
+  const Eigen::MatrixXd in_units = beliefs.asDiagonal() * covariance * beliefs.asDiagonal();
+  const ScaledJacobian jacobian = model.jacobian(poses);
+  Eigen::VectorXd precision = Eigen::VectorXd::Zero(beliefs.size());
+  for (std::size_t i = 0; i < model.ids().size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (model.ids()[i].kind == ParameterId::Kind::link) precision[at] = 1.0 / beliefs[at];
+  }
+  plan.unidentified = identifiable_subspace(jacobian, model.ids(), options.rank_tolerance).held;
+  for (auto& weak : weak_directions(jacobian, model.ids(), in_units, precision)) plan.unidentified.push_back(weak);
+  const CorrectedRobot nominal = nominal_robot(model.model().nominal);
+  for (std::size_t i = 0; i < model.ids().size(); ++i) {
+    const ParameterId& id = model.ids()[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const double deviation = std::sqrt(std::max(0.0, in_units(at, at)));
+    plan.numbers.push_back({id, parameter_value(nominal, id), deviation, !is_held(plan.unidentified, id)});
+    if (id.kind == ParameterId::Kind::effect)
+      plan.detectable.push_back(
+          {model.model().effects[static_cast<std::size_t>(id.index)], id.coefficient, kFoundNineInTen * deviation});
+  }
+}
+
+void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space, const InformationModel& model,
+                          Plan& plan) {
+  if (!space.cell().noise_m)
+    plan.assumptions.push_back(
+        fmt::format("No cell file states the noise of a measured position: {:.3g} mm per axis is assumed ({}).",
+                    millimetres(plan.noise_m),
+                    request.robot.repeatability_m ? "a laser tracker, and the repeatability in the robot file"
+                                                  : "the robot file states no repeatability"));
+  say_surroundings(request, space, plan);
+  say_ranges(space, plan);
+  say_tool(request, plan);
+  plan.assumptions.emplace_back(
+      "Predicted errors are those of the numbers declared: what the arm does besides comes on top, and is what the "
+      "validation poses will show.");
+  const auto calibration = static_cast<int>(plan.counts[0]);
+  if (calibration < fewest_poses(model) && !request.measured)
+    plan.warnings.push_back(fmt::format("{} poses cannot determine the {} numbers declared: {} at least are needed.",
+                                        calibration, model.ids().size(), fewest_poses(model)));
+  for (const std::string& kind : request.detect) {
+    const bool found = std::ranges::any_of(plan.effects, [&](const Effect& effect) { return effect.kind == kind; });
+    if (!found)
+      plan.warnings.push_back("No measurement of this plan shows effects of the kind " + kind + " on this arm.");
+  }
+  if (!plan.way.blocked.empty()) {
+    std::string poses;
+    for (const std::size_t i : plan.way.blocked) poses += (poses.empty() ? "" : ", ") + plan.stops[i].id;
+    plan.warnings.push_back("No free way was found to " + poses + " from the pose before: drive there by hand.");
+  }
+}
+
+}  // namespace demecal::inline planning

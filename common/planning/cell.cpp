@@ -1,0 +1,154 @@
+#include "planning/cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "kinematics/forward.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal::inline planning {
+namespace {
+
+constexpr double kFromLimits = 0.02;
+
+Interval range_of(const Joint& joint, const std::optional<Interval>& stated) {
+  Interval range{joint.lower, joint.upper};
+  if (stated) range = {std::max(range.lower, stated->lower), std::min(range.upper, stated->upper)};
+  const double margin = stated ? 0.0 : kFromLimits * (range.upper - range.lower);
+  range = {range.lower + margin, range.upper - margin};
+  if (!stated && is_revolute(joint) && range.upper - range.lower > 2.0 * std::numbers::pi) {
+    const double middle = 0.5 * (range.lower + range.upper);
+    range = {middle - std::numbers::pi, middle + std::numbers::pi};
+  }
+  return range;
+}
+
+/// The angle between two directions, rad.
+double angle_between(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  return std::atan2(one.cross(other).norm(), one.dot(other));
+}
+
+}  // namespace
+
+JointVector rounded(const Chain& chain, JointVector joints) {
+  constexpr double kFine_mm = 1e-3;
+  constexpr double kFine_deg = 1e-3;
+  for (int i = 0; i < chain.size(); ++i) {
+    const double fine = is_revolute(chain, i) ? radians(kFine_deg) : metres(kFine_mm);
+    joints[i] = std::round(joints[i] / fine) * fine;
+  }
+  return joints;
+}
+
+bool stands_on_base_plane(const Robot& robot) {
+  constexpr double kRises_m = 0.02;
+  const Joint& first = robot.chain.joints.front();
+  return is_revolute(first) && first.d_m > kRises_m;
+}
+
+WorkCell assumed_cell(const Robot& robot) {
+  WorkCell cell;
+  cell.radii_m = assumed_radii(robot.chain);
+  if (stands_on_base_plane(robot)) cell.half_spaces.push_back({Eigen::Vector3d::UnitZ(), 0.0, true});
+  return cell;
+}
+
+std::string_view to_string(Obstruction obstruction) {
+  constexpr std::array<std::string_view, kObstructions> kWords{"feasible",
+                                                               "outside the joints' ranges",
+                                                               "outside the tool's box",
+                                                               "beyond a half-space",
+                                                               "the arm meets itself",
+                                                               "the arm meets an obstacle",
+                                                               "outside the tool's cone",
+                                                               "out of the instrument's range",
+                                                               "the target looks away from the instrument",
+                                                               "the line of sight is blocked"};
+  return kWords[static_cast<std::size_t>(obstruction)];
+}
+
+FeasibleSpace::FeasibleSpace(Robot robot, WorkCell cell) : robot_(std::move(robot)), cell_(std::move(cell)) {
+  radii_m_ = cell_.radii_m.empty() ? std::vector<double>(robot_.chain.joints.size() + 1, 0.0) : cell_.radii_m;
+  for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i)
+    ranges_.push_back(range_of(robot_.chain.joints[i], i < cell_.ranges.size() ? cell_.ranges[i] : std::nullopt));
+}
+
+Obstruction FeasibleSpace::of_bodies(const std::vector<ArmPart>& parts, const Eigen::Vector3d& tool_m) const {
+  constexpr double kOnBase_m = 1e-6;  // the foot of the arm stands in the plane that the rest keeps off
+  for (const HalfSpace& space : cell_.half_spaces) {
+    if (space.normal.dot(tool_m) < space.height_m) return Obstruction::half_space;
+    if (!space.of_arm) continue;
+    for (const ArmPart& part : parts) {
+      if (part.begin_m < kOnBase_m) continue;
+      const double lowest = std::min(space.normal.dot(part.body.from_m), space.normal.dot(part.body.to_m));
+      const bool on_foot = part.link == 0;
+      if (!on_foot && lowest - part.body.radius_m < space.height_m) return Obstruction::half_space;
+    }
+  }
+  if (cell_.radii_m.empty() && cell_.obstacles.empty()) return Obstruction::none;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const Capsule& obstacle : cell_.obstacles)
+      if (clearance(parts[i].body, obstacle) < 0.0) return Obstruction::obstacle;
+    for (std::size_t k = 0; !cell_.radii_m.empty() && k < i; ++k)
+      if (parts_meet(parts[i], parts[k])) return Obstruction::itself;
+  }
+  return Obstruction::none;
+}
+
+Obstruction FeasibleSpace::of_view(const std::vector<ArmPart>& parts, const Eigen::Isometry3d& flange,
+                                   const Eigen::Vector3d& tool_m) const {
+  if (!cell_.instrument) return Obstruction::none;
+  const Instrument& instrument = *cell_.instrument;
+  const Eigen::Vector3d to_instrument = instrument.position_m - tool_m;
+  const double distance = to_instrument.norm();
+  if (distance < instrument.nearest_m || distance > instrument.farthest_m) return Obstruction::range;
+  if (instrument.target_direction) {
+    const Eigen::Vector3d looks = flange.linear() * *instrument.target_direction;
+    if (angle_between(looks, to_instrument) > instrument.half_angle_rad) return Obstruction::target_cone;
+  }
+  if (!instrument.line_of_sight) return Obstruction::none;
+  const Capsule beam{instrument.position_m, tool_m, 0.0};
+  for (const Capsule& obstacle : cell_.obstacles)
+    if (clearance(beam, obstacle) < 0.0) return Obstruction::sight;
+  // The last part carries the target: the beam ends on it.
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+    if (clearance(beam, parts[i].body) < 0.0) return Obstruction::sight;
+  return Obstruction::none;
+}
+
+Obstruction FeasibleSpace::in_passing(const JointVector& joints) const {
+  for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i) {
+    const double value = joints[static_cast<Eigen::Index>(i)];
+    if (value < robot_.chain.joints[i].lower || value > robot_.chain.joints[i].upper) return Obstruction::limits;
+  }
+  return of_bodies(arm_parts(robot_.chain, joints, radii_m_), tool_position(robot_.chain, joints));
+}
+
+Obstruction FeasibleSpace::obstruction(const JointVector& joints) const {
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const double value = joints[static_cast<Eigen::Index>(i)];
+    if (value < ranges_[i].lower || value > ranges_[i].upper) return Obstruction::limits;
+  }
+  const Eigen::Isometry3d flange = forward(robot_.chain, joints);
+  const Eigen::Vector3d tool_m = flange * robot_.chain.tool_m;
+  if (cell_.tool_box && !cell_.tool_box->contains(tool_m)) return Obstruction::tool_box;
+  if (cell_.tool_cone) {
+    const Eigen::Vector3d direction = flange.linear() * cell_.tool_cone->tool_direction;
+    if (angle_between(direction, cell_.tool_cone->about) > cell_.tool_cone->half_angle_rad)
+      return Obstruction::tool_cone;
+  }
+  const std::vector<ArmPart> parts = arm_parts(robot_.chain, joints, radii_m_);
+  const Obstruction body = of_bodies(parts, tool_m);
+  return body == Obstruction::none ? of_view(parts, flange, tool_m) : body;
+}
+
+JointVector FeasibleSpace::draw(RandomStream& random) const {
+  JointVector joints(static_cast<Eigen::Index>(ranges_.size()));
+  for (std::size_t i = 0; i < ranges_.size(); ++i)
+    joints[static_cast<Eigen::Index>(i)] = random.real(ranges_[i].lower, ranges_[i].upper);
+  return rounded(robot_.chain, joints);
+}
+
+}  // namespace demecal::inline planning

@@ -1,0 +1,100 @@
+// Where an arm may go, and where it can be measured: limits, walls, obstacles, and the instrument's view.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
+#include "kinematics/chain.hpp"
+#include "planning/arm_shape.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal::inline planning {
+
+/// Allowed are points whose height along the unit vector `normal` is `height_m` at least; base frame.
+struct HalfSpace {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double height_m = 0.0;
+  bool of_arm = false;  ///< the whole arm keeps to it; otherwise its tool point alone
+};
+
+/// The tool's direction, fixed on the flange, stays within a cone; base frame.
+struct ToolCone {
+  Eigen::Vector3d tool_direction = Eigen::Vector3d::UnitZ();  ///< flange frame
+  Eigen::Vector3d about = -Eigen::Vector3d::UnitZ();
+  double half_angle_rad = std::numbers::pi;
+};
+
+/// Where the instrument is, and from where it sees the target.
+struct Instrument {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< base frame
+  double nearest_m = 0.0, farthest_m = 1e3;
+  std::optional<Eigen::Vector3d> target_direction{};  ///< flange frame: where the target looks; none: everywhere
+  double half_angle_rad = std::numbers::pi;           ///< at which it still reflects
+  bool measures_orientation = false;
+  bool line_of_sight = true;  ///< the beam must pass the arm and the obstacles
+};
+
+struct WorkCell {
+  std::optional<Eigen::AlignedBox3d> tool_box;  ///< m, base frame
+  std::vector<HalfSpace> half_spaces;
+  std::vector<Capsule> obstacles;
+  std::vector<double> radii_m;  ///< of every link and, last, the tool; empty: nobody knows, nothing is checked
+  std::optional<ToolCone> tool_cone;
+  std::optional<Instrument> instrument;
+  std::vector<std::optional<Interval>> ranges;  ///< of the joints, within their limits; empty: the limits
+  std::optional<double> noise_m;                ///< of a measured position, standard deviation per axis
+};
+
+/// What is assumed where nobody describes the cell: an arm of usual thickness, and nothing below the plane it stands
+/// on, where its base frame says which that is.
+WorkCell assumed_cell(const Robot& robot);
+
+/// Whether base frames like this one's lie in the plane the arm stands on: its first link rises from it.
+bool stands_on_base_plane(const Robot& robot);
+
+/// To what controllers take: 0.001 deg and 0.001 mm.
+JointVector rounded(const Chain& chain, JointVector joints);
+
+/// Why a pose cannot be used.
+enum class Obstruction { none, limits, tool_box, half_space, itself, obstacle, tool_cone, range, target_cone, sight };
+inline constexpr std::size_t kObstructions = 10;
+/// As people call it: "outside the tool's box".
+std::string_view to_string(Obstruction obstruction);
+
+/// The arm in its cell.
+class FeasibleSpace {
+ public:
+  FeasibleSpace(Robot robot, WorkCell cell);
+
+  const WorkCell& cell() const { return cell_; }
+  const Robot& robot() const { return robot_; }
+  /// Of every joint: within its limits, 2 % of them off their ends, at most one turn about their middle.
+  const std::vector<Interval>& ranges() const { return ranges_; }
+
+  /// What keeps the arm from being measured there.
+  Obstruction obstruction(const JointVector& joints) const;
+  /// The same of passing there: the instrument need not see it, nor the tool keep to its cone.
+  Obstruction in_passing(const JointVector& joints) const;
+  /// Joints uniform in the ranges, feasible or not.
+  JointVector draw(RandomStream& random) const;
+
+ private:
+  Obstruction of_bodies(const std::vector<ArmPart>& parts, const Eigen::Vector3d& tool_m) const;
+  Obstruction of_view(const std::vector<ArmPart>& parts, const Eigen::Isometry3d& flange,
+                      const Eigen::Vector3d& tool_m) const;
+
+  Robot robot_;
+  WorkCell cell_;
+  std::vector<double> radii_m_;
+  std::vector<Interval> ranges_;
+};
+
+}  // namespace demecal::inline planning

@@ -1,0 +1,46 @@
+// Which of many poses to measure, so that the tool is known best over a workspace: I-optimal designs.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace demecal::inline planning {
+
+/// Chooses poses among candidates by what each would measure. The numbers are in units of what is believed of them, so
+/// that nothing measured leaves the identity as their covariance.
+class Design {
+ public:
+  /// `rows`: of all candidates, one after another, `rows_per_pose` each; `known`: information already there (numbers x
+  /// numbers); `weight`: of the expected squared error, see Workspace.
+  Design(Eigen::MatrixXd rows, int rows_per_pose, const Eigen::MatrixXd& known, Eigen::MatrixXd weight);
+
+  std::size_t candidates() const { return static_cast<std::size_t>(rows_.rows() / rows_per_pose_); }
+  const std::vector<std::size_t>& chosen() const { return chosen_; }
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+  /// The expected squared error, m^2, mean over the workspace.
+  double square_m2() const { return weight_.cwiseProduct(covariance_).sum(); }
+
+  /// Adds the candidate that lowers the expected squared error most; false where none is left.
+  bool add_best();
+  void add(std::size_t candidate);
+  /// Exchanges chosen poses for better ones (Fedorov, 1972) until a round of all of them gains less than a share, or
+  /// `rounds` are over.
+  void exchange(int rounds, double least_gain = 2e-3);
+
+ private:
+  Eigen::MatrixXd rows_of(std::size_t candidate) const {
+    return rows_.middleRows(static_cast<Eigen::Index>(candidate) * rows_per_pose_, rows_per_pose_);
+  }
+  void remove(std::size_t place);
+  std::size_t best_candidate() const;
+  void refresh();
+
+  Eigen::MatrixXd rows_;
+  int rows_per_pose_;
+  Eigen::MatrixXd known_, weight_, covariance_;
+  std::vector<std::size_t> chosen_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace demecal::inline planning

@@ -1,0 +1,217 @@
+#include "planning/plan.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "errors/input_error.hpp"
+#include "kinematics/units.hpp"
+#include "planning/assumptions.hpp"
+#include "planning/candidates.hpp"
+#include "planning/exchange.hpp"
+#include "random/random_purpose.hpp"
+
+namespace demecal::inline planning {
+namespace {
+
+constexpr int kUsualPoses = 40, kMostPoses = 400, kFewestJudging = 10;
+constexpr std::size_t kPlaces = 250;  ///< of the workspace that errors are predicted at
+constexpr int kRounds = 4;
+
+int judging(const std::optional<int>& asked, int calibration) {
+  return asked ? *asked : std::max(kFewestJudging, static_cast<int>(std::lround(0.3 * calibration)));
+}
+
+PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space) {
+  PlannedModel model;
+  model.nominal.robot = request.robot;
+  model.nominal.tools_m = request.tools_m;
+  model.declared = request.declared;
+  model.orientation = space.cell().instrument && space.cell().instrument->measures_orientation;
+  model.effects = effects_to_detect(request.robot, space.ranges(), request.detect, model.orientation);
+  model.noise_m = noise_of(request.robot, space.cell());
+  return model;
+}
+
+/// What grows with candidates times numbers squared stays within seconds.
+std::size_t candidates_for(const InformationModel& model, std::size_t poses) {
+  const double numbers = std::max(20.0, static_cast<double>(model.ids().size()));
+  const double affordable = 1200.0 * std::pow(33.0 / numbers, 2.0) * 3.0 / model.rows_per_pose();
+  return std::max({static_cast<std::size_t>(std::clamp(affordable, 300.0, 1500.0)), 3 * poses});
+}
+
+Eigen::MatrixXd stacked_rows(const InformationModel& model, std::span<const PlannedPose> poses) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(poses.size()) * model.rows_per_pose(),
+                       static_cast<Eigen::Index>(model.ids().size()));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    rows.middleRows(static_cast<Eigen::Index>(i) * model.rows_per_pose(), model.rows_per_pose()) =
+        model.measured_rows(poses[i]);
+  return rows;
+}
+
+/// The planning of one request, step by step.
+class Planning {
+ public:
+  explicit Planning(const PlanRequest& request)
+      : request_(request),
+        space_(request.robot, request.cell ? *request.cell : assumed_cell(request.robot)),
+        model_(model_of(request, space_)),
+        most_(request.poses        ? *request.poses
+              : request.accuracy_m ? kMostPoses
+                                   : kUsualPoses) {}
+
+  Plan make() {
+    draw();
+    const Workspace workspace(model_, places_);
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(numbers(), numbers());
+    if (request_.measured) known = model_.information_of(*request_.measured);
+    const Design empty(stacked_rows(model_, candidates_), model_.rows_per_pose(), known, workspace.weight());
+    const Design design = request_.accuracy_m ? smallest_reaching(empty) : of_size(empty, most_);
+    take(design, workspace);
+    draw_curve(empty, workspace, design.chosen().size());
+    set_stops(design);
+    describe_assumptions(request_, space_, model_, plan_);
+    return std::move(plan_);
+  }
+
+ private:
+  Eigen::Index numbers() const { return static_cast<Eigen::Index>(model_.ids().size()); }
+  RandomStream stream(std::uint64_t part) const {
+    return RandomStream{request_.seed, number_of(RandomPurpose::planned_poses), part};
+  }
+
+  void draw() {
+    const auto most = static_cast<std::size_t>(most_);
+    const std::size_t wanted = candidates_for(model_, request_.accuracy_m ? 100 : most);
+    DrawnPoses drawn = draw_poses(space_, wanted, stream(1));
+    plan_.drawn = drawn.drawn;
+    plan_.feasible = drawn.poses.size();
+    plan_.refused = drawn.refused;
+    plan_.refused[0] = 0;
+    candidates_ = std::move(drawn.poses);
+    const auto judging_poses =
+        static_cast<std::size_t>(judging(request_.validation, most_) + judging(request_.accept, most_));
+    places_ = draw_poses(space_, std::max(kPlaces, judging_poses), stream(2)).poses;
+    if (candidates_.size() >= std::max<std::size_t>(most, 4) && places_.size() >= judging_poses) return;
+    const auto worst = std::ranges::max_element(plan_.refused) - plan_.refused.begin();
+    throw InputError({request_.robot.name, 0}, std::to_string(plan_.feasible),
+                     fmt::format("of {} random poses are feasible, too few to choose {} from; most were refused since: "
+                                 "{}. Widen the cell, or ask for fewer poses",
+                                 plan_.drawn, most_, to_string(static_cast<Obstruction>(worst))));
+  }
+
+  Design of_size(Design design, int poses) const {
+    for (int i = 0; i < poses; ++i) design.add_best();
+    design.exchange(kRounds);
+    return design;
+  }
+
+  /// The fewest poses, after exchanges, that are predicted to do; greedy choice needs a few more and says where to
+  /// look.
+  Design smallest_reaching(const Design& empty) const {
+    const double enough_m2 = std::pow(*request_.accuracy_m, 2.0);
+    Design greedy = empty;
+    int poses = 0;
+    while (poses < kMostPoses && (poses < fewest_poses(model_) || greedy.square_m2() > enough_m2)) {
+      if (!greedy.add_best()) break;
+      ++poses;
+    }
+    if (greedy.square_m2() > enough_m2)
+      throw InputError(
+          {request_.robot.name, 0}, fmt::format("{:g} mm", millimetres(*request_.accuracy_m)),
+          fmt::format("is not reached: {} poses are predicted to leave {:.3g} mm rms, with a measurement "
+                      "noise of {:.3g} mm. Ask for less, or measure more precisely",
+                      poses, millimetres(std::sqrt(greedy.square_m2())), millimetres(model_.model().noise_m)));
+    greedy.exchange(kRounds);
+    Design best = std::move(greedy);
+    while (static_cast<int>(best.chosen().size()) > fewest_poses(model_)) {
+      const int fewer =
+          static_cast<int>(best.chosen().size()) - std::max(1, static_cast<int>(best.chosen().size()) / 20);
+      Design smaller = of_size(empty, std::max(fewer, fewest_poses(model_)));
+      if (smaller.square_m2() > enough_m2) break;
+      best = std::move(smaller);
+    }
+    return best;
+  }
+
+  void take(const Design& design, const Workspace& workspace) {
+    plan_.noise_m = model_.model().noise_m;
+    plan_.effects = model_.model().effects;
+    plan_.predicted = workspace.predicted(design.covariance());
+    std::vector<PlannedPose> poses;
+    for (const std::size_t i : design.chosen()) poses.push_back(candidates_[i]);
+    describe_numbers(model_, poses, design.covariance(), plan_);
+  }
+
+  void draw_curve(const Design& empty, const Workspace& workspace, std::size_t chosen) {
+    constexpr int kRandomDraws = 5, kPoints = 8;
+    const int last = std::min(static_cast<int>(candidates_.size()), std::max(60, 2 * static_cast<int>(chosen)));
+    Design greedy = empty;
+    RandomStream random = stream(4);
+    const int step = std::max(1, last / kPoints);
+    for (int poses = 1; poses <= last; ++poses) {
+      if (!greedy.add_best()) break;
+      const bool shown = poses >= fewest_poses(model_) && (poses % step == 0 || poses == static_cast<int>(chosen));
+      if (!shown) continue;
+      CurvePoint point{poses, workspace.predicted(greedy.covariance()), 0.0};
+      for (int i = 0; i < kRandomDraws; ++i) {
+        Design drawn = empty;
+        std::vector<std::size_t> all(empty.candidates());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        for (int k = 0; k < poses; ++k) {
+          std::swap(all[static_cast<std::size_t>(k)],
+                    all[static_cast<std::size_t>(k) + random.index(all.size() - static_cast<std::size_t>(k))]);
+          drawn.add(all[static_cast<std::size_t>(k)]);
+        }
+        point.random_rms_m += std::sqrt(drawn.square_m2()) / kRandomDraws;
+      }
+      if (poses == static_cast<int>(chosen)) {
+        plan_.random_rms_m = point.random_rms_m;
+        point.planned = plan_.predicted;
+      }
+      plan_.curve.push_back(point);
+    }
+  }
+
+  void set_stops(const Design& design) {
+    std::vector<PlannedStop> stops;
+    for (const std::size_t i : design.chosen()) stops.push_back({{}, PoseSet::calibration, candidates_[i]});
+    const int calibration = static_cast<int>(stops.size());
+    std::size_t next = 0;
+    for (int i = 0; i < judging(request_.validation, calibration); ++i)
+      stops.push_back({{}, PoseSet::validation, places_[next++]});
+    for (int i = 0; i < judging(request_.accept, calibration); ++i)
+      stops.push_back({{}, PoseSet::accept, places_[next++]});
+    std::vector<PlannedPose> poses;
+    for (const PlannedStop& stop : stops) poses.push_back(stop.pose);
+    std::vector<PlannedPose> in_order;
+    for (const std::size_t i : short_order(request_.robot.chain, poses)) {
+      plan_.stops.push_back(stops[i]);
+      plan_.stops.back().id = "P" + std::to_string(plan_.stops.size());
+      ++plan_.counts[static_cast<std::size_t>(stops[i].set)];
+      in_order.push_back(stops[i].pose);
+    }
+    plan_.way = way_along(space_, in_order, stream(3));
+    for (std::size_t i = 1; i < plan_.way.stops.size(); ++i)
+      plan_.travel_rad += travel(request_.robot.chain, plan_.way.stops[i - 1].joints, plan_.way.stops[i].joints);
+  }
+
+  const PlanRequest& request_;
+  FeasibleSpace space_;
+  InformationModel model_;
+  int most_;
+  std::vector<PlannedPose> candidates_, places_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan make_plan(const PlanRequest& request) {
+  return Planning(request).make();
+}
+
+}  // namespace demecal::inline planning

@@ -1,0 +1,130 @@
+#include "report/change_report.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "kinematics/units.hpp"
+#include "next_measurement/next_measurement.hpp"
+
+namespace demecal::inline report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMilliPerUnit = 1e3;
+
+/// The unit that people use, and how many of it one inside is.
+std::pair<std::string, double> shown_unit(const std::string& unit) {
+  if (unit == "rad") return {"mrad", kMilliPerUnit};
+  if (unit == "m") return {"mm", kMilliPerUnit};
+  return {unit, 1.0};
+}
+
+std::string advice_on(const ChangeCause& cause, const std::string& model_file) {
+  const std::string update = "or bring the model up to date: demecal diagnose DATASET.yaml --prior " + model_file;
+  switch (law_of(cause.effect).subject()) {
+    case Subject::instrument:
+      return "The robot itself is as it was: find the base's frame again where programs rely on it, " + update + ".";
+    case Subject::tool:
+      return "Look at the tool and its target: straighten or exchange it, or measure its tool point again, " + update +
+             ".";
+    case Subject::joint:
+      break;
+  }
+  return fmt::format(
+      "Look at joint {}: master it again where its zero has moved, have its gear looked at where its lost "
+      "motion has grown, {}.",
+      cause.effect.joint + 1, update);
+}
+
+std::string advice(const ChangeReport& change, const std::string& model_file) {
+  if (change.unnamed)
+    return "The errors are larger than the model expects and none of the causes tried explains them: measure 30 poses "
+           "or more and run demecal diagnose DATASET.yaml --prior " +
+           model_file + ".";
+  if (change.found.empty())
+    return change.set_up_anew ? "The robot itself is as it was; its base was found again in the instrument's new frame."
+                              : "Nothing needs to be done.";
+  return advice_on(change.found.back(), model_file);
+}
+
+Json cause_json(const ChangeCause& cause, const Robot& robot) {
+  const auto [unit, per_inside] = shown_unit(cause.unit);
+  return {{"kind", cause.effect.kind},
+          {"joint", cause.effect.joint < 0 ? Json() : Json(cause.effect.joint + 1)},
+          {"p_value", cause.p_value},
+          {"p_family", cause.p_family},
+          {"size", cause.size * per_inside},
+          {"standard_error", cause.standard_error * per_inside},
+          {"unit", unit},
+          {"smallest_detectable", std::isfinite(cause.detectable) ? Json(cause.detectable * per_inside) : Json()},
+          {"power", cause.power},
+          {"rivals", cause.rivals},
+          {"sentence", law_of(cause.effect).diagnosis(cause.effect, robot)}};
+}
+
+std::string answer(const ChangeReport& change) {
+  if (change.verdict == ChangeVerdict::unchanged) return "The robot is as it was.";
+  if (change.verdict == ChangeVerdict::registration)
+    return change.set_up_anew ? "The robot is as it was; the instrument was set up anew."
+                              : "The robot is as it was, but its base stands elsewhere in the instrument's frame.";
+  return change.unnamed ? "The robot has changed, by something that cannot be named." : "The robot has changed.";
+}
+
+}  // namespace
+
+std::string to_json(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
+  Json json{{"demecal_check", 1},
+            {"model", model_file},
+            {"data", data.name},
+            {"verdict", std::string(to_string(change.verdict))},
+            {"answer", answer(change)},
+            {"poses", change.poses},
+            {"set_up_anew", change.set_up_anew},
+            {"p_any", change.p_any},
+            {"noise_mm", millimetres(change.noise_m)},
+            {"error_mm", {{"by_model", millimetres(change.error_m)}, {"explained", millimetres(change.left_m)}}},
+            {"cause", Json()},
+            {"causes", Json::array()},
+            {"tried", Json::array()},
+            {"outliers", Json::array()},
+            {"not_testable", change.not_testable},
+            {"advice", advice(change, model_file)}};
+  for (const ChangeCause& cause : change.found) json["causes"].push_back(cause_json(cause, data.robot));
+  if (!change.found.empty()) json["cause"] = cause_json(change.found.front(), data.robot);
+  for (const ChangeCause& cause : change.found)
+    if (!cause.is_registration) {
+      json["cause"] = cause_json(cause, data.robot);
+      break;
+    }
+  for (const ChangeCause& cause : change.tried) json["tried"].push_back(cause_json(cause, data.robot));
+  for (const std::size_t pose : change.outliers) json["outliers"].push_back(data.poses[pose].pose_id);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
+  std::string text = answer(change) + '\n';
+  for (const ChangeCause& cause : change.found) {
+    text += "  " + law_of(cause.effect).diagnosis(cause.effect, data.robot) + '\n';
+    text += fmt::format("    p = {:.2g} (all causes tried: {:.2g})\n", cause.p_value, cause.p_family);
+    if (!cause.rivals.empty())
+      text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));
+  }
+  text += "  " + advice(change, model_file) + '\n';
+  text += fmt::format("  errors of the tool: rms {:.3g} mm by the model", millimetres(change.error_m));
+  if (!change.found.empty()) text += fmt::format(", {:.3g} mm once this is taken in", millimetres(change.left_m));
+  text += fmt::format("; {} poses, noise {:.3g} mm per axis\n", change.poses, millimetres(change.noise_m));
+  if (!change.outliers.empty())
+    text += fmt::format("  {} poses were left out as gross errors\n", change.outliers.size());
+  text += "  what these poses find nine times in ten:\n";
+  for (const ChangeCause& cause : change.tried) {
+    const auto [unit, per_inside] = shown_unit(cause.unit);
+    text += fmt::format("    {}: {:.2g} {}\n", to_string(cause.effect), cause.detectable * per_inside, unit);
+  }
+  for (const std::string& sentence : change.not_testable) text += "  " + sentence + '\n';
+  return text;
+}
+
+}  // namespace demecal::inline report

@@ -1,0 +1,28 @@
+// A measurement's plan as figures and words: plan.json, and what pages and terminals share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planning/plan.hpp"
+
+namespace demecal::inline report {
+
+/// The document of a plan; `files` are those written beside it.
+std::string to_json(const Plan& plan, const PlanRequest& request, const std::vector<std::string>& files);
+
+/// A number's name without its unit, its unit, and how many of it a unit inside is: deg (or mrad for errors) and mm.
+struct NumberUnit {
+  std::string unit;
+  double per_inside = 1.0;
+};
+/// In which errors of the number are stated: mm, mrad, or SI of effects.
+NumberUnit error_unit(const ParameterId& id);
+
+/// "backlash of joint 2: 0.12 mrad": the effect and the size that would be found.
+std::string detectable_text(const DetectableSize& detectable, const Robot& robot);
+
+/// The sentences on what the poses will not tell.
+std::vector<std::string> unidentified_sentences(const Plan& plan);
+
+}  // namespace demecal::inline report

@@ -1,0 +1,251 @@
+#include "updating/change.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/parameter_space.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
+#include "updating/change_rows.hpp"
+
+namespace demecal::inline updating {
+namespace {
+
+constexpr double kError = 0.05, kErrorOfAny = 1e-3;
+constexpr double kFound = 1.645 + 1.282;  ///< one-sided at 5 %, nine times in ten
+constexpr std::size_t kFewestPoses = 4;
+
+double usual_size(const std::string& unit) {
+  return unit == "m" ? 2e-4 : unit == "rad" ? 3e-4 : 0.0;
+}
+
+bool registers(const Effect& effect) {
+  return declared_flag(effect.kind) == &DeclaredModel::registration;
+}
+
+class ChangeSearch {
+ public:
+  ChangeSearch(const CalibratedModel& model, const DataSet& data) : model_(model), data_(data) {
+    for (std::size_t i = 0; i < data.poses.size(); ++i)
+      if (data.poses[i].position_m || !data.poses[i].distances_m.empty()) poses_.push_back(i);
+    if (poses_.size() < kFewestPoses)
+      throw InputError({data.file, 0}, std::to_string(poses_.size()),
+                       "poses are too few to tell whether the robot has changed: measure 4 at least, better 12");
+    place();
+    effects_ = possible_changes(data, poses_);
+  }
+
+  ChangeReport run() {
+    report_.poses = poses_.size();
+    ChangeRows rows = make_rows();
+    if (leave_out_gross(rows)) rows = make_rows();
+    report_.error_m = rms(Eigen::VectorXd::Zero(0), rows);
+    judge(rows);
+    return std::move(report_);
+  }
+
+ private:
+  /// Finds the base again where the data's frame is another one.
+  void place() {
+    constexpr double kElsewhere_m = 5e-3;
+    robot_ = model_.robot;
+    robot_.described = data_.robot;
+    std::vector<double> errors;
+    for (const std::size_t pose : poses_) errors.push_back(tool_error_m(robot_, data_, data_.poses[pose]));
+    report_.noise_m = model_.interval ? std::hypot(model_.interval->noise_m, model_.interval->model_error_m) : 0.0;
+    if (median(errors) > kElsewhere_m && data_.frame == Frame::sensor) {
+      const Fit fit = fit_registration(data_, poses_, {.registration = true}, robot_);
+      if (fit.status == FitStatus::converged) {
+        robot_ = fit.robot;
+        report_.set_up_anew = true;
+      }
+    }
+    if (report_.noise_m <= 0.0) {
+      const Fit fit = fit_registration(data_, poses_, {.registration = true, .tool = true}, robot_);
+      report_.noise_m = std::max(1e-6, fit.sigma_position_m);
+      report_.not_testable.emplace_back(
+          "The model states no noise (it is of an older version): that of these poses themselves is taken, so that "
+          "small "
+          "changes may be missed.");
+    }
+  }
+
+  ChangeRows make_rows() const {
+    return change_rows(model_, data_, {robot_, poses_, report_.noise_m, report_.set_up_anew}, effects_);
+  }
+
+  /// Whether any was.
+  bool leave_out_gross(const ChangeRows& rows) {
+    constexpr double kGross = 6.0;
+    Eigen::MatrixXd all(rows.values.size(), 0);
+    for (const Eigen::MatrixXd& columns : rows.columns) {
+      all.conservativeResize(Eigen::NoChange, all.cols() + columns.cols());
+      all.rightCols(columns.cols()) = columns;
+    }
+    if (all.cols() >= all.rows() / 2 || poses_.size() < 2 * kFewestPoses) return false;
+    const Eigen::VectorXd left = rows.values - all * all.completeOrthogonalDecomposition().solve(rows.values);
+    std::vector<double> norms;
+    Eigen::Index row = 0;
+    for (const std::size_t pose : poses_) {
+      const MeasuredPose& one = data_.poses[pose];
+      const Eigen::Index count = (one.position_m ? 3 : 0) + std::ssize(one.distances_m);
+      norms.push_back(left.segment(row, count).norm());
+      row += count;
+    }
+    const double usual = std::max(1.0, median(norms));
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      if (norms[i] > kGross * usual)
+        report_.outliers.push_back(poses_[i]);
+      else
+        kept.push_back(poses_[i]);
+    }
+    if (report_.outliers.size() > poses_.size() / 4) report_.outliers.clear();
+    if (report_.outliers.empty()) return false;
+    poses_ = kept;
+    return true;
+  }
+
+  /// Of the tool's errors, m, with what the columns of the found causes explain taken away.
+  double rms(const Eigen::VectorXd& explained, const ChangeRows& rows) const {
+    if (explained.size() == 0) {
+      double sum = 0.0;
+      for (const std::size_t pose : poses_) sum += std::pow(tool_error_m(robot_, data_, data_.poses[pose]), 2.0);
+      return std::sqrt(sum / static_cast<double>(poses_.size()));
+    }
+    const double share = explained.squaredNorm() / std::max(rows.values.squaredNorm(), 1e-30);
+    return report_.error_m * std::sqrt(share);
+  }
+
+  /// What is known of the noise's size counts as so many rows more.
+  double known_rows() const {
+    constexpr double kMost = 60.0, kFewest = 10.0;
+    return model_.interval ? std::clamp(3.0 * static_cast<double>(model_.interval->poses), kFewest, kMost) : kFewest;
+  }
+
+  void judge(const ChangeRows& all) {
+    ChangeRows rows = all;
+    const auto n = static_cast<double>(rows.values.size());
+    report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
+    constexpr int kMostCauses = 3;
+    for (int step = 0; step < kMostCauses; ++step) {
+      std::vector<ChangeCause> causes = causes_on(rows);
+      if (causes.empty()) break;
+      if (step == 0) report_.tried = causes;
+      if (causes.front().p_family >= kError) break;
+      report_.found.push_back(causes.front());
+      project(rows, causes.front().effect);
+    }
+    for (const ChangeCause& cause : report_.found)
+      report_.verdict =
+          std::max(report_.verdict, cause.is_registration ? ChangeVerdict::registration : ChangeVerdict::changed);
+    if (report_.set_up_anew) report_.verdict = std::max(report_.verdict, ChangeVerdict::registration);
+    if (report_.found.empty() && report_.p_any < kErrorOfAny) {
+      report_.verdict = ChangeVerdict::changed;
+      report_.unnamed = true;
+    }
+    report_.left_m = report_.found.empty() ? report_.error_m : rms(rows.values, all);
+  }
+
+  /// Takes away from all rows what a cause explains.
+  void project(ChangeRows& rows, const Effect& effect) const {
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+      if (!effects_[i].same_law_as(effect)) continue;
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows.columns[i]);
+      const Eigen::MatrixXd basis =
+          qr.householderQ() * Eigen::MatrixXd::Identity(rows.values.size(), rows.columns[i].cols());
+      rows.values -= basis * (basis.transpose() * rows.values).eval();
+      for (Eigen::MatrixXd& columns : rows.columns) columns -= basis * (basis.transpose() * columns).eval();
+      rows.columns[i].setZero();
+      return;
+    }
+  }
+
+  /// Every cause on the rows left, the likeliest first.
+  std::vector<ChangeCause> causes_on(const ChangeRows& rows) const {
+    constexpr double kSeen = 1.0, kAsLikely = 6.0;
+    const double n = static_cast<double>(rows.values.size()), whole = rows.values.squaredNorm();
+    struct Scored {
+      double length;
+      ChangeCause cause;
+    };
+    std::vector<Scored> scored;
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+      const Eigen::MatrixXd& columns = rows.columns[i];
+      if (columns.norm() < kSeen || columns.cols() + 2 > columns.rows()) continue;
+      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+      const auto rank = static_cast<double>(qr.rank());
+      ChangeCause cause;
+      cause.effect = effects_[i];
+      cause.is_registration = registers(effects_[i]);
+      const Eigen::VectorXd values = qr.solve(rows.values);
+      cause.effect.values.assign(values.begin(), values.end());
+      const double left = (rows.values - columns * values).squaredNorm();
+      const double freedom = known_rows() + n - rank;
+      const double variance = (known_rows() + left) / freedom;
+      cause.p_value = fisher_p_value(std::max(0.0, whole - left) / rank / variance, rank, freedom);
+      fill_size(columns, std::sqrt(variance), cause);
+      scored.push_back({(known_rows() + n) * std::log(known_rows() + left) + rank * std::log(n), std::move(cause)});
+    }
+    std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return a.length < b.length; });
+    std::vector<ChangeCause> causes;
+    for (std::size_t i = 0; i < scored.size(); ++i) {
+      ChangeCause& cause = scored[i].cause;
+      cause.p_family = 1.0 - std::pow(1.0 - cause.p_value, static_cast<double>(scored.size()));
+      for (std::size_t k = 1; i == 0 && k < scored.size(); ++k)
+        if (scored[k].length - scored[0].length < kAsLikely) cause.rivals.push_back(to_string(scored[k].cause.effect));
+      causes.push_back(std::move(cause));
+    }
+    return causes;
+  }
+
+  void fill_size(const Eigen::MatrixXd& columns, double deviation, ChangeCause& cause) const {
+    const auto labels = law_of(cause.effect).coefficients(cause.effect, data_.robot);
+    cause.unit = labels.front().unit;
+    std::vector<Eigen::Index> same;
+    double square = 0.0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i].unit != cause.unit) continue;
+      same.push_back(static_cast<Eigen::Index>(i));
+      square += cause.effect.values[i] * cause.effect.values[i];
+    }
+    cause.size = same.size() == 1 ? cause.effect.values[static_cast<std::size_t>(same.front())] : std::sqrt(square);
+    const Eigen::MatrixXd covariance =
+        (columns.transpose() * columns).completeOrthogonalDecomposition().pseudoInverse();
+    double mean = 0.0;
+    for (const Eigen::Index i : same) mean += covariance(i, i) / static_cast<double>(same.size());
+    cause.standard_error = deviation * std::sqrt(std::max(mean, 0.0));
+    cause.detectable = kFound * cause.standard_error;
+    const double usual = usual_size(cause.unit);
+    if (usual > 0.0 && cause.standard_error > 0.0)
+      cause.power = 0.5 * std::erfc((1.645 - usual / cause.standard_error) / std::sqrt(2.0));
+  }
+
+  const CalibratedModel& model_;
+  const DataSet& data_;
+  CorrectedRobot robot_;
+  std::vector<std::size_t> poses_;
+  std::vector<Effect> effects_;
+  ChangeReport report_;
+};
+
+}  // namespace
+
+std::string_view to_string(ChangeVerdict verdict) {
+  constexpr std::array<std::string_view, 3> kWords{"unchanged", "registration", "changed"};
+  return kWords[static_cast<std::size_t>(verdict)];
+}
+
+ChangeReport find_change(const CalibratedModel& model, const DataSet& data) {
+  return ChangeSearch(model, data).run();
+}
+
+}  // namespace demecal::inline updating

@@ -1,0 +1,54 @@
+// Whether a robot is still as its model has it, and what has changed: a test of few new poses.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
+
+namespace demecal::inline updating {
+
+/// As it was; the base alone stands elsewhere in the instrument's frame; or the robot has changed.
+enum class ChangeVerdict { unchanged, registration, changed };
+std::string_view to_string(ChangeVerdict verdict);
+
+/// Something that may have happened to the robot.
+struct ChangeCause {
+  Effect effect;  ///< with its estimated coefficients
+  bool is_registration = false;
+  double p_value = 1.0;             ///< of this cause alone
+  double p_family = 1.0;            ///< of it being the best of all that were tried
+  double size = 0.0;                ///< of its coefficients of the first unit, together, SI
+  double standard_error = 0.0;      ///< of that, SI
+  std::string unit;                 ///< "rad", "m", ...
+  double detectable = 0.0;          ///< the size that these poses find nine times in ten, SI; infinite: none
+  double power = 0.0;               ///< that the size usually asked for is found: 0.3 mrad, 0.2 mm
+  std::vector<std::string> rivals;  ///< causes that these poses cannot tell from it
+};
+
+struct ChangeReport {
+  ChangeVerdict verdict = ChangeVerdict::unchanged;
+  bool set_up_anew = false;  ///< the instrument's frame is another: the base was found again
+  double p_any = 1.0;        ///< of such errors by the model and its noise
+  double noise_m = 0.0;      ///< per axis, as the model has it
+  double error_m = 0.0;      ///< rms of the tool's errors by the model (base found again where it had to be)
+  double left_m = 0.0;       ///< the same once what was found is taken in
+  std::size_t poses = 0;
+  std::vector<std::size_t> outliers;      ///< poses (in the data set) that were left out
+  std::vector<ChangeCause> found;         ///< in the order they were found
+  std::vector<ChangeCause> tried;         ///< all, the likeliest first
+  std::vector<std::string> not_testable;  ///< sentences
+  bool unnamed = false;                   ///< changed, but by nothing that was tried
+};
+
+/// Holds the model's predictions against all poses of `data` that measured positions or distances. Errors by the
+/// model's covariance and its noise are expected; what explains more than 5 % of such samples would (of all causes
+/// tried) has changed. Causes are added one after another. Throws InputError where the poses are too few, or are not of
+/// this arm.
+ChangeReport find_change(const CalibratedModel& model, const DataSet& data);
+
+}  // namespace demecal::inline updating

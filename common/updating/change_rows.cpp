@@ -1,0 +1,83 @@
+#include "updating/change_rows.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/candidates.hpp"
+#include "fitting/parameter_space.hpp"
+#include "residuals/residual_field.hpp"
+
+namespace demecal::inline updating {
+namespace {
+
+Eigen::MatrixXd uncertain_rows(const Posterior& posterior, const ResidualField& field) {
+  Eigen::MatrixXd columns(field.rows(), static_cast<Eigen::Index>(posterior.ids.size() + posterior.terms.size()));
+  columns.leftCols(field.declared.cols()) = field.declared;
+  for (std::size_t t = 0; t < posterior.terms.size(); ++t) {
+    const CorrectionTerm& term = posterior.terms[t];
+    for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+      const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+      columns.block(first, field.declared.cols() + static_cast<Eigen::Index>(t), count, 1) =
+          term.shape(field.states[pose].joints()[term.joint]) *
+          field.motions.block(first, motion_column(term.joint, kTurnAboutZ), count, 1);
+    }
+  }
+  return columns * posterior.factor;
+}
+
+/// A base that was found again is anywhere.
+void add_base(const ResidualField& field, Eigen::MatrixXd& covariance) {
+  constexpr double kAnywhere = 1e-2;  // m and rad about where it was found
+  for (int axis = 0; axis < 6; ++axis) {
+    const Eigen::VectorXd column = kAnywhere * field.motions.col(motion_column(0, axis));
+    covariance += column * column.transpose();
+  }
+}
+
+}  // namespace
+
+std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses) {
+  Evidence evidence = evidence_of(data, poses);
+  evidence.orientation = false;
+  std::vector<Effect> effects;
+  for (const EffectLaw* law : catalogue()) {
+    const bool circumstance =
+        law->prerequisite() == Circumstance::approach || law->prerequisite() == Circumstance::temperature;
+    if (declared_flag(law->kind()) == nullptr && !circumstance) continue;
+    const std::vector<std::string> forms = law->forms();
+    for (Effect& effect : law->proposals(data.robot, evidence)) {
+      const bool plain = effect.form.empty() || forms.empty() || effect.form == forms.front();
+      const bool single = law->coefficients(effect, data.robot).size() == 1;
+      if (plain && (single || law->subject() != Subject::joint)) effects.push_back(std::move(effect));
+    }
+  }
+  return effects;
+}
+
+ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
+                       const std::vector<Effect>& effects) {
+  std::vector<ParameterId> ids;
+  if (model.posterior) ids = model.posterior->ids;
+  const ParameterSpace space(compared.robot, ids);
+  const double distance_m =
+      model.interval ? std::hypot(model.interval->distance_noise_m, model.interval->model_error_m) : 0.0;
+  const RowScales scales{compared.noise_m, 0.0, distance_m > 0.0 ? distance_m : compared.noise_m};
+  const ResidualField field = residual_field(data, compared.poses, space, scales, false);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(field.rows(), field.rows());
+  if (model.posterior) {
+    const Eigen::MatrixXd known = uncertain_rows(*model.posterior, field);
+    covariance += known * known.transpose();
+  }
+  if (compared.set_up_anew) add_base(field, covariance);
+  EffectColumns columns;
+  for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
+  columns.pack();
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  ChangeRows rows{root.matrixL().solve(field.residual), {}};
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    rows.columns.push_back(root.matrixL().solve(Eigen::MatrixXd(columns.dense(field, i))));
+  return rows;
+}
+
+}  // namespace demecal::inline updating

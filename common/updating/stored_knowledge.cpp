@@ -1,0 +1,260 @@
+#include "updating/stored_knowledge.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "effects/effect.hpp"
+#include "expression/tree.hpp"
+#include "fitting/fit.hpp"
+#include "primitives/primitive.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal::inline updating {
+namespace {
+
+constexpr int kHighestWave = 32;              ///< cycles a turn: gears' errors are slower than 1 in 10 deg
+constexpr double kWaveDecay = 25.0;           ///< cycles a turn beyond which they get rarer
+constexpr double kBase = 5e-3, kTool = 5e-3;  ///< m and rad about where base and tool were found
+constexpr double kKnownWithin_rad = 3e-5;     ///< to which a joint is known at one place of the model's range
+
+bool is_place(const ParameterId& id) {
+  using Kind = ParameterId::Kind;
+  return id.kind == Kind::base_translation || id.kind == Kind::base_rotation || id.kind == Kind::tool_translation ||
+         id.kind == Kind::tool_rotation;
+}
+
+std::vector<ParameterId> numbers_of(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data,
+                                    const DeclaredModel& declared) {
+  DeclaredModel placed = declared;
+  placed.registration = placed.tool = true;
+  std::vector<ParameterId> ids = free_parameters(data, placed, {});
+  if (model.posterior) {
+    for (const ParameterId& id : model.posterior->ids) {
+      const bool new_link = id.kind == ParameterId::Kind::link && std::ranges::find(ids, id) == ids.end();
+      if (new_link) ids.push_back(id);
+    }
+  }
+  for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
+  return ids;
+}
+
+/// Waves of every revolute joint that the model does not correct already, over what was measured then or now.
+SmoothCorrections waves_about(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data,
+                              std::span<const std::size_t> poses) {
+  SmoothCorrections waves = smooth_corrections(data, poses, robot, false);
+  for (int joint = 0; joint < robot.chain.size(); ++joint) {
+    const auto at = static_cast<std::size_t>(joint);
+    if (!is_revolute(robot.chain, joint) || !waves.base[at].is_neutral()) continue;
+    if (at < model.measured.size()) {
+      Interval& range = waves.ranges[at];
+      range = {std::min(range.lower, waves.branches[at](model.measured[at].lower)),
+               std::max(range.upper, waves.branches[at](model.measured[at].upper))};
+    }
+    for (int n = 1; n <= kHighestWave; ++n) {
+      const Tree angle = apply(Primitive::multiply, constant_tree(n), variable_tree(0));
+      waves.terms.push_back({joint, apply(Primitive::cosine, angle), n, n});
+      waves.terms.push_back({joint, apply(Primitive::sine, angle), n, n});
+    }
+  }
+  waves.coefficients.setZero(static_cast<Eigen::Index>(waves.terms.size()));
+  return waves;
+}
+
+/// Shares of a joint's variance that its waves of n cycles have, cosine and sine alike; they add up to one over n.
+double wave_share(int n) {
+  static const double whole = [] {
+    double sum = 0.0;
+    for (int k = 1; k <= kHighestWave; ++k) sum += 1.0 / (1.0 + std::pow(k / kWaveDecay, 2.0));
+    return sum;
+  }();
+  return 1.0 / (1.0 + std::pow(n / kWaveDecay, 2.0)) / whole;
+}
+
+/// The variance of what the model's effects do to a joint within the range it knows, rad^2.
+double ripple_variance(const CalibratedModel& model, const CorrectedRobot& robot, const Robot& described, int joint) {
+  constexpr int kDraws = 200;
+  RandomStream random{2, static_cast<std::uint64_t>(joint)};
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    JointVector joints(robot.chain.size());
+    for (int k = 0; k < robot.chain.size(); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      joints[k] = at < model.measured.size() ? random.real(model.measured[at].lower, model.measured[at].upper) : 0.0;
+    }
+    const Displacement moved = displacement(robot.chain, robot.effects,
+                                            effect_motions(robot.effects, described, arm_state(described, joints)));
+    sum += moved.joints[joint];
+    squares += moved.joints[joint] * moved.joints[joint];
+  }
+  return std::max(0.0, (squares - sum * sum / kDraws) / (kDraws - 1));
+}
+
+/// Root mean square of what a unit of each coefficient moves, over poses.
+std::vector<std::vector<double>> motions_of(const CorrectedRobot& robot, const DataSet& data,
+                                            std::span<const std::size_t> poses) {
+  std::vector<std::vector<double>> sums(robot.effects.size());
+  std::vector<UnitMotion> units;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    sums[i].assign(law_of(robot.effects[i]).coefficients(robot.effects[i], data.robot).size(), 0.0);
+    Effect everywhere = robot.effects[i];
+    everywhere.ranges.clear();
+    for (const std::size_t pose : poses) {
+      units.clear();
+      append_unit_motions(everywhere, data.robot, arm_state(data.robot, Stop(data.poses[pose])), units);
+      for (const UnitMotion& unit : units)
+        sums[i][static_cast<std::size_t>(unit.coefficient)] +=
+            unit.size * unit.size / static_cast<double>(poses.size());
+    }
+    for (double& sum : sums[i]) sum = std::sqrt(sum);
+  }
+  return sums;
+}
+
+}  // namespace
+
+std::string_view to_string(BeliefPart part) {
+  constexpr std::array<std::string_view, kBeliefParts> kWords{"links", "effects", "joints outside the known range",
+                                                              "joints within it"};
+  return kWords[static_cast<std::size_t>(part)];
+}
+
+StoredKnowledge::StoredKnowledge(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
+                                 std::span<const std::size_t> poses, const DeclaredModel& declared,
+                                 const AssumedDrift& drift)
+    : robot_(placed),
+      ids_(numbers_of(model, placed, data, declared)),
+      ripples_(waves_about(model, placed, data, poses)) {
+  for (Effect& effect : robot_.effects)
+    effect.values.resize(law_of(effect).coefficients(effect, data.robot).size(), 0.0);
+  believe_numbers(model, data, drift, poses);
+  believe_ripples(model, data, drift);
+}
+
+void StoredKnowledge::believe_numbers(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift,
+                                      std::span<const std::size_t> poses) {
+  const FitOptions options;
+  const auto n = static_cast<Eigen::Index>(ids_.size());
+  stated_ = Eigen::MatrixXd::Zero(n, n);
+  link_drift_ = effect_drift_ = Eigen::VectorXd::Zero(n);
+  const auto motions = motions_of(robot_, data, poses);
+  std::vector<Eigen::Index> here, there;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ParameterId& id = ids_[static_cast<std::size_t>(i)];
+    if (is_place(id)) {
+      const double usual =
+          id.kind == ParameterId::Kind::tool_translation || id.kind == ParameterId::Kind::tool_rotation ? kTool : kBase;
+      stated_(i, i) = usual * usual;
+      continue;
+    }
+    if (id.kind == ParameterId::Kind::link) {
+      const double size = !id.is_angle()                    ? drift.length_m
+                          : id.link == LinkParameter::theta ? drift.offset_rad
+                                                            : drift.angle_rad;
+      link_drift_[i] = size * size;
+    } else {
+      const double motion = motions[static_cast<std::size_t>(id.index)][static_cast<std::size_t>(id.coefficient)];
+      effect_drift_[i] = motion > 0.0 ? std::pow(drift.effect_motion / motion, 2.0) : 0.0;
+    }
+    Eigen::Index known = -1;
+    if (model.posterior) {
+      const auto found = std::ranges::find(model.posterior->ids, id);
+      if (found != model.posterior->ids.end()) known = found - model.posterior->ids.begin();
+    }
+    if (known >= 0) {
+      here.push_back(i);
+      there.push_back(known);
+    } else if (id.kind == ParameterId::Kind::link) {
+      stated_(i, i) = std::pow(id.is_angle() ? options.prior_rad : options.prior_m, 2.0);
+    }
+  }
+  if (here.empty()) return;
+  const Eigen::MatrixXd rows = model.posterior->factor(there, Eigen::all);
+  const Eigen::MatrixXd known = rows * rows.transpose();
+  stated_(here, here) += known;
+}
+
+void StoredKnowledge::believe_ripples(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift) {
+  constexpr double kStep_rad = 0.035;
+  const auto terms = static_cast<Eigen::Index>(ripples_.terms.size());
+  ripple_.setZero(terms);
+  outside_.resize(ripples_.base.size());
+  std::vector<std::vector<Eigen::Index>> of_joint(ripples_.base.size());
+  for (Eigen::Index i = 0; i < terms; ++i) {
+    const SmoothTerm& term = ripples_.terms[static_cast<std::size_t>(i)];
+    ripple_[i] = std::pow(drift.ripple_rad, 2.0) * wave_share(term.harmonic);
+    of_joint[static_cast<std::size_t>(term.joint)].push_back(i);
+  }
+  for (std::size_t joint = 0; joint < of_joint.size(); ++joint) {
+    const auto count = static_cast<Eigen::Index>(of_joint[joint].size());
+    if (count == 0) continue;
+    const double variance = ripple_variance(model, robot_, data.robot, static_cast<int>(joint));
+    Eigen::VectorXd shares(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      shares[i] =
+          std::max(variance, 1e-14) *
+          wave_share(ripples_.terms[static_cast<std::size_t>(of_joint[joint][static_cast<std::size_t>(i)])].harmonic);
+    Eigen::MatrixXd information = shares.cwiseInverse().asDiagonal();
+    if (joint < model.measured.size()) {
+      const double width = std::min(model.measured[joint].upper - model.measured[joint].lower, 2.0 * std::numbers::pi);
+      for (double passed = 0.0; passed <= width; passed += kStep_rad) {
+        const double theta = model.measured[joint].lower + passed;
+        Eigen::VectorXd wave(count);
+        for (Eigen::Index i = 0; i < count; ++i) {
+          const int n = ripples_.terms[static_cast<std::size_t>(of_joint[joint][static_cast<std::size_t>(i)])].harmonic;
+          wave[i] = i % 2 == 0 ? std::cos(n * theta) : std::sin(n * theta);
+        }
+        information += wave * wave.transpose() / (kKnownWithin_rad * kKnownWithin_rad);
+      }
+    }
+    outside_[joint] = information.llt().solve(Eigen::MatrixXd::Identity(count, count));
+  }
+}
+
+Eigen::MatrixXd StoredKnowledge::fixed_covariance() const {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(numbers(), numbers());
+  covariance.topLeftCorner(stated_.rows(), stated_.cols()) = stated_;
+  return covariance;
+}
+
+Eigen::MatrixXd StoredKnowledge::covariance_of(BeliefPart part) const {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(numbers(), numbers());
+  const auto n = static_cast<Eigen::Index>(ids_.size());
+  if (part == BeliefPart::links) covariance.diagonal().head(n) = link_drift_;
+  if (part == BeliefPart::effects) covariance.diagonal().head(n) = effect_drift_;
+  if (part == BeliefPart::ripple) covariance.diagonal().tail(ripple_.size()) = ripple_;
+  if (part == BeliefPart::outside) {
+    Eigen::Index first = n;
+    for (const Eigen::MatrixXd& joint : outside_) {
+      covariance.block(first, first, joint.rows(), joint.cols()) = joint;
+      first += joint.rows();
+    }
+  }
+  return covariance;
+}
+
+Eigen::MatrixXd StoredKnowledge::covariance(const PartFactors& factors) const {
+  Eigen::MatrixXd covariance = fixed_covariance();
+  for (std::size_t part = 0; part < kBeliefParts; ++part)
+    covariance += factors[part] * covariance_of(static_cast<BeliefPart>(part));
+  return covariance;
+}
+
+RowMatrix StoredKnowledge::columns(const ResidualField& field) const {
+  return beside(field.declared, ripples_.columns(field));
+}
+
+CorrectedRobot StoredKnowledge::changed(const Eigen::VectorXd& change) const {
+  const auto n = static_cast<Eigen::Index>(ids_.size());
+  CorrectedRobot robot = ParameterSpace(robot_, ids_).at(change.head(n)).robot;
+  SmoothCorrections waves = ripples_;
+  waves.coefficients = change.tail(ripple_.size());
+  robot.corrections = waves.corrections();
+  return robot;
+}
+
+}  // namespace demecal::inline updating

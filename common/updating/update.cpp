@@ -1,0 +1,263 @@
+#include "updating/update.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "fitting/fit.hpp"
+#include "fitting/least_squares.hpp"
+#include "fitting/parameter_space.hpp"
+#include "random/distributions.hpp"
+
+namespace demecal::inline updating {
+namespace {
+
+/// The new poses' rows about the present model, in units of their scatter.
+struct NewRows {
+  ResidualField field;
+  RowMatrix columns;
+  Eigen::VectorXd values;  ///< what the columns times the whole change are to explain
+};
+
+NewRows rows_about(const StoredKnowledge& knowledge, const DataSet& data, const std::vector<std::size_t>& poses,
+                   const RowScales& scales, const Eigen::VectorXd& change) {
+  const ParameterSpace space(knowledge.changed(change), knowledge.ids());
+  NewRows rows{residual_field(data, poses, space, scales, true), {}, {}};
+  rows.columns = knowledge.columns(rows.field);
+  rows.values = rows.field.residual + rows.columns * change;
+  return rows;
+}
+
+/// Variance components of the rows, as far as factors multiply them.
+class RowCovariance {
+ public:
+  RowCovariance(const StoredKnowledge& knowledge, const NewRows& rows, Eigen::Index most_rows) {
+    count_ = std::min(rows.columns.rows(), most_rows);
+    // Whole poses, spread evenly.
+    std::vector<Eigen::Index> kept;
+    const auto poses = static_cast<double>(rows.field.poses.size());
+    const double share = static_cast<double>(count_) / static_cast<double>(rows.columns.rows());
+    double due = 0.0;
+    for (std::size_t i = 0; i < rows.field.poses.size() && poses > 0.0; ++i) {
+      due += share;
+      if (due < 1.0 - 1e-9) continue;
+      due -= 1.0;
+      for (Eigen::Index row = rows.field.first_row[i]; row < rows.field.first_row[i + 1]; ++row) kept.push_back(row);
+    }
+    count_ = std::ssize(kept);
+    const Eigen::MatrixXd columns = rows.columns(kept, Eigen::all);
+    values_ = rows.values(kept);
+    fixed_ = columns * knowledge.fixed_covariance() * columns.transpose();
+    for (std::size_t part = 0; part < kBeliefParts; ++part)
+      parts_[part] = columns * knowledge.covariance_of(static_cast<BeliefPart>(part)) * columns.transpose();
+  }
+
+  Eigen::MatrixXd covariance(const PartFactors& factors, double noise) const {
+    Eigen::MatrixXd sum = fixed_;
+    for (std::size_t part = 0; part < kBeliefParts; ++part) sum += factors[part] * parts_[part];
+    sum.diagonal().array() += noise;
+    return sum;
+  }
+
+  double minus_twice_log(const PartFactors& factors, double noise) const {
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance(factors, noise));
+    if (root.info() != Eigen::Success) return 1e300;
+    const Eigen::VectorXd white = root.matrixL().solve(values_);
+    return white.squaredNorm() + 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  }
+
+ private:
+  Eigen::Index count_ = 0;
+  Eigen::MatrixXd fixed_;
+  std::array<Eigen::MatrixXd, kBeliefParts> parts_;
+  Eigen::VectorXd values_;
+};
+
+struct Sizes {
+  PartFactors factors{1.0, 1.0, 1.0, 1.0};
+  double noise = 1.0;
+};
+
+/// The sizes that make the new rows likeliest, each believed to be one within a factor of some ten.
+Sizes likeliest_sizes(const RowCovariance& rows) {
+  constexpr double kBelief = 1.4;  ///< of the logarithm of a variance's factor
+  constexpr int kSweeps = 4;
+  const auto cost = [&](const Sizes& sizes) {
+    double sum = rows.minus_twice_log(sizes.factors, sizes.noise);
+    for (const double factor : sizes.factors) sum += std::pow(std::log(factor) / (2.0 * kBelief), 2.0);
+    return sum;
+  };
+  Sizes best;
+  double least = cost(best);
+  double ratio = 4.0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep, ratio = std::max(1.3, std::sqrt(ratio))) {
+    for (std::size_t which = 0; which <= kBeliefParts; ++which) {
+      for (const double by : {ratio, 1.0 / ratio}) {
+        for (int step = 0; step < 6; ++step) {
+          Sizes trial = best;
+          (which < kBeliefParts ? trial.factors[which] : trial.noise) *= by;
+          const double there = cost(trial);
+          if (there >= least - 1e-6) break;
+          least = there;
+          best = trial;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+/// The most probable change, and a root of its covariance.
+struct Solution {
+  Eigen::VectorXd change;
+  Eigen::MatrixXd root;
+};
+
+Solution solve(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
+  Eigen::MatrixXd believed = covariance;
+  believed.diagonal().array() += 1e-20;  // numbers that cannot change
+  const Eigen::LDLT<Eigen::MatrixXd> factor(believed);
+  const Eigen::VectorXd roots = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
+  Eigen::MatrixXd root = factor.matrixL();
+  root = factor.transpositionsP().transpose() * (root * roots.asDiagonal());
+  const Eigen::MatrixXd seen = rows.columns * root;
+  Eigen::MatrixXd information = seen.transpose() * seen / noise;
+  information.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> known(information);
+  Solution solution;
+  solution.change = root * known.solve(seen.transpose() * rows.values / noise);
+  solution.root = known.matrixL().solve(root.transpose()).transpose();
+  return solution;
+}
+
+/// The sum of squared position errors of poses left out in turn, m^2, all else being as it is.
+double left_out_square(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
+  Eigen::MatrixXd believed = covariance;
+  believed.diagonal().array() += 1e-20;
+  const Eigen::MatrixXd along = rows.columns * believed;
+  Eigen::MatrixXd all = along * rows.columns.transpose();
+  all.diagonal().array() += noise;
+  const Eigen::MatrixXd inverse = all.llt().solve(Eigen::MatrixXd::Identity(all.rows(), all.cols()));
+  const Eigen::VectorXd whitened = inverse * rows.values;
+  double sum = 0.0;
+  for (std::size_t pose = 0; pose < rows.field.poses.size(); ++pose) {
+    const Eigen::Index first = rows.field.first_row[pose], count = rows.field.rows_of_pose(pose);
+    const Eigen::VectorXd error = inverse.block(first, first, count, count).llt().solve(whitened.segment(first, count));
+    sum += error.squaredNorm();
+  }
+  return sum;
+}
+
+RowScales first_scales(const DataSet& data, const CorrectedRobot& placed, const std::vector<std::size_t>& poses,
+                       const std::optional<PredictionInterval>& interval) {
+  constexpr double kSmallest = 1e-8, kMountedOtherwise_rad = 0.1;
+  const auto observations = observe(data, poses, placed);
+  RowScales scales = median_deviations(data, placed, observations);
+  if (root_mean_squares(data, placed, observations)[kOrientation] > kMountedOtherwise_rad) scales[kOrientation] = 0.0;
+  if (interval && scales[kPosition] > 0.0) {
+    const double stated = std::max(kSmallest, std::hypot(interval->noise_m, interval->model_error_m));
+    const double share = std::min(1.0, stated / scales[kPosition]);
+    for (double& scale : scales) scale *= share;
+  }
+  return scales;
+}
+
+std::vector<ParameterEstimate> estimates_of(const StoredKnowledge& knowledge, const CorrectedRobot& robot,
+                                            const DataSet& data, const Eigen::MatrixXd& root) {
+  const CorrectedRobot nominal = nominal_robot(data);
+  std::vector<ParameterEstimate> estimates;
+  for (std::size_t i = 0; i < knowledge.ids().size(); ++i) {
+    const ParameterId& id = knowledge.ids()[i];
+    if (id.kind == ParameterId::Kind::effect) continue;
+    estimates.push_back(
+        {id, parameter_value(nominal, id), parameter_value(robot, id), root.row(static_cast<Eigen::Index>(i)).norm()});
+  }
+  return estimates;
+}
+
+void set_errors_of_effects(const StoredKnowledge& knowledge, const Eigen::MatrixXd& root, CorrectedRobot& robot) {
+  for (std::size_t i = 0; i < knowledge.ids().size(); ++i) {
+    const ParameterId& id = knowledge.ids()[i];
+    if (id.kind != ParameterId::Kind::effect) continue;
+    Effect& effect = robot.effects[static_cast<std::size_t>(id.index)];
+    effect.standard_errors.resize(effect.values.size(), 0.0);
+    effect.standard_errors[static_cast<std::size_t>(id.coefficient)] = root.row(static_cast<Eigen::Index>(i)).norm();
+  }
+}
+
+/// The posterior in the model file's form: waves that are as good as known are left out of it.
+Posterior posterior_of_update(const StoredKnowledge& knowledge, const Eigen::MatrixXd& root) {
+  constexpr double kKnown_rad = 4e-6;
+  Posterior posterior{knowledge.ids(), {}, {}};
+  std::vector<Eigen::Index> kept(knowledge.ids().size());
+  std::iota(kept.begin(), kept.end(), Eigen::Index{0});
+  const SmoothCorrections& waves = knowledge.ripples();
+  for (std::size_t i = 0; i < waves.terms.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(knowledge.ids().size() + i);
+    if (root.row(row).norm() < kKnown_rad) continue;
+    const auto joint = static_cast<std::size_t>(waves.terms[i].joint);
+    posterior.terms.push_back(
+        {waves.terms[i].joint, {waves.terms[i].formula, waves.branches[joint], waves.ranges[joint]}});
+    kept.push_back(row);
+  }
+  const Eigen::MatrixXd rows = root(kept, Eigen::all);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  const Eigen::MatrixXd upper = qr.matrixQR().topRows(rows.rows()).triangularView<Eigen::Upper>();
+  posterior.factor = upper.transpose();
+  return posterior;
+}
+
+void say_changes(const Sizes& sizes, Update& update) {
+  constexpr double kMuch = 3.0;
+  for (std::size_t part = 0; part < kBeliefParts; ++part) {
+    const double times = std::sqrt(sizes.factors[part]);
+    if (times > kMuch)
+      update.sentences.push_back(fmt::format("The new poses show {} to have changed {:.1f} times as much as is usual.",
+                                             to_string(static_cast<BeliefPart>(part)), times));
+  }
+}
+
+}  // namespace
+
+Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
+               const std::vector<std::size_t>& poses, const DeclaredModel& declared, const AssumedDrift& drift) {
+  constexpr int kSteps = 3;
+  constexpr Eigen::Index kMostRows = 480, kMostLeftOut = 900;
+  const StoredKnowledge knowledge(model, placed, data, poses, declared, drift);
+  RowScales scales = first_scales(data, placed, poses, model.interval);
+  Update update;
+  Solution solution{Eigen::VectorXd::Zero(knowledge.numbers()), {}};
+  Sizes sizes;
+  Eigen::MatrixXd covariance;
+  for (int step = 0; step < kSteps; ++step) {
+    const NewRows rows = rows_about(knowledge, data, poses, scales, solution.change);
+    sizes = likeliest_sizes(RowCovariance(knowledge, rows, kMostRows));
+    covariance = knowledge.covariance(sizes.factors);
+    if (step + 1 == kSteps && rows.columns.rows() <= kMostLeftOut) {
+      const double all = left_out_square(covariance, rows, sizes.noise);
+      const double few = left_out_square(knowledge.covariance({1e-8, 1e-8, 1e-8, 1e-8}), rows, sizes.noise);
+      update.base_and_tool_only = few < all;
+      if (update.base_and_tool_only) covariance = knowledge.covariance({1e-8, 1e-8, 1e-8, 1e-8});
+    }
+    solution = solve(covariance, rows, sizes.noise);
+    for (double& scale : scales) scale *= std::sqrt(sizes.noise);
+  }
+  update.robot = knowledge.changed(solution.change);
+  set_errors_of_effects(knowledge, solution.root, update.robot);
+  update.fitted = {posterior_of_update(knowledge, solution.root), scales};
+  update.estimates = estimates_of(knowledge, update.robot, data, solution.root);
+  update.factors = sizes.factors;
+  update.noise_factor = sizes.noise;
+  say_changes(sizes, update);
+  if (update.base_and_tool_only)
+    update.sentences.emplace_back(
+        "Base and tool alone explain the new poses best: nothing else of the old model was changed.");
+  return update;
+}
+
+}  // namespace demecal::inline updating

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "diagnosis/loop.hpp"
+#include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
+#include "prediction/measurement.hpp"
+#include "updating/update.hpp"
+#include "workflows/workflows.hpp"
+
+namespace demecal::inline workflows {
+namespace {
+
+/// Base and tool of the old model, found in the new data.
+Fit placed_in(const DataSet& data, const std::vector<std::size_t>& poses, const CorrectedRobot& model) {
+  Fit fit = fit_registration(data, poses, {.registration = true, .tool = true}, model);
+  if (fit.status == FitStatus::converged) return fit;
+  throw InputError(
+      {data.file, 0}, std::to_string(poses.size()),
+      "calibration poses do not tell where base and tool are (" + fit.sentence + "): measure more of them");
+}
+
+std::string why_without(const JointCorrection& correction) {
+  return correction.is_neutral() ? "the new poses show none" : "";
+}
+
+Calibration calibration_of_update(const DataSet& data, const Preparation& preparation, const Update& update) {
+  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  Calibration result{.robot = update.robot, .estimates = update.estimates, .joints = {}, .unseen = {}};
+  result.joints = joint_summaries(preparation.targets, {}, result.robot);
+  for (JointSummary& summary : result.joints)
+    if (!summary.kept) summary.note = why_without(result.robot.corrections[static_cast<std::size_t>(summary.joint)]);
+  result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
+  result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);
+  return result;
+}
+
+/// The rms error on validation poses while they were unseen; nothing where there are too few to judge by.
+std::optional<double> unseen_rms_mm(const DataSet& data, const CorrectedRobot& robot) {
+  constexpr std::size_t kFewest = 20;
+  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+  if (validation.size() < kFewest) return std::nullopt;
+  return error_figures(robot, data, validation).rms_mm;
+}
+
+double unseen_rms_mm(const DataSet& data, const CalibrateResult& result) {
+  if (result.calibration.unseen) return result.calibration.unseen->after_mm;
+  return error_figures(result.model.robot, data, poses_of(data, PoseSet::validation)).rms_mm;
+}
+
+}  // namespace
+
+CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& prior,
+                             const RoundWatcher& watch) {
+  constexpr std::size_t kManyPoses = 150;
+  const auto begin = std::chrono::steady_clock::now();
+  require_same_nominal_arm(prior, data);
+  const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
+  CorrectedRobot old = prior.robot;
+  old.described = data.robot;
+  CalibrateResult result;
+  Preparation& preparation = result.preparation;
+  preparation.nominal = nominal_robot(data);
+  preparation.registered = placed_in(data, calibration, preparation.nominal);
+  preparation.declared = placed_in(data, calibration, old);
+  result.before = preparation.declared.robot;
+  Update update = updated(prior, result.before, data, calibration, job.declared);
+  const std::optional<double> unseen = unseen_rms_mm(data, update.robot);
+  const PredictionInterval interval = prediction_interval(data, update.fitted, update.robot);
+  const std::vector<std::size_t> last = poses_of_last_fit(data);
+  std::optional<UnseenValidation> seen_last;
+  if (last != calibration) {
+    const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+    seen_last = UnseenValidation{error_figures(result.before, data, validation).rms_mm,
+                                 error_figures(update.robot, data, validation).rms_mm, interval};
+    update = updated(prior, result.before, data, last, job.declared);
+  }
+  result.calibration = calibration_of_update(data, preparation, update);
+  result.calibration.unseen = seen_last;
+  result.model = {.job = job.name,
+                  .nominal = data.robot,
+                  .method = job.method,
+                  .declared = job.declared,
+                  .robot = update.robot,
+                  .estimates = update.estimates,
+                  .joints = result.calibration.joints,
+                  .posterior = update.fitted.posterior,
+                  .interval = interval,
+                  .measured = measured_ranges(data, result.calibration),
+                  .data_name = data.name,
+                  .data_sha256 = data.sha256,
+                  .seed = job.seed,
+                  .version = DEMECAL_VERSION};
+  result.remarks = update.sentences;
+  if (calibration.size() >= kManyPoses && unseen && job.closed_loop.max_effects > 0) {
+    Diagnosis anew = diagnose(data, job, std::nullopt, watch);
+    if (unseen_rms_mm(data, anew.result) < *unseen) {
+      result = std::move(anew.result);
+      result.remarks.emplace_back(
+          "So many poses tell more by themselves than together with the old model: it was not used.");
+    }
+  }
+  result.facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace demecal::inline workflows

@@ -1,0 +1,260 @@
+// What planned poses are worth beside random ones, whether predictions come true, and whether changes are named.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "config/input_files.hpp"
+#include "planning/candidates.hpp"
+#include "planning/plan.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
+#include "updating/change.hpp"
+#include "workflows/workflows.hpp"
+
+namespace {
+
+using namespace demecal;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  int seeds = 5, cases = 20;
+  std::vector<int> poses{15, 30};
+  bool json = false;
+};
+
+constexpr double kNoise_m = 3e-5;
+
+Robot seven_joints() {
+  Robot robot;
+  robot.name = "seven joints";
+  const auto link = [&](double alpha_deg, double d_m) {
+    Joint joint;
+    joint.alpha_rad = alpha_deg * M_PI / 180.0;
+    joint.d_m = d_m;
+    joint.lower = -2.6;
+    joint.upper = 2.6;
+    robot.chain.joints.push_back(joint);
+  };
+  link(-90, 0.34);
+  link(90, 0.0);
+  link(90, 0.4);
+  link(-90, 0.0);
+  link(-90, 0.4);
+  link(90, 0.0);
+  link(0, 0.126);
+  robot.chain.tool_m = {0.06, 0.02, 0.1};
+  return robot;
+}
+
+std::vector<Robot> arms() {
+  std::vector<Robot> all;
+  for (const char* name : {"puma761", "ur10", "elbow-offset"})
+    all.push_back(load_robot(std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/" + name + ".yaml"));
+  all.push_back(seven_joints());
+  for (Robot& robot : all)
+    if (robot.chain.tool_m.head<2>().norm() < 0.02) robot.chain.tool_m += Eigen::Vector3d(0.08, 0.03, 0.0);
+  return all;
+}
+
+const DeclaredModel kLinks{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
+
+/// The arm as it really is: a millimetre and a milliradian of error in every link.
+CorrectedRobot truth_of(const Robot& robot, RandomStream& random) {
+  DataSet empty;
+  empty.robot = robot;
+  CorrectedRobot truth = nominal_robot(empty);
+  for (Joint& joint : truth.chain.joints) {
+    joint.theta_rad += 1e-3 * random.normal();
+    joint.alpha_rad += 1e-3 * random.normal();
+    joint.a_m += 1e-3 * random.normal();
+    joint.d_m += 1e-3 * random.normal();
+  }
+  truth.tools.at("").translation() += 1e-3 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  truth.sensor_from_base.translation() = Eigen::Vector3d(2.0, 1.0, 0.5);
+  truth.sensor_from_base.linear() = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return truth;
+}
+
+DataSet measured(const Robot& robot, const CorrectedRobot& truth, const std::vector<PlannedPose>& poses,
+                 RandomStream& random) {
+  DataSet data;
+  data.robot = robot;
+  data.name = data.file = "bench";
+  for (const PlannedPose& pose : poses) {
+    MeasuredPose one;
+    one.joints = pose.joints;
+    one.approach = pose.approach;
+    one.pose_id = std::to_string(data.poses.size());
+    Stop stop(pose.joints);
+    stop.approach = pose.approach;
+    one.position_m = truth.predict(stop, "").translation() +
+                     kNoise_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    data.poses.push_back(std::move(one));
+  }
+  return data;
+}
+
+double true_error_m(const CorrectedRobot& model, const CorrectedRobot& truth, const std::vector<PlannedPose>& places) {
+  double sum = 0.0;
+  for (const PlannedPose& place : places)
+    sum +=
+        (model.predict(place.joints, "").translation() - truth.predict(place.joints, "").translation()).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(places.size()));
+}
+
+CorrectedRobot fitted(const DataSet& data) {
+  std::vector<std::size_t> all = poses_of(data, PoseSet::calibration);
+  return fit_declared(data, all, kLinks, nominal_robot(data)).robot;
+}
+
+std::vector<PlannedPose> calibration_poses(const Plan& plan) {
+  std::vector<PlannedPose> poses;
+  for (const PlannedStop& stop : plan.stops)
+    if (stop.set == PoseSet::calibration) poses.push_back(stop.pose);
+  return poses;
+}
+
+PlanRequest request_for(const Robot& robot, int poses, int seed) {
+  PlanRequest request;
+  request.robot = robot;
+  request.cell = assumed_cell(robot);
+  request.cell->noise_m = kNoise_m;
+  request.poses = poses;
+  request.seed = static_cast<std::uint64_t>(seed);
+  return request;
+}
+
+void bench_plans(const Robot& robot, int poses, const Options& options) {
+  std::vector<double> ratio, prediction, seconds;
+  for (int seed = 1; seed <= options.seeds; ++seed) {
+    RandomStream random{777, static_cast<std::uint64_t>(seed)};
+    const CorrectedRobot truth = truth_of(robot, random);
+    const PlanRequest request = request_for(robot, poses, seed);
+    const auto begin = std::chrono::steady_clock::now();
+    const Plan plan = make_plan(request);
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    const FeasibleSpace space(robot, *request.cell);
+    const auto places = draw_poses(space, 200, RandomStream{778, static_cast<std::uint64_t>(seed)}).poses;
+    const auto twice =
+        draw_poses(space, 2 * static_cast<std::size_t>(poses), RandomStream{779, static_cast<std::uint64_t>(seed)})
+            .poses;
+    const double planned_m =
+        true_error_m(fitted(measured(robot, truth, calibration_poses(plan), random)), truth, places);
+    const double random_m = true_error_m(fitted(measured(robot, truth, twice, random)), truth, places);
+    ratio.push_back(planned_m / random_m);
+    prediction.push_back(planned_m / plan.predicted.rms_m);
+  }
+  if (options.json) {
+    fmt::print("{}\n", Json{{"workload", "plan"},
+                            {"robot", robot.name},
+                            {"poses", poses},
+                            {"seeds", options.seeds},
+                            {"error_over_twice_random_median", median(ratio)},
+                            {"found_over_predicted_median", median(prediction)},
+                            {"seconds_median", median(seconds)}}
+                           .dump());
+  } else {
+    fmt::print("{:<14} {:>5} {:>28.3f} {:>22.3f} {:>9.2f}\n", robot.name, poses, median(ratio), median(prediction),
+               median(seconds));
+  }
+}
+
+CalibratedModel model_of(const Robot& robot, const CorrectedRobot& truth, int seed) {
+  RandomStream random{780, static_cast<std::uint64_t>(seed)};
+  PlanRequest request = request_for(robot, 60, seed);
+  request.validation = 30;
+  const Plan plan = make_plan(request);
+  std::vector<PlannedPose> poses;
+  std::vector<PoseSet> sets;
+  for (const PlannedStop& stop : plan.stops) {
+    poses.push_back(stop.pose);
+    sets.push_back(stop.set);
+  }
+  DataSet data = measured(robot, truth, poses, random);
+  for (std::size_t i = 0; i < sets.size(); ++i) data.poses[i].set = sets[i];
+  Job job;
+  job.name = "bench";
+  job.method = Method::diagnose;
+  job.declared = kLinks;
+  job.closed_loop.max_effects = 0;
+  return diagnose(data, job, std::nullopt, {}).result.model;
+}
+
+enum class Change { none, offset, tool, base };
+
+/// Whether the answer is right.
+bool answered(const ChangeReport& report, Change change, int joint) {
+  const auto is = [&](bool DeclaredModel::*flag, const ChangeCause& cause) {
+    return declared_flag(cause.effect.kind) == flag;
+  };
+  if (change == Change::none) return report.verdict == ChangeVerdict::unchanged;
+  if (report.found.empty()) return false;
+  const ChangeCause& first = report.found.front();
+  if (change == Change::base) return is(&DeclaredModel::registration, first);
+  if (change == Change::tool) return is(&DeclaredModel::tool, first);
+  return is(&DeclaredModel::joint_offset, first) && first.effect.joint == joint;
+}
+
+void bench_changes(const Robot& robot, const Options& options) {
+  constexpr int kPoses = 12;
+  RandomStream random{781};
+  const CorrectedRobot truth = truth_of(robot, random);
+  const CalibratedModel model = model_of(robot, truth, 1);
+  const Plan plan = make_plan(request_for(robot, kPoses, 3));
+  for (const Change change : {Change::none, Change::offset, Change::tool, Change::base}) {
+    int right = 0, powerless = 0;
+    for (int i = 0; i < options.cases; ++i) {
+      CorrectedRobot now = truth;
+      const int joint =
+          1 + i % (robot.chain.size() - 2);  // the first cannot be told from the base, the last from the tool
+      const Eigen::Vector3d way = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+      if (change == Change::offset) now.chain.joints[static_cast<std::size_t>(joint)].theta_rad += 3e-4;
+      if (change == Change::tool) now.tools.at("").translation() += 2e-4 * way;
+      if (change == Change::base) now.sensor_from_base.translation() += 1e-3 * way;
+      const ChangeReport report = find_change(model, measured(robot, now, calibration_poses(plan), random));
+      if (answered(report, change, joint)) ++right;
+      for (const ChangeCause& cause : report.tried)
+        if (change == Change::offset && cause.effect.joint == joint && cause.power < 0.9 &&
+            declared_flag(cause.effect.kind) == &DeclaredModel::joint_offset)
+          ++powerless;
+    }
+    constexpr const char* kNames[] = {"none", "joint_offset_0.3_mrad", "tool_0.2_mm", "base_1_mm"};
+    const char* name = kNames[static_cast<int>(change)];
+    if (options.json) {
+      fmt::print("{}\n", Json{{"workload", "check"},
+                              {"robot", robot.name},
+                              {"change", name},
+                              {"poses", kPoses},
+                              {"cases", options.cases},
+                              {"right", right},
+                              {"said_to_lack_power", powerless}}
+                             .dump());
+    } else {
+      fmt::print("{:<14} {:<22} {:>4} of {:>4} answered rightly ({} said to lack power)\n", robot.name, name, right,
+                 options.cases, powerless);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"planned poses beside random ones, predictions beside what is found, and changes named"};
+  app.add_option("--seeds", options.seeds, "of truth, noise and plan")->capture_default_str();
+  app.add_option("--cases", options.cases, "of each change")->capture_default_str();
+  app.add_option("--poses", options.poses, "numbers of poses, LIST")->delimiter(',')->capture_default_str();
+  app.add_flag("--json", options.json, "one JSON object a line");
+  CLI11_PARSE(app, argc, argv);
+  if (!options.json)
+    fmt::print("{:<14} {:>5} {:>28} {:>22} {:>9}\n", "robot", "poses", "error / of twice as random",
+               "found / predicted", "seconds");
+  for (const Robot& robot : arms())
+    for (const int poses : options.poses) bench_plans(robot, poses, options);
+  for (const Robot& robot : arms()) bench_changes(robot, options);
+  return 0;
+}

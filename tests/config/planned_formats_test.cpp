@@ -1,0 +1,89 @@
+// docs/FORMATS.md names the keys of cell files, of plan.json and of what `check --json` prints; a plan's files are read
+// back.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "config/cell_file.hpp"
+#include "config/data_set_file.hpp"
+#include "config/input_files.hpp"
+#include "config/job_file.hpp"
+#include "formats_document.hpp"
+#include "report/change_report.hpp"
+#include "report/plan_report.hpp"
+#include "temporary_folder.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::set<std::string> all_paths(const Json& json, const std::string& path = "") {
+  std::set<std::string> paths;
+  if (json.is_array())
+    for (const Json& item : json) paths.merge(all_paths(item, path + "[]"));
+  if (!json.is_object()) return paths;
+  for (const auto& [key, value] : json.items()) {
+    const std::string child = (path.empty() ? "" : path + '.') + key;
+    paths.insert(child);
+    paths.merge(all_paths(value, child));
+  }
+  return paths;
+}
+
+PlanRequest small_request() {
+  PlanRequest request;
+  request.robot = load_robot(std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/puma761.yaml");
+  request.poses = 14;
+  request.validation = 3;
+  request.accept = 3;
+  for (const EffectLaw* law : catalogue())
+    if (law->prerequisite() == Circumstance::approach && request.detect.empty())
+      request.detect.emplace_back(law->kind());
+  return request;
+}
+
+TEST(PlannedFormats, PlanHasTheKeysOfThePage) {
+  const PlanRequest request = small_request();
+  expect_documented(formats_section("plan.json"), all_paths(Json::parse(to_json(make_plan(request), request, {"a"}))));
+}
+
+TEST(PlannedFormats, CheckHasTheKeysOfThePage) {
+  ChangeReport change;
+  ChangeCause cause;
+  for (const EffectLaw* law : catalogue())
+    if (law->subject() == Subject::tool) cause.effect = law->proposals(small_request().robot, {}).front();
+  cause.effect.values.assign(law_of(cause.effect).coefficients(cause.effect, small_request().robot).size(), 0.0);
+  cause.unit = "rad";
+  change.found = change.tried = {cause};
+  DataSet data;
+  data.robot = small_request().robot;
+  expect_documented(formats_section("check --json"), all_paths(Json::parse(to_json(change, data, "model.yaml"))));
+}
+
+TEST(PlannedFormats, FilesOfAPlanAreReadBackOnceWhatIsMeasuredIsThere) {
+  const PlanRequest request = small_request();
+  const Plan plan = make_plan(request);
+  const TemporaryFolder folder;
+  std::istringstream poses(planned_poses_csv(plan, request));
+  std::string measured, line;
+  for (bool heading = true; std::getline(poses, line); heading = false)
+    measured += line + (heading ? ",x_mm,y_mm,z_mm\n" : ",1,2,3\n");
+  folder.write("poses.csv", measured);
+  folder.write("robot.yaml", "demecal_robot: 1\n" + robot_text(request.robot));
+  folder.write("DATASET.yaml", planned_data_set_text(plan, request));
+  folder.write("JOB.yaml", planned_job_text(request));
+  const DataSet data = load_data_set(folder.path() / "DATASET.yaml");
+  ASSERT_EQ(data.poses.size(), plan.stops.size());
+  for (std::size_t i = 0; i < data.poses.size(); ++i) {
+    EXPECT_EQ(data.poses[i].set, plan.stops[i].set);
+    EXPECT_NEAR((data.poses[i].joints - plan.stops[i].pose.joints).norm(), 0.0, 1e-9);
+    EXPECT_EQ(*data.poses[i].approach, plan.stops[i].pose.approach);
+  }
+  EXPECT_EQ(poses_of(data, PoseSet::calibration).size(), 14u);
+  EXPECT_EQ(load_job(folder.path() / "JOB.yaml").declared, request.declared);
+}
+
+}  // namespace
+}  // namespace demecal

@@ -1,0 +1,161 @@
+// A plan keeps to what is feasible, is a function of its request, and its predictions come true.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "errors/input_error.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/random_arm.hpp"
+#include "planning/plan.hpp"
+
+namespace demecal {
+namespace {
+
+Robot elbow() {
+  Robot robot;
+  robot.name = "elbow";
+  robot.chain = wrist_arm();
+  robot.chain.joints.front().d_m = 0.5;
+  robot.chain.tool_m = {0.1, 0.02, 0.08};
+  for (Joint& joint : robot.chain.joints) {
+    joint.lower = -2.5;
+    joint.upper = 2.5;
+  }
+  return robot;
+}
+
+PlanRequest request_of(int poses, std::uint64_t seed = 1) {
+  PlanRequest request;
+  request.robot = elbow();
+  request.poses = poses;
+  request.validation = 4;
+  request.accept = 6;
+  request.seed = seed;
+  return request;
+}
+
+TEST(Plan, HasThePosesAskedForAndAllAreFeasible) {
+  const PlanRequest request = request_of(18);
+  const Plan plan = make_plan(request);
+  EXPECT_THAT(plan.counts, testing::ElementsAre(18u, 4u, 6u));
+  const FeasibleSpace space(request.robot, assumed_cell(request.robot));
+  for (const PlannedStop& stop : plan.stops) {
+    EXPECT_EQ(space.obstruction(stop.pose.joints), Obstruction::none) << stop.id;
+    EXPECT_EQ(space.in_passing(approach_stop(request.robot.chain, stop.pose)), Obstruction::none) << stop.id;
+    for (const double sign : stop.pose.approach) EXPECT_EQ(std::abs(sign), 1.0);
+  }
+  int measured = 0;
+  for (const WayStop& stop : plan.way.stops) measured += stop.pose >= 0 ? 1 : 0;
+  EXPECT_EQ(measured, 28);
+}
+
+TEST(Plan, KeepsTheToolInItsBoxAndOnTheRightSideOfEveryHalfSpace) {
+  PlanRequest request = request_of(12);
+  request.cell = assumed_cell(request.robot);
+  request.cell->tool_box = Eigen::AlignedBox3d(Eigen::Vector3d(-0.2, -0.9, 0.1), Eigen::Vector3d(0.9, 0.9, 1.2));
+  request.cell->half_spaces.push_back({Eigen::Vector3d::UnitX(), 0.1, false});
+  for (const PlannedStop& stop : make_plan(request).stops) {
+    const Eigen::Vector3d tool_m = tool_position(request.robot.chain, stop.pose.joints);
+    EXPECT_TRUE(request.cell->tool_box->contains(tool_m));
+    EXPECT_GE(tool_m.x(), 0.1);
+  }
+}
+
+TEST(Plan, KeepsTheTargetInTheInstrumentsSight) {
+  PlanRequest request = request_of(12);
+  request.cell = assumed_cell(request.robot);
+  Instrument instrument;
+  instrument.position_m = {3.0, 0.5, 1.0};
+  instrument.farthest_m = 3.2;
+  instrument.target_direction = Eigen::Vector3d::UnitX();
+  instrument.half_angle_rad = 0.7;
+  request.cell->instrument = instrument;
+  for (const PlannedStop& stop : make_plan(request).stops) {
+    const Eigen::Isometry3d flange = forward(request.robot.chain, stop.pose.joints);
+    const Eigen::Vector3d view = instrument.position_m - flange * request.robot.chain.tool_m;
+    EXPECT_LE(view.norm(), 3.2);
+    EXPECT_GE(view.normalized().dot(flange.linear().col(0)), std::cos(0.7) - 1e-9);
+  }
+}
+
+TEST(Plan, IsAFunctionOfItsRequest) {
+  const Plan one = make_plan(request_of(14)), again = make_plan(request_of(14)), other = make_plan(request_of(14, 2));
+  ASSERT_EQ(one.stops.size(), again.stops.size());
+  bool differs = false;
+  for (std::size_t i = 0; i < one.stops.size(); ++i) {
+    EXPECT_EQ(one.stops[i].pose.joints, again.stops[i].pose.joints);
+    differs = differs || one.stops[i].pose.joints != other.stops[i].pose.joints;
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(Plan, BeatsAsManyRandomPosesAndReachesTheAccuracyAskedFor) {
+  const Plan plan = make_plan(request_of(20));
+  EXPECT_LT(plan.predicted.rms_m, 0.85 * plan.random_rms_m);
+  PlanRequest request = request_of(20);
+  request.poses.reset();
+  request.accuracy_m = 0.8 * plan.predicted.rms_m;
+  const Plan more = make_plan(request);
+  EXPECT_LE(more.predicted.rms_m, *request.accuracy_m);
+  EXPECT_GT(more.counts[0], 20u);
+  request.accuracy_m = 1e-7;
+  EXPECT_THROW(make_plan(request), InputError);
+}
+
+TEST(Plan, SaysWhatItsPosesCannotTell) {
+  PlanRequest request = request_of(16);
+  request.robot.chain.tool_m = {0.0, 0.0, 0.1};  // on the axis of the last joint
+  const Plan plan = make_plan(request);
+  EXPECT_THAT(plan.warnings, testing::Contains(testing::HasSubstr("off the axis of joint 6")));
+  const auto last = std::ranges::find_if(plan.numbers, [](const PredictedNumber& number) {
+    return number.id.kind == ParameterId::Kind::link && number.id.index == 5 && number.id.link == LinkParameter::theta;
+  });
+  ASSERT_NE(last, plan.numbers.end());
+  EXPECT_FALSE(last->identifiable);
+}
+
+TEST(Plan, RefusesACellWithoutRoom) {
+  PlanRequest request = request_of(12);
+  request.cell = assumed_cell(request.robot);
+  request.cell->tool_box = Eigen::AlignedBox3d(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6));
+  EXPECT_THROW(make_plan(request), InputError);
+}
+
+/// The prediction is of the error that a fit to simulated measurements leaves, over many simulated arms.
+TEST(Plan, PredictsTheErrorThatFitsLeave) {
+  PlanRequest request = request_of(24, 5);
+  request.accept = 60;
+  request.cell = assumed_cell(request.robot);
+  request.cell->noise_m = 4e-5;
+  const Plan plan = make_plan(request);
+  double squares = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    RandomStream random{9100, seed};
+    DataSet data;
+    data.robot = request.robot;
+    CorrectedRobot truth = nominal_robot(data);
+    for (Joint& joint : truth.chain.joints) {
+      joint.theta_rad += 1e-3 * random.normal();
+      joint.alpha_rad += 1e-3 * random.normal();
+      joint.a_m += 1e-3 * random.normal();
+    }
+    for (const PlannedStop& stop : plan.stops) {
+      MeasuredPose pose;
+      pose.joints = stop.pose.joints;
+      pose.set = stop.set;
+      pose.position_m = truth.predict(stop.pose.joints, "").translation() +
+                        4e-5 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      data.poses.push_back(pose);
+    }
+    const Fit fit = fit_declared(data, poses_of(data, PoseSet::calibration), request.declared, nominal_robot(data));
+    for (const std::size_t i : poses_of(data, PoseSet::accept)) {
+      const JointVector& joints = data.poses[i].joints;
+      squares += (fit.robot.predict(joints, "").translation() - truth.predict(joints, "").translation()).squaredNorm();
+      ++count;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(squares / count) / plan.predicted.rms_m, 1.0, 0.25);
+}
+
+}  // namespace
+}  // namespace demecal
