@@ -25,9 +25,9 @@ struct NewRows {
 };
 
 NewRows rows_about(const StoredKnowledge& knowledge, const DataSet& data, const std::vector<std::size_t>& poses,
-                   const RowScales& scales, const Eigen::VectorXd& change) {
+                   const RowScales& scales, const Eigen::VectorXd& change, bool robust) {
   const ParameterSpace space(knowledge.changed(change), knowledge.ids());
-  NewRows rows{residual_field(data, poses, space, scales, true), {}, {}};
+  NewRows rows{residual_field(data, poses, space, scales, robust), {}, {}};
   rows.columns = knowledge.columns(rows.field);
   rows.values = rows.field.residual + rows.columns * change;
   return rows;
@@ -85,11 +85,12 @@ struct Sizes {
 
 /// The sizes that make the new rows likeliest, each believed to be one within a factor of some ten.
 Sizes likeliest_sizes(const RowCovariance& rows) {
-  constexpr double kBelief = 1.4;  ///< of the logarithm of a variance's factor
+  constexpr double kBelief = 2.0, kNoiseBelief = 0.7;  ///< of the logarithm of a variance's factor
   constexpr int kSweeps = 4;
   const auto cost = [&](const Sizes& sizes) {
     double sum = rows.minus_twice_log(sizes.factors, sizes.noise);
-    for (const double factor : sizes.factors) sum += std::pow(std::log(factor) / (2.0 * kBelief), 2.0);
+    for (const double factor : sizes.factors) sum += std::pow(std::log(factor) / kBelief, 2.0);
+    sum += std::pow(std::log(sizes.noise) / kNoiseBelief, 2.0);
     return sum;
   };
   Sizes best;
@@ -135,22 +136,36 @@ Solution solve(const Eigen::MatrixXd& covariance, const NewRows& rows, double no
   return solution;
 }
 
-/// The sum of squared position errors of poses left out in turn, m^2, all else being as it is.
-double left_out_square(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
-  Eigen::MatrixXd believed = covariance;
-  believed.diagonal().array() += 1e-20;
-  const Eigen::MatrixXd along = rows.columns * believed;
-  Eigen::MatrixXd all = along * rows.columns.transpose();
+/// What all other poses predict of each, all sizes being as they are.
+struct LeftOut {
+  double squares = 0.0;          ///< of the rows' errors
+  std::vector<double> standard;  ///< root mean square per pose, in predicted deviations
+};
+
+LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
+  Eigen::MatrixXd all = rows.columns * covariance * rows.columns.transpose();
   all.diagonal().array() += noise;
   const Eigen::MatrixXd inverse = all.llt().solve(Eigen::MatrixXd::Identity(all.rows(), all.cols()));
   const Eigen::VectorXd whitened = inverse * rows.values;
-  double sum = 0.0;
+  LeftOut result;
   for (std::size_t pose = 0; pose < rows.field.poses.size(); ++pose) {
     const Eigen::Index first = rows.field.first_row[pose], count = rows.field.rows_of_pose(pose);
     const Eigen::VectorXd error = inverse.block(first, first, count, count).llt().solve(whitened.segment(first, count));
-    sum += error.squaredNorm();
+    result.squares += error.squaredNorm();
+    const double square = error.dot(whitened.segment(first, count)) / static_cast<double>(count);
+    result.standard.push_back(std::sqrt(std::max(0.0, square)));
   }
-  return sum;
+  return result;
+}
+
+/// Without poses that the others predict far worse than usual.
+std::vector<std::size_t> without_gross(const LeftOut& found, const NewRows& rows) {
+  constexpr double kGross = 4.0;
+  const double most = kGross * std::max(1.0, median(found.standard));
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < found.standard.size(); ++i)
+    if (found.standard[i] <= most) kept.push_back(rows.field.poses[i]);
+  return kept;
 }
 
 RowScales first_scales(const DataSet& data, const CorrectedRobot& placed, const std::vector<std::size_t>& poses,
@@ -227,26 +242,31 @@ void say_changes(const Sizes& sizes, Update& update) {
 Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
                const std::vector<std::size_t>& poses, const DeclaredModel& declared, const AssumedDrift& drift) {
   constexpr int kSteps = 3;
-  constexpr Eigen::Index kMostRows = 480, kMostLeftOut = 900;
+  constexpr Eigen::Index kMostRows = 480;
+  constexpr std::size_t kMostLeftOut = 150;  ///< poses
+  constexpr double kNothing = 1e-8;
   const StoredKnowledge knowledge(model, placed, data, poses, declared, drift);
   RowScales scales = first_scales(data, placed, poses, model.interval);
   Update update;
   Solution solution{Eigen::VectorXd::Zero(knowledge.numbers()), {}};
   Sizes sizes;
   Eigen::MatrixXd covariance;
+  std::vector<std::size_t> used = poses;
   for (int step = 0; step < kSteps; ++step) {
-    const NewRows rows = rows_about(knowledge, data, poses, scales, solution.change);
+    const bool many = used.size() > kMostLeftOut;
+    const NewRows rows = rows_about(knowledge, data, used, scales, solution.change, many && step > 0);
     sizes = likeliest_sizes(RowCovariance(knowledge, rows, kMostRows));
     covariance = knowledge.covariance(sizes.factors);
-    if (step + 1 == kSteps && rows.columns.rows() <= kMostLeftOut) {
-      const double all = left_out_square(covariance, rows, sizes.noise);
-      const double few = left_out_square(knowledge.covariance({1e-8, 1e-8, 1e-8, 1e-8}), rows, sizes.noise);
-      update.base_and_tool_only = few < all;
-      if (update.base_and_tool_only) covariance = knowledge.covariance({1e-8, 1e-8, 1e-8, 1e-8});
+    if (!many) {
+      const LeftOut all = left_out(covariance, rows, sizes.noise);
+      if (step == 0) used = without_gross(all, rows);
+      const Eigen::MatrixXd little = knowledge.covariance({kNothing, kNothing, kNothing, kNothing});
+      update.base_and_tool_only = left_out(little, rows, sizes.noise).squares < all.squares;
+      if (update.base_and_tool_only) covariance = little;
     }
     solution = solve(covariance, rows, sizes.noise);
-    for (double& scale : scales) scale *= std::sqrt(sizes.noise);
   }
+  for (double& scale : scales) scale *= std::sqrt(sizes.noise);
   update.robot = knowledge.changed(solution.change);
   set_errors_of_effects(knowledge, solution.root, update.robot);
   update.fitted = {posterior_of_update(knowledge, solution.root), scales};
