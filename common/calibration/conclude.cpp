@@ -9,13 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
+#include "calibration/chosen_together.hpp"
 #include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
+#include "fitness/fitness.hpp"
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/chain.hpp"
@@ -41,11 +44,12 @@ double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrectio
   return counted > 0 ? sum / static_cast<double>(counted) : 0.0;
 }
 
-std::string why_neutral(const Job& job, const Selection& selection, const DataSet& data, int joint) {
+std::string why_neutral(const Job& job, std::span<const JointCandidates> candidates, const DataSet& data, int joint) {
   if (!job.declared.joint_corrections) return "joint corrections are not declared";
   if (!is_revolute(data.robot.chain, joint)) return "a prismatic joint";
-  for (const JointChoice& choice : selection.choices) {
-    if (choice.joint == joint) return "no evolved correction earned its place on the validation poses";
+  for (const JointCandidates& candidate : candidates) {
+    if (static_cast<int>(candidate.training.joint) == joint)
+      return "no evolved correction earned its place on the validation poses";
   }
   return "the joint hardly moves over the calibration poses";
 }
@@ -53,12 +57,44 @@ std::string why_neutral(const Job& job, const Selection& selection, const DataSe
 /// The declared numbers fitted again with the corrections in place, where the selection poses agree.
 void refit(const DataSet& data, const Job& job, std::span<const std::size_t> selecting, const FitOptions& options,
            Calibration& result) {
+  if (!has_corrections(result.robot)) return;
   const Fit again = fit_declared(data, poses_of(data, PoseSet::calibration), job.declared, result.robot, options);
   if (again.status != FitStatus::converged) return;
   const double present_mm2 = performance_index_mm2(result.robot, data, selecting);
   if (performance_index_mm2(again.robot, data, selecting) > present_mm2) return;
   result.robot = again.robot;
   result.estimates = again.estimates;
+}
+
+/// Joints that learnt from the whole model's error have sizes that suit each other already.
+bool learnt_alone(std::span<const JointCandidates> candidates) {
+  return std::ranges::all_of(candidates,
+                             [](const JointCandidates& joint) { return joint.training.table.loss == Loss::absolute; });
+}
+
+/// What is chosen joint by joint as evolved and what is chosen and sized together compete on the selection poses, with
+/// the declared numbers fitted again.
+Calibration with_best_corrections(const DataSet& data, const Job& job, const Preparation& preparation,
+                                  std::span<const JointCandidates> candidates, const FitOptions& options) {
+  const CorrectedRobot& declared = preparation.declared.robot;
+  const std::vector<std::size_t> selecting = selection_poses(data, declared);
+  const std::vector<std::size_t> learning = without_gross_errors(data, PoseSet::calibration, declared);
+  const auto with = [&](const Selection& selection) {
+    Calibration calibration{.robot = with_shortened_corrections(selection.robot),
+                            .estimates = preparation.declared.estimates,
+                            .joints = {},
+                            .unseen = {}};
+    refit(data, job, selecting, options, calibration);
+    calibration.robot = without_negligible_corrections(data, std::move(calibration.robot));
+    return calibration;
+  };
+  Calibration result = with(select_corrections(data, learning, selecting, declared, candidates));
+  if (candidates.empty() || !learnt_alone(candidates)) return result;
+  Calibration together = with(choose_together(data, job.declared, learning, selecting,
+                                              loop_start(data, preparation.declared, declared), candidates));
+  const bool is_better =
+      performance_index_mm2(together.robot, data, selecting) < performance_index_mm2(result.robot, data, selecting);
+  return is_better ? together : result;
 }
 
 }  // namespace
@@ -111,21 +147,13 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   std::vector<JointCandidates> candidates = evolved;
   for (JointCandidates& joint : candidates) add_short_forms(joint, job.gp);
   const CorrectedRobot& declared = preparation.declared.robot;
-  const std::vector<std::size_t> selecting = selection_poses(data, declared);
-  const Selection selection = select_corrections(data, without_gross_errors(data, PoseSet::calibration, declared),
-                                                 selecting, declared, candidates);
-  Calibration result{.robot = with_shortened_corrections(selection.robot),
-                     .estimates = preparation.declared.estimates,
-                     .joints = {},
-                     .unseen = {}};
-  bool any = false;
-  for (const JointChoice& choice : selection.choices) any = any || choice.kept;
-  if (any) refit(data, job, selecting, options, result);
+  Calibration result = with_best_corrections(data, job, preparation, candidates, options);
+  const bool any = has_corrections(result.robot);
   const bool exact = preparation.target_options.kind == TargetKind::exact || !any;
   result.joints = joint_summaries(
       preparation.targets, exact ? preparation.targets : targets_about(data, preparation, result.robot), result.robot);
   for (JointSummary& summary : result.joints) {
-    if (!summary.kept) summary.note = why_neutral(job, selection, data, summary.joint);
+    if (!summary.kept) summary.note = why_neutral(job, candidates, data, summary.joint);
   }
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
   result.index_before_mm2 = performance_index_mm2(declared, data, fitted);

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "calibration/admissible.hpp"
 #include "calibration/training.hpp"
 #include "effects/arm_state.hpp"
 #include "evolution/model_archive.hpp"
@@ -29,32 +30,13 @@ struct CorrectionTrial {
   double sum = 0.0;
 };
 
-bool is_below(const JointCorrection& correction, double limit_rad) {
-  return stays_within(correction.formula(), correction.range_rad(), limit_rad);
-}
-
-/// A joint's candidates: those evolved, then those from elsewhere.
-std::vector<CorrectionTrial> trials_of(const JointCandidates& candidates) {
-  std::vector<CorrectionTrial> trials;
-  const double limit_rad = correction_limit_rad(candidates.training);
-  const auto add = [&](const JointCorrection& correction) {
-    if (is_below(correction, limit_rad)) trials.push_back({correction, {}, 0.0});
-  };
-  for (const Individual& individual : candidates.front) {
-    add(correction_from(candidates.training, individual.tree));
-  }
-  for (const Tree& tree : candidates.short_forms) add(correction_from(candidates.training, tree));
-  for (const JointCorrection& other : candidates.alternatives) {
-    if (!other.is_neutral()) add(other);
-  }
-  return trials;
-}
-
 std::vector<CorrectionTrial> evaluate_all(const PoseEvaluator& selecting, const CorrectedRobot& robot,
-                                          const std::vector<JointVector>& neutral, const JointCandidates& candidates) {
-  std::vector<CorrectionTrial> trials = trials_of(candidates);
-  for (CorrectionTrial& trial : trials) {
-    const auto joints = selecting.with(neutral, candidates.training.joint, trial.correction);
+                                          const std::vector<JointVector>& neutral, std::size_t joint,
+                                          const std::vector<JointCorrection>& admissible) {
+  std::vector<CorrectionTrial> trials;
+  for (const JointCorrection& correction : admissible) {
+    CorrectionTrial& trial = trials.emplace_back(CorrectionTrial{correction, {}, 0.0});
+    const auto joints = selecting.with(neutral, joint, trial.correction);
     trial.errors = selecting.squared_errors(robot, joints);
     trial.sum = sum(trial.errors);
   }
@@ -104,14 +86,14 @@ PairedDifference gain_of(const PoseEvaluator& evaluator, const CorrectedRobot& r
 }
 
 /// The correction this joint is best given while the others stand as they do in `robot`.
-JointCorrection choose(const PoseEvaluators& evaluators, CorrectedRobot robot, const JointCandidates& candidates,
-                       JointChoice& choice) {
-  const std::size_t joint = candidates.training.joint;
+JointCorrection choose(const PoseEvaluators& evaluators, CorrectedRobot robot, const JointTraining& training,
+                       const std::vector<JointCorrection>& admissible, JointChoice& choice) {
+  const std::size_t joint = training.joint;
   robot.corrections[joint] = JointCorrection{};
   const std::vector<JointVector> neutral = evaluators.selecting.corrected(robot);
-  const std::vector<CorrectionTrial> trials = evaluate_all(evaluators.selecting, robot, neutral, candidates);
+  const std::vector<CorrectionTrial> trials = evaluate_all(evaluators.selecting, robot, neutral, joint, admissible);
   // Formulas of distal learning depend on the other joints': each alone leaves too much error to outweigh its length.
-  const bool is_distal = candidates.training.table.loss == Loss::squared;
+  const bool is_distal = training.table.loss == Loss::squared;
   const CorrectionTrial* chosen =
       is_distal ? shortest_near_best(trials) : shortest_description(trials, evaluators.selecting.rows());
   choice.kept = false;
@@ -130,13 +112,15 @@ bool same(const JointCorrection& a, const JointCorrection& b) {
 }
 
 /// Sweeps over the joints from the corrections in `selection.robot` until nothing changes.
-Selection sweep(const PoseEvaluators& evaluators, Selection selection, std::span<const JointCandidates> candidates) {
+Selection sweep(const PoseEvaluators& evaluators, Selection selection, std::span<const JointCandidates> candidates,
+                const std::vector<std::vector<JointCorrection>>& admissible) {
   bool changed = true;
   for (int sweep = 0; sweep < kSweeps && changed; ++sweep) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       JointCorrection& present = selection.robot.corrections[candidates[i].training.joint];
-      const JointCorrection next = choose(evaluators, selection.robot, candidates[i], selection.choices[i]);
+      const JointCorrection next =
+          choose(evaluators, selection.robot, candidates[i].training, admissible[i], selection.choices[i]);
       changed = changed || !same(present, next);
       present = next;
     }
@@ -147,11 +131,7 @@ Selection sweep(const PoseEvaluators& evaluators, Selection selection, std::span
 /// Every joint with what fits its own targets best: the targets belong together, one joint's with another's.
 CorrectedRobot with_fittest(CorrectedRobot robot, std::span<const JointCandidates> candidates) {
   for (const JointCandidates& joint : candidates) {
-    const double limit_rad = correction_limit_rad(joint.training);
-    for (const Individual& individual : joint.front) {  // falling fitness: the last one that is bounded stays
-      const JointCorrection correction = correction_from(joint.training, individual.tree);
-      if (is_below(correction, limit_rad)) robot.corrections[joint.training.joint] = correction;
-    }
+    robot.corrections[joint.training.joint] = fittest_correction(joint);
   }
   return robot;
 }
@@ -240,10 +220,6 @@ void add_short_forms(JointCandidates& candidates, const GpParameters& parameters
   }
 }
 
-bool is_bounded(const JointCorrection& correction, const JointTraining& training) {
-  return is_below(correction, correction_limit_rad(training));
-}
-
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
                              std::span<const std::size_t> selecting, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates) {
@@ -253,11 +229,13 @@ Selection select_corrections(const DataSet& data, std::span<const std::size_t> f
     start.choices.push_back(
         {static_cast<int>(joint.training.joint), false, joint.front.size() + joint.alternatives.size(), 0.0, 0.0});
   }
+  std::vector<std::vector<JointCorrection>> admissible;
+  for (const JointCandidates& joint : candidates) admissible.push_back(admissible_corrections(joint));
   Selection best = start;
   double least = sum(evaluators.selecting.squared_errors(declared));
   for (CorrectedRobot& from : starting_points(declared, candidates)) {
     start.robot = std::move(from);
-    const Selection swept = sweep(evaluators, start, candidates);
+    const Selection swept = sweep(evaluators, start, candidates, admissible);
     const double left = sum(evaluators.selecting.squared_errors(swept.robot));
     if (left < least) {
       best = swept;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/admissible.hpp"
 #include "calibration/joint_targets.hpp"
 #include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
@@ -88,7 +89,7 @@ void drop_negligible_terms(DiagnosedModel& model) {
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
                            const DiagnosedModel& model) {
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
-  Calibration result{.robot = with_shortened_corrections(model.robot),
+  Calibration result{.robot = without_negligible_corrections(data, with_shortened_corrections(model.robot)),
                      .estimates = estimates_of(data, declared, model),
                      .joints = {},
                      .unseen = {}};

@@ -1,0 +1,89 @@
+#include "calibration/admissible.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+
+#include "calibration/training.hpp"
+#include "effects/arm_state.hpp"
+#include "evolution/population.hpp"
+#include "expression/bound.hpp"
+#include "expression/tree.hpp"
+#include "primitives/primitive.hpp"
+
+namespace demecal::inline calibration {
+namespace {
+
+constexpr std::size_t kMostJumps = 4;  ///< over a joint's range
+constexpr int kJumpGrid = 512;
+constexpr double kNegligible = 1e-6;    ///< rad or m
+constexpr double kLeastJumpRad = 1e-5;  ///< a tool a metre away then moves by a hundredth of a millimetre
+
+bool stays_below(const JointCorrection& correction, double limit_rad) {
+  return stays_within(correction.formula(), correction.range_rad(), limit_rad);
+}
+
+bool jumps_seldom(const JointCorrection& correction) {
+  const auto may_jump = [](const Node& node) {
+    return node.primitive == Primitive::sign || node.primitive == Primitive::divide ||
+           node.primitive == Primitive::logarithm;
+  };
+  if (std::ranges::none_of(correction.formula(), may_jump)) return true;
+  return discontinuities(correction.formula(), correction.range_rad(), kLeastJumpRad, kJumpGrid).size() <= kMostJumps;
+}
+
+/// Whether the joint's correction moves what is seen of any pose.
+bool moves_any_pose(const DataSet& data, const CorrectedRobot& robot, std::size_t joint) {
+  CorrectedRobot without = robot;
+  without.corrections[joint] = JointCorrection{};
+  const bool turns =
+      std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return pose.orientation.has_value(); });
+  return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
+    const Eigen::Isometry3d moved =
+        robot.predict(Stop(pose), pose.target).inverse() * without.predict(Stop(pose), pose.target);
+    return moved.translation().norm() >= kNegligible ||
+           (turns && Eigen::AngleAxisd(moved.linear()).angle() >= kNegligible);
+  });
+}
+
+}  // namespace
+
+bool is_bounded(const JointCorrection& correction, const JointTraining& training) {
+  return stays_below(correction, correction_limit_rad(training));
+}
+
+std::vector<JointCorrection> admissible_corrections(const JointCandidates& candidates) {
+  std::vector<JointCorrection> corrections;
+  const double limit_rad = correction_limit_rad(candidates.training);
+  const auto add = [&](const JointCorrection& correction) {
+    if (stays_below(correction, limit_rad) && jumps_seldom(correction)) corrections.push_back(correction);
+  };
+  for (const Individual& individual : candidates.front) add(correction_from(candidates.training, individual.tree));
+  for (const Tree& tree : candidates.short_forms) add(correction_from(candidates.training, tree));
+  for (const JointCorrection& other : candidates.alternatives) {
+    if (!other.is_neutral()) add(other);
+  }
+  return corrections;
+}
+
+JointCorrection fittest_correction(const JointCandidates& candidates) {
+  const double limit_rad = correction_limit_rad(candidates.training);
+  JointCorrection fittest;
+  for (const Individual& individual : candidates.front) {  // falling fitness: the last one that is bounded stays
+    const JointCorrection correction = correction_from(candidates.training, individual.tree);
+    if (stays_below(correction, limit_rad)) fittest = correction;
+  }
+  return fittest;
+}
+
+CorrectedRobot without_negligible_corrections(const DataSet& data, CorrectedRobot robot) {
+  const CorrectedRobot whole = robot;
+  for (std::size_t joint = 0; joint < robot.corrections.size(); ++joint) {
+    JointCorrection& correction = robot.corrections[joint];
+    if (correction.is_neutral()) continue;
+    if (stays_below(correction, kNegligible) || !moves_any_pose(data, whole, joint)) correction = JointCorrection{};
+  }
+  return robot;
+}
+
+}  // namespace demecal::inline calibration
