@@ -130,6 +130,8 @@ ExitCode run(const EvaluateRequest& request) {
                         data_check_entry(checked.check),
                         unapplied_effects(robot, data),
                         {}};
+  evaluation.touches = has_contacts(data);
+  evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
   for (const UnappliedEffect& one : evaluation.effects_not_applied)

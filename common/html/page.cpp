@@ -139,9 +139,9 @@ std::optional<double> noise_mean_mm(const Report& report) {
 }
 
 std::string report_html(const Report& report, const FitnessHistory& history) {
-  return head(report) + "<body>\n<main>\n" + opening(report) + stages_section(report) + loop_section(report) +
-         joints_section(report, history) + parameters_section(report) + poses_section(report) + run_section(report) +
-         "</main>\n</body>\n</html>\n";
+  return head(report) + "<body>\n<main>\n" + opening(report) + stages_section(report) + contacts_section(report) +
+         loop_section(report) + joints_section(report, history) + parameters_section(report) + poses_section(report) +
+         run_section(report) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace demecal::inline html

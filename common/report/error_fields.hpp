@@ -32,4 +32,9 @@ void fields(auto& visit, Like<PoseErrorEntry> auto& pose) {
         "interval95_mm", pose.interval95_mm, "flags", pose.flags);
 }
 
+void fields(auto& visit, Like<LengthErrorEntry> auto& length) {
+  visit("between", length.between, "set", length.set, "known_mm", length.known_mm, "sigma_mm", length.sigma_mm,
+        "before_mm", length.before_mm, "error_mm", length.error_mm);
+}
+
 }  // namespace demecal::inline report

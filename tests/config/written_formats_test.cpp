@@ -98,7 +98,9 @@ TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
                                                      report.pose_errors,
                                                      report.data_check,
                                                      {{"backlash", 2, "approach", 30, "It cannot be applied."}},
-                                                     report.prediction_interval})});
+                                                     report.prediction_interval,
+                                                     report.length_errors,
+                                                     true})});
 }
 
 /// Two cells with one seed each.
