@@ -208,6 +208,7 @@ ExitCode run(CalibrateRequest request) {
   const Job job = job_of(request);
   const CheckedData checked = load_checked(job.data_file);
   const DataSet& data = checked.data;
+  if (job.method == Method::structural) require_instrument(data, "the method structural");
   std::vector<std::string> files = result_files(job.method);
   files.emplace_back("events.jsonl");
   make_writable(request.out, files, request.force);

@@ -8,6 +8,7 @@
 #include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
+#include "errors/input_error.hpp"
 #include "html/page.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
@@ -47,6 +48,12 @@ bool refuses(const CheckedData& checked, bool force) {
       "go on all the same with --force.\n",
       checked.data.file, to_terminal(data_check_entry(checked.check)));
   return true;
+}
+
+void require_instrument(const DataSet& data, const std::string& what) {
+  if (!has_contacts(data)) return;
+  throw InputError({data.file, 0}, "contact",
+                   what + " learns from measured points alone: use calibrate with the method direct, or diagnose");
 }
 
 void add_force(CLI::App& command, bool& force) {

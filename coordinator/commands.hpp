@@ -63,6 +63,9 @@ CheckedData load_checked(const std::filesystem::path& path);
 /// Whether the data contradict the robot's description, and nobody forces the command to go on: said on standard error.
 bool refuses(const CheckedData& checked, bool force);
 
+/// Throws InputError where poses touch something and `what` learns from measured points alone.
+void require_instrument(const DataSet& data, const std::string& what);
+
 /// The option --force of a command that fits or judges data.
 void add_force(CLI::App& command, bool& force);
 

@@ -137,6 +137,7 @@ ExitCode run(const CompareRequest& request) {
   const Job job = job_of(request);
   const CheckedData checked = load_checked(job.data_file);
   const DataSet& data = checked.data;
+  require_instrument(data, "compare");
   std::vector<std::string> files = result_files(job.method);
   files.emplace_back("comparison.json");
   if (!request.out.empty()) make_writable(request.out, files, request.force);

@@ -67,7 +67,7 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
                           const DataSet& data) {
   DeclaredModel declared = known ? known->declared : declared_by_default(data);
   if (!request.declared.empty()) declared = declared_model(request.declared);
-  declared.registration = true;
+  declared.registration = has_instrument(data) || !has_contacts(data);
   return declared;
 }
 
@@ -105,6 +105,7 @@ ExitCode run(const DiagnoseRequest& request) {
   }
   const CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
+  if (request.proposed > 0) require_instrument(data, "--propose");
   std::optional<CalibratedModel> known;
   if (!request.model_file.empty()) known = load_model(request.model_file);
   const std::atomic<bool>& interrupt = watch_for_interrupt();

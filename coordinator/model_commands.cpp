@@ -132,6 +132,8 @@ ExitCode run(const EvaluateRequest& request) {
                         unapplied_effects(robot, data),
                         {},
                         uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
+  evaluation.touches = has_contacts(data);
+  evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
   for (const UnappliedEffect& one : evaluation.effects_not_applied)

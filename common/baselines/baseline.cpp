@@ -165,12 +165,13 @@ std::array<ErrorFigures, 3> figures_by_set(const BaselineFit& fit, const DataSet
   std::array<ErrorFigures, 3> figures;
   for (std::size_t set = 0; set < figures.size(); ++set) {
     std::vector<double> errors_mm;
-    for (const std::size_t i : poses_of(data, static_cast<PoseSet>(set))) {
-      const MeasuredPose& pose = data.poses[i];
-      if (!fit.predict) continue;
-      const double error_m = tool_error_m(fit.predict(pose), data, pose);
-      if (!std::isnan(error_m)) errors_mm.push_back(1e3 * error_m);
-    }
+    std::vector<Eigen::Isometry3d> predicted;
+    const std::vector<std::size_t> poses = poses_of(data, static_cast<PoseSet>(set));
+    if (fit.predict)
+      for (const std::size_t i : poses) predicted.push_back(fit.predict(data.poses[i]));
+    if (!predicted.empty())
+      for (const double error_m : tool_errors_m({}, predicted, data, poses))
+        if (!std::isnan(error_m)) errors_mm.push_back(1e3 * error_m);
     figures[set] = error_figures(std::move(errors_mm));
   }
   return figures;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -117,14 +118,16 @@ std::vector<JointSummary> joint_summaries(const JointTargets& declared, const Jo
 }
 
 std::vector<std::size_t> without_gross_errors(const DataSet& data, PoseSet set, const CorrectedRobot& declared) {
-  const auto error_m = [&](std::size_t pose) { return tool_error_m(declared, data, data.poses[pose]); };
   std::vector<double> errors_m;
   for (const PoseSet some : {PoseSet::calibration, PoseSet::validation})
-    for (const std::size_t pose : poses_of(data, some)) errors_m.push_back(error_m(pose));
+    std::ranges::copy(tool_errors_m(declared, data, poses_of(data, some)), std::back_inserter(errors_m));
   const double limit_m = gross_error_limit(std::move(errors_m));
-  std::vector<std::size_t> poses = poses_of(data, set);
-  std::erase_if(poses, [&](std::size_t pose) { return error_m(pose) > limit_m; });
-  return poses;
+  const std::vector<std::size_t> poses = poses_of(data, set);
+  const std::vector<double> own_m = tool_errors_m(declared, data, poses);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (!(own_m[i] > limit_m)) kept.push_back(poses[i]);
+  return kept;
 }
 
 std::vector<std::size_t> selection_poses(const DataSet& data, const CorrectedRobot& declared) {
@@ -134,10 +137,10 @@ std::vector<std::size_t> selection_poses(const DataSet& data, const CorrectedRob
 
 double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {
   double sum = 0.0;
-  for (const std::size_t pose : poses) {
-    const double error_m = tool_error_m(robot, data, data.poses[pose]);
-    const MeasurementRows rows = rows_of(data.poses[pose]);
-    if (rows.position + rows.distances > 0) sum += std::pow(millimetres(error_m), 2);
+  const std::vector<double> errors_m = tool_errors_m(robot, data, poses);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const MeasurementRows rows = rows_of(data.poses[poses[i]]);
+    if (rows.points() + rows.distances > 0) sum += std::pow(millimetres(errors_m[i]), 2);
   }
   return sum;
 }

@@ -28,7 +28,7 @@ Eigen::Vector3d measured_position(const CorrectedRobot& robot, const DataSet& da
   CorrectedRobot moved = robot;
   for (int iteration = 0; iteration < 5; ++iteration) {
     const Eigen::VectorXd missing = residual(moved, data, pose);
-    const Eigen::MatrixXd rows = measurement_jacobian(tool, data, pose).leftCols<3>();
+    const Eigen::MatrixXd rows = measurement_jacobian(moved, tool, data, pose).leftCols<3>();
     const Eigen::Vector3d step = rows.completeOrthogonalDecomposition().solve(missing);
     moved.sensor_from_base.pretranslate(step);
     tool.pretranslate(step);

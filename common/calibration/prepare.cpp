@@ -72,7 +72,7 @@ CorrectionSize size_of(std::size_t joint, const DataSet& data, std::span<const s
     const MeasuredPose& pose = data.poses[index];
     const Eigen::VectorXd moved = residual(corrected, data, pose) - residual(without, data, pose);
     const MeasurementRows rows = rows_of(pose);
-    const double angles = moved.segment(rows.position, rows.orientation).squaredNorm();
+    const double angles = moved.segment(rows.points(), rows.orientation).squaredNorm();
     joint_rad2 += std::pow(corrected.corrections[joint](pose.joints[static_cast<Eigen::Index>(joint)]), 2);
     orientation_rad2 += angles;
     position_m2 += moved.squaredNorm() - angles;
@@ -113,12 +113,14 @@ JointTargets first_targets(const DataSet& data, const Job& job, const Preparatio
 }  // namespace
 
 Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& robot) {
-  const RowScales scatter = median_deviations(data, robot, observe(data, poses_of(data, PoseSet::calibration), robot));
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  const CorrectedRobot placed = with_own_contacts(robot, data, poses);
+  const RowScales scatter = median_deviations(data, placed, observe(data, poses, placed));
   const auto scale = [&](std::size_t kind, double used) {
     return used > 0.0 ? std::max(scatter[kind], kSmallestScale) : 0.0;
   };
   Fit start = declared;
-  start.robot = robot;
+  start.robot = placed;
   start.sigma_position_m = scale(kPosition, declared.sigma_position_m);
   start.sigma_orientation_rad = scale(kOrientation, declared.sigma_orientation_rad);
   start.sigma_distance_m = scale(kDistance, declared.sigma_distance_m);
@@ -127,9 +129,10 @@ Fit loop_start(const DataSet& data, const Fit& declared, const CorrectedRobot& r
 
 JointTargets targets_about(const DataSet& data, const Preparation& preparation, const CorrectedRobot& model) {
   const std::vector<std::size_t> poses = without_gross_errors(data, PoseSet::calibration, preparation.declared.robot);
+  const CorrectedRobot placed = with_own_contacts(model, data, poses);
   return joint_targets(
-      data, poses, without_corrections(model),
-      {preparation.target_options, residual_scales(data, poses, preparation.declared, model), model.corrections});
+      data, poses, without_corrections(placed),
+      {preparation.target_options, residual_scales(data, poses, preparation.declared, placed), model.corrections});
 }
 
 Preparation prepare(const DataSet& data, const Job& job, const FitOptions& options) {

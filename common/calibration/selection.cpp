@@ -175,8 +175,8 @@ PoseEvaluator::PoseEvaluator(const DataSet& data, std::span<const std::size_t> p
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = data.poses[index];
     const MeasurementRows measured = rows_of(pose);
-    if (measured.position + measured.distances == 0) continue;
-    rows_ += measured.position > 0 ? measured.position : measured.distances;
+    if (measured.points() + measured.distances == 0) continue;
+    rows_ += measured.points() > 0 ? measured.points() : measured.distances;
     poses_.push_back(index);
     motions_.push_back(robot.motions(Stop(pose), pose.target));
   }
@@ -201,13 +201,12 @@ std::vector<JointVector> PoseEvaluator::with(std::vector<JointVector> corrected,
 
 SquaredErrors PoseEvaluator::squared_errors(const CorrectedRobot& robot,
                                             const std::vector<JointVector>& corrected) const {
-  SquaredErrors errors;
-  errors.reserve(poses_.size());
-  for (std::size_t i = 0; i < poses_.size(); ++i) {
-    const MeasuredPose& pose = data_.poses[poses_[i]];
-    const Eigen::Isometry3d predicted = robot.predict(corrected[i], motions_[i], pose.target);
-    errors.push_back(std::pow(millimetres(tool_error_m(predicted, data_, pose)), 2));
-  }
+  std::vector<Eigen::Isometry3d> predicted;
+  predicted.reserve(poses_.size());
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    predicted.push_back(robot.predict(corrected[i], motions_[i], data_.poses[poses_[i]].target));
+  SquaredErrors errors = tool_errors_m(robot, predicted, data_, poses_);
+  for (double& error : errors) error = std::pow(millimetres(error), 2);
   return errors;
 }
 

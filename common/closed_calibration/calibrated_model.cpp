@@ -86,6 +86,13 @@ Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& covariance) {
   return deviations.asDiagonal() * upper.transpose();
 }
 
+/// Axes in which a pose's tool error has noise: of a touched plane one, of a measured point three.
+int point_axes(const MeasuredPose& pose) {
+  const MeasurementRows rows = rows_of(pose);
+  if (rows.contact > 0) return rows.contact;
+  return rows.position > 0 ? 3 : std::min(3, rows.distances);
+}
+
 /// Of one pose: the square of its tool error, what the posterior adds to it, and in how many axes noise does. m^2.
 struct ScoredPose {
   std::size_t pose = 0;
@@ -97,12 +104,9 @@ struct ScoredPose {
 class PredictionScores {
  public:
   PredictionScores(const DataSet& data, const FittedPosterior& fitted, const CorrectedRobot& robot) : data_(data) {
-    const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
-    for (const std::size_t pose : validation) add_pose(pose, fitted, robot);
+    add_poses(poses_of(data, PoseSet::validation), fitted, robot);
     interval_.fitted = scored_.empty();
-    if (scored_.empty()) {
-      for (const std::size_t pose : poses_of(data, PoseSet::calibration)) add_pose(pose, fitted, robot);
-    }
+    if (scored_.empty()) add_poses(poses_of(data, PoseSet::calibration), fitted, robot);
     set_noise(fitted.scatter);
   }
 
@@ -132,13 +136,17 @@ class PredictionScores {
 
   int fewest_axes() const { return std::ranges::min(scored_, {}, &ScoredPose::axes).axes; }
 
-  void add_pose(std::size_t index, const FittedPosterior& fitted, const CorrectedRobot& robot) {
+  void add_poses(const std::vector<std::size_t>& poses, const FittedPosterior& fitted, const CorrectedRobot& robot) {
+    const std::vector<double> errors_m = tool_errors_m(robot, data_, poses);
+    for (std::size_t i = 0; i < poses.size(); ++i) add_pose(poses[i], errors_m[i], fitted, robot);
+  }
+
+  void add_pose(std::size_t index, double error_m, const FittedPosterior& fitted, const CorrectedRobot& robot) {
     const MeasuredPose& pose = data_.poses[index];
-    const double error_m = tool_error_m(robot, data_, pose);
     if (!std::isfinite(error_m)) return;
     const std::string name = pose.pose_id.empty() ? "line " + std::to_string(pose.line) : pose.pose_id;
     const std::size_t group = groups_.try_emplace(name, groups_.size()).first->second;
-    const int axes = pose.position_m ? 3 : std::min(3, static_cast<int>(pose.distances_m.size()));
+    const int axes = point_axes(pose);
     scored_.push_back(
         {index, group, axes, error_m * error_m, posterior_square_m2(fitted.posterior, robot, data_, pose)});
   }
@@ -182,7 +190,7 @@ class PredictionScores {
     for (const ScoredPose& one : scored_) {
       const MeasuredPose& pose = data_.poses[one.pose];
       excess_m2 += one.error_m2 - one.posterior_m2 - noise_square_m2(interval_, pose);
-      axes += pose.position_m ? 3.0 : 1.0;
+      axes += measures_point(pose) ? point_axes(pose) : 1.0;
     }
     if (excess_m2 > 0.0) interval_.model_error_m = std::sqrt(excess_m2 / axes);
   }
@@ -199,18 +207,22 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
                                  const std::vector<std::size_t>& poses) {
   constexpr double kLeastTerm = 1e-7;  ///< rad
   DiagnosedModel model;
-  model.robot = robot;
+  model.robot = with_own_contacts(robot, data, poses);
   model.smooth = smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset);
-  model.scales = scatter_of(data, robot, observe(data, poses, robot));
+  model.scales = scatter_of(data, model.robot, observe(data, poses, robot));
   const Linearization linearization = linearize({data, declared, poses, {}}, model);
   const double variance = row_variance(linearization.projection);
   Eigen::MatrixXd covariance = variance * linearization.covariance;
   widen(linearization, covariance);
-  FittedPosterior fitted{{linearization.ids, {}, {}}, model.scales};
+  FittedPosterior fitted{{{}, {}, {}}, model.scales};
   for (double& scale : fitted.scatter) scale *= std::sqrt(variance);
   Posterior& posterior = fitted.posterior;
-  std::vector<Eigen::Index> kept(linearization.ids.size());
-  std::iota(kept.begin(), kept.end(), Eigen::Index{0});
+  std::vector<Eigen::Index> kept;  // all but contacts' places: what they take is in the covariance of the rest
+  for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
+    if (linearization.ids[i].kind == ParameterId::Kind::contact) continue;
+    posterior.ids.push_back(linearization.ids[i]);
+    kept.push_back(static_cast<Eigen::Index>(i));
+  }
   for (std::size_t i = 0; i < model.smooth.terms.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(linearization.ids.size() + i);
     if (!(covariance(row, row) > kLeastTerm * kLeastTerm)) continue;

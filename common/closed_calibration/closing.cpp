@@ -29,7 +29,7 @@ constexpr double kSmallestCoefficient = 1e-8;  ///< rad
 std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
                                             const DiagnosedModel& model) {
   const Linearization linearization = linearize({data, declared, poses_of_last_fit(data), {}}, model);
-  const ParameterSpace space(model.robot, linearization.ids);
+  const ParameterSpace space(with_contacts_of(model.robot, linearization.ids, data), linearization.ids);
   const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
   const Eigen::MatrixXd covariance =
       to_values * linearization.covariance.topLeftCorner(space.size(), space.size()) * to_values.transpose();
@@ -37,7 +37,7 @@ std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredM
   std::vector<ParameterEstimate> estimates;
   for (int i = 0; i < space.size(); ++i) {
     const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
-    if (id.kind == ParameterId::Kind::effect) continue;
+    if (id.kind == ParameterId::Kind::effect || id.kind == ParameterId::Kind::contact) continue;
     estimates.push_back({id, parameter_value(nominal, id), parameter_value(model.robot, id),
                          std::sqrt(std::max(0.0, covariance(i, i)))});
   }

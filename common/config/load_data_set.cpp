@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "config/certificate_keys.hpp"
+#include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "data/columns.hpp"
@@ -108,8 +109,8 @@ std::optional<ColumnName> read_single(const YamlNode* node) {
 DataSet load_data_set(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
   root.with_version("dataset", 1)
-      .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "units", "frame",
-                  "split", "exclude", "certificate"});
+      .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "contacts", "units",
+                  "frame", "split", "exclude", "certificate"});
   DataSet data;
   data.name = root.find("name") ? root.at("name").text() : path.stem().string();
   data.robot = read_named(root.at("robot"), load_robot);
@@ -128,6 +129,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
   data.sha256 = sha256(bytes);
   std::istringstream text(bytes);
   data.poses = read_poses(read_csv(text, data.file), columns, units, data.robot.chain, data.tools_m);
+  read_contacts(root.find("contacts"), columns, data);
   if (!columns.set) {
     RandomStream random{split.seed};
     split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
@@ -139,7 +141,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
 
 ColumnMap read_column_map(const YamlNode& node) {
   node.with_keys({"joints", "position", "orientation", "distances", "approach", "payload", "temperature", "time", "set",
-                  "pose", "target"});
+                  "pose", "target", "contact"});
   ColumnMap map;
   map.where = {node.file, node.line};
   map.joints = read_columns(&node.at("joints"));
@@ -153,6 +155,7 @@ ColumnMap read_column_map(const YamlNode& node) {
   map.set = read_single(node.find("set"));
   map.pose = read_single(node.find("pose"));
   map.target = read_single(node.find("target"));
+  map.contact = read_single(node.find("contact"));
   return map;
 }
 

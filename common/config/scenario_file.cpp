@@ -142,6 +142,31 @@ void read_measurement(const YamlNode& node, Scenario& scenario) {
   if (const YamlNode* temperature = node.find("temperature")) read_temperature(*temperature, scenario);
 }
 
+void read_touched(const YamlNode& node, Scenario& scenario) {
+  node.with_keys({"points_mm", "accept", "play_mm", "distances"});
+  const YamlNode& points = node.at("points_mm");
+  if (points.kind != YamlNode::Kind::map) points.fail("must be a map of contacts and their points");
+  for (const YamlNode& point : points.children)
+    scenario.touched.push_back({point.name, metres(1.0) * point.vector3(), false});
+  if (scenario.touched.empty()) points.fail("must name one contact at least");
+  const auto named = [&](const YamlNode& name) -> TouchedPoint& {
+    for (TouchedPoint& point : scenario.touched)
+      if (point.contact == name.text()) return point;
+    name.fail("is no contact of points_mm");
+  };
+  if (const YamlNode* accept = node.find("accept"))
+    for (const YamlNode& name : accept->list()) named(name).for_acceptance = true;
+  if (const YamlNode* play = node.find("play_mm")) scenario.play_m = metres(play->non_negative());
+  if (const YamlNode* distances = node.find("distances")) {
+    for (const YamlNode& one : distances->list()) {
+      one.with_keys({"between", "mm", "sigma_mm"});
+      const std::vector<YamlNode>& ends = one.at("between").list(2);
+      scenario.known_distances.push_back({named(ends[0]).contact, named(ends[1]).contact,
+                                          metres(one.at("mm").positive()), metres(one.at("sigma_mm").positive())});
+    }
+  }
+}
+
 /// The simulation's own rules know no file.
 void check_scenario(const Scenario& scenario, const YamlNode& root) {
   try {
@@ -157,7 +182,7 @@ Scenario load_scenario(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
   root.with_version("scenario", 1)
       .with_keys({"demecal_scenario", "name", "robot", "seed", "poses", "cuboid", "joint_ranges", "home", "measurement",
-                  "errors"});
+                  "contacts", "errors"});
   Scenario scenario;
   scenario.name = root.find("name") ? root.at("name").text() : path.stem().string();
   scenario.robot = read_named(root.at("robot"), load_robot);
@@ -166,6 +191,7 @@ Scenario load_scenario(const std::filesystem::path& path) {
   read_poses(root.at("poses"), scenario);
   read_region(root, scenario);
   if (const YamlNode* measurement = root.find("measurement")) read_measurement(*measurement, scenario);
+  if (const YamlNode* contacts = root.find("contacts")) read_touched(*contacts, scenario);
   if (const YamlNode* errors = root.find("errors")) read_true_errors(*errors, scenario);
   check_scenario(scenario, root);
   return scenario;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "data/columns.hpp"
@@ -145,6 +146,7 @@ std::vector<ColumnGroup> column_groups(const DataSet& data) {
   if (std::any_of(data.poses.begin(), data.poses.end(), named)) {
     groups.push_back(single("target", "target_id", &MeasuredPose::target));
   }
+  if (has_contacts(data)) groups.push_back(single("contact", "contact_id", &MeasuredPose::contact));
   return groups;
 }
 
@@ -188,8 +190,8 @@ std::string yaml_of(const DataSet& data, const std::vector<ColumnGroup>& groups,
   text << yaml_comment(purpose) << "demecal_dataset: 1\nname: " << yaml_text(data.name)
        << "\nrobot: robot.yaml\nposes: poses.csv\ncolumns:\n";
   for (const ColumnGroup& group : groups) text << "  " << group.key << ": " << headings_text(group) << '\n';
-  text << anchors_text(data) << tools_text(data) << "frame: " << (data.frame == Frame::base ? "base" : "sensor")
-       << '\n';
+  text << anchors_text(data) << tools_text(data) << contacts_text(data.contacts)
+       << "frame: " << (data.frame == Frame::base ? "base" : "sensor") << '\n';
   return text.str();
 }
 

@@ -93,7 +93,7 @@ std::vector<ColumnName> ColumnMap::all() const {
   for (const auto* group : {&joints, &position, &orientation, &distances, &approach}) {
     names.insert(names.end(), group->begin(), group->end());
   }
-  for (const auto* single : {&payload, &temperature, &time, &set, &pose, &target}) {
+  for (const auto* single : {&payload, &temperature, &time, &set, &pose, &target, &contact}) {
     if (*single) names.push_back(**single);
   }
   return names;

@@ -26,7 +26,7 @@ struct ColumnMap {
   std::vector<ColumnName> orientation;  ///< w, x, y, z of a unit quaternion, or none
   std::vector<ColumnName> distances;
   std::vector<ColumnName> approach;  ///< one per joint, or none
-  std::optional<ColumnName> payload, temperature, time, set, pose, target;
+  std::optional<ColumnName> payload, temperature, time, set, pose, target, contact;
 
   /// All columns named, in the order above.
   std::vector<ColumnName> all() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,30 @@ std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set) {
     if (data.poses[i].set == set) indices.push_back(i);
   }
   return indices;
+}
+
+std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& data,
+                                                                std::span<const std::size_t> poses) {
+  std::map<ContactGroup, std::vector<std::size_t>> groups;
+  for (const std::size_t pose : poses)
+    if (!data.poses[pose].contact.empty()) groups[group_of(data.poses[pose])].push_back(pose);
+  return groups;
+}
+
+std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& data) {
+  std::vector<std::size_t> all(data.poses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return contact_groups(data, all);
+}
+
+bool has_contacts(const DataSet& data) {
+  return std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return !pose.contact.empty(); });
+}
+
+bool has_instrument(const DataSet& data) {
+  return std::ranges::any_of(data.poses, [](const MeasuredPose& pose) {
+    return pose.position_m || pose.orientation || !pose.distances_m.empty();
+  });
 }
 
 Eigen::Vector3d nominal_tool(const DataSet& data, const MeasuredPose& pose) {

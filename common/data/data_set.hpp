@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <compare>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "kinematics/chain.hpp"
 
 namespace demecal::inline data {
@@ -35,9 +37,11 @@ struct MeasuredPose {
   std::optional<double> temperature_celsius;
   std::optional<double> time_s;
   PoseSet set = PoseSet::calibration;
-  std::string pose_id;   ///< equal ids are repeats of one pose
-  std::string target;    ///< which point on the tool; empty: the robot's own tool
-  std::size_t line = 0;  ///< where it stands in its file
+  std::string pose_id;                            ///< equal ids are repeats of one pose
+  std::string target;                             ///< which point on the tool; empty: the robot's own tool
+  std::string contact{};                          ///< what the tool touches; empty: nothing
+  ContactKind contact_kind = ContactKind::point;  ///< that of DataSet::contacts
+  std::size_t line = 0;                           ///< where it stands in its file
 };
 
 /// Whether positions are given in the robot's base frame or in the instrument's own.
@@ -68,12 +72,36 @@ struct DataSet {
   std::map<std::string, Eigen::Vector3d> tools_m;  ///< nominal tool point of each target; empty: the robot's tool
   std::vector<Eigen::Vector3d> anchors_m;          ///< known fixed points of the distances
   bool anchors_unknown = false;
-  std::string file;    ///< of the poses, as named to the user
-  std::string sha256;  ///< of the bytes the poses were read from
+  Contacts contacts{};  ///< what is known of the contacts that the poses name
+  std::string file;     ///< of the poses, as named to the user
+  std::string sha256;   ///< of the bytes the poses were read from
 };
 
 /// Indices into poses, in their order.
 std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set);
+
+/// The poses of one set that touch one contact: its place is known by them alone, so that no set borrows from another.
+struct ContactGroup {
+  std::string contact;
+  PoseSet set = PoseSet::calibration;
+
+  auto operator<=>(const ContactGroup&) const = default;
+};
+
+/// The group of a pose that touches something.
+inline ContactGroup group_of(const MeasuredPose& pose) {
+  return {pose.contact, pose.set};
+}
+
+/// The poses of every group among these poses, in their order.
+std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& data,
+                                                                std::span<const std::size_t> poses);
+std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& data);
+
+/// Whether any of the poses touches something; whether any was measured by something with a place of its own, so that
+/// it can be told where the base stands.
+bool has_contacts(const DataSet& data);
+bool has_instrument(const DataSet& data);
 
 /// The nominal tool point of a pose, in the flange frame, m.
 Eigen::Vector3d nominal_tool(const DataSet& data, const MeasuredPose& pose);

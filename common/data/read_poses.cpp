@@ -55,7 +55,7 @@ using TableColumns = std::vector<TableColumn>;
 /// The columns of a data set, found in its table.
 struct PoseColumns {
   TableColumns joints, position, orientation, distances, approach;
-  std::optional<TableColumn> payload, temperature, time, set, pose, target;
+  std::optional<TableColumn> payload, temperature, time, set, pose, target, contact;
 };
 
 TableColumns find_all(const CsvTable& table, const std::vector<ColumnName>& names) {
@@ -96,7 +96,8 @@ PoseColumns find_columns(const CsvTable& table, const ColumnMap& map, const Assu
           .time = find_one(table, map.time, Quantity::time, units),
           .set = find_one(table, map.set),
           .pose = find_one(table, map.pose),
-          .target = find_one(table, map.target)};
+          .target = find_one(table, map.target),
+          .contact = find_one(table, map.contact)};
 }
 
 template <typename Vector>
@@ -152,13 +153,26 @@ std::string read_pose_id(const TableColumn& column, const CsvRow& row) {
   return column.text(row);
 }
 
+bool all_empty(const TableColumns& columns, const CsvRow& row) {
+  return std::ranges::all_of(columns, [&row](const TableColumn& column) { return column.text(row).empty(); });
+}
+
+/// What an instrument gave. A row that touches something may have been measured by nothing else.
+void read_measured(const PoseColumns& columns, const CsvRow& row, MeasuredPose& pose) {
+  const auto given = [&](const TableColumns& some) {
+    return !some.empty() && (pose.contact.empty() || !all_empty(some, row));
+  };
+  if (given(columns.position)) pose.position_m = read_vector<Eigen::Vector3d>(columns.position, row);
+  if (given(columns.orientation)) pose.orientation = read_orientation(columns.orientation, row);
+  if (given(columns.distances)) pose.distances_m = read_distances(columns.distances, row);
+}
+
 MeasuredPose read_pose(const PoseColumns& columns, const CsvRow& row) {
   MeasuredPose pose;
   pose.line = row.line;
   pose.joints = read_vector<JointVector>(columns.joints, row);
-  if (!columns.position.empty()) pose.position_m = read_vector<Eigen::Vector3d>(columns.position, row);
-  if (!columns.orientation.empty()) pose.orientation = read_orientation(columns.orientation, row);
-  pose.distances_m = read_distances(columns.distances, row);
+  if (columns.contact) pose.contact = columns.contact->text(row);
+  read_measured(columns, row, pose);
   if (!columns.approach.empty()) pose.approach = read_approach(columns.approach, row);
   if (columns.payload) pose.payload_kg = read_payload(*columns.payload, row);
   if (columns.temperature) pose.temperature_celsius = columns.temperature->number(row);
@@ -167,6 +181,17 @@ MeasuredPose read_pose(const PoseColumns& columns, const CsvRow& row) {
   pose.pose_id = columns.pose ? read_pose_id(*columns.pose, row) : "line " + std::to_string(row.line);
   if (columns.target) pose.target = columns.target->text(row);
   return pose;
+}
+
+/// A row that touches nothing must have been measured otherwise.
+void require_something_measured(std::span<const MeasuredPose> poses, const ColumnName& contact,
+                                const std::string& file) {
+  for (const MeasuredPose& pose : poses) {
+    if (!pose.contact.empty() || pose.position_m || pose.orientation || !pose.distances_m.empty()) continue;
+    throw InputError({file, pose.line}, "",
+                     "column " + contact.name + " is empty and nothing else was measured: every " +
+                         "row names what the tool touches, or has measured columns");
+  }
 }
 
 }  // namespace
@@ -181,8 +206,9 @@ void check_column_map(const ColumnMap& columns, const Chain& chain) {
   if (!columns.orientation.empty()) check_count(columns, columns.orientation, 4, "columns.orientation (w, x, y, z)");
   if (!columns.approach.empty()) check_count(columns, columns.approach, chain.joints.size(), "columns.approach");
   check_distinct(columns);
-  if (columns.position.empty() && columns.orientation.empty() && columns.distances.empty()) {
-    throw InputError(columns.where, "", "columns must name position, orientation or distances: nothing was measured");
+  if (columns.position.empty() && columns.orientation.empty() && columns.distances.empty() && !columns.contact) {
+    throw InputError(columns.where, "",
+                     "columns must name position, orientation, distances or contact: nothing was measured");
   }
 }
 
@@ -230,6 +256,7 @@ std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& col
   poses.reserve(table.rows.size());
   for (const CsvRow& row : table.rows) poses.push_back(read_pose(found, row));
   check_targets(poses, tools_m, table.file);
+  if (columns.contact) require_something_measured(poses, *columns.contact, table.file);
   check_repeats(poses, table.file);
   return poses;
 }

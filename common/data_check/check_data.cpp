@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "data/read_poses.hpp"
+#include "data_check/contacts.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
@@ -47,6 +48,8 @@ class DataChecker {
     for (Finding& finding : find_lacking_spread(data_)) add(std::move(finding));
     if (whole_.rows.empty())
       for (Finding& finding : find_small_angles(data_)) add(std::move(finding));
+    if (!has_instrument(data_))
+      for (Finding& finding : check_contacts(data_)) add(std::move(finding));
     trial_ = calibration_rows();
     if (trial_.rows.size() < kFewestRows) return std::move(check_);
     const TrialFit placed = fit_base_and_tools(trial_);
@@ -199,6 +202,8 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
     measured.push_back(row.point_m);
     errors.push_back(error(row));
   }
+  for (Finding& finding : find_wrong_contacts(data, robot))
+    if (finding.poses.empty() || !named.contains(finding.poses.front())) check.findings.push_back(std::move(finding));
   if (errors.empty()) return;
   if (const auto other = find_other_frame(predicted, measured)) return check.findings.push_back(in_other_frame(*other));
   const double least_m = kNotableShare * Trial{data.robot.chain, {data.robot.chain.tool_m}, rows, 1}.reach_m();

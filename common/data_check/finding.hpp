@@ -27,6 +27,7 @@ enum class FindingKind {
   degenerate_points,
   copied_rows,
   typing_error,
+  wrong_contact,
   outlier,
   other_robot
 };

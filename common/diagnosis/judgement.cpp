@@ -96,7 +96,7 @@ std::string with_three_places(double value) {
 
 double rms_m(const DataSet& data, const std::vector<std::size_t>& poses, const CorrectedRobot& robot) {
   double squares = 0.0;
-  for (const std::size_t pose : poses) squares += std::pow(tool_error_m(robot, data, data.poses[pose]), 2);
+  for (const double error_m : tool_errors_m(robot, data, poses)) squares += std::pow(error_m, 2);
   return std::sqrt(squares / static_cast<double>(poses.size()));
 }
 
@@ -139,10 +139,12 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
   std::vector<double> errors;
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
     const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-    const bool position = data.poses[field.poses[pose]].position_m && scales[kPosition] > 0;
+    const MeasuredPose& measured = data.poses[field.poses[pose]];
+    const bool position = measures_point(measured) && scales[kPosition] > 0;
+    const int points = rows_of(measured).points();
     Eigen::VectorXd rows = left.segment(first, count);
     if (field.within[pose].size() > 0) rows = field.within[pose] * rows;
-    const double norm = rows.head(position ? 3 : count).norm();
+    const double norm = rows.head(position ? points : count).norm();
     errors.push_back(position ? 1e3 * scales[kPosition] * norm
                               : 1e3 * std::max(scales[kDistance], 1e-9) * norm / std::sqrt(static_cast<double>(count)));
   }

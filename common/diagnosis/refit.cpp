@@ -84,9 +84,7 @@ constexpr double kWorse = 1.05;  ///< a last fit that leaves this much more of i
 /// Mean squared tool error over the poses, errors beyond ten times the median counted as these.
 double capped_index_m2(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
   constexpr double kFarOut = 10.0;
-  std::vector<double> errors_m;
-  for (const std::size_t pose : problem.fitted)
-    errors_m.push_back(tool_error_m(robot, problem.data, problem.data.poses[pose]));
+  const std::vector<double> errors_m = tool_errors_m(robot, problem.data, problem.fitted);
   const double most_m = kFarOut * median(errors_m);
   double squares = 0.0;
   for (const double error_m : errors_m) squares += std::pow(std::min(error_m, most_m), 2);
@@ -118,6 +116,7 @@ void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robo
 void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedModel& model, const RandomStream& random,
                             std::vector<Round>& rounds) {
   constexpr std::size_t kMost = 3;
+  if (!has_instrument(problem.data)) return;  // poses that nothing measures: a contact cannot be had anywhere
   std::size_t asked = 0;
   for (Round& round : rounds) {
     if (!is_ambiguous(round, rounds) || asked == kMost) continue;

@@ -64,9 +64,9 @@ DistalIndex::DistalIndex(const DataSet& data, std::span<const std::size_t> poses
 Eigen::VectorXd DistalIndex::weigh(const MeasuredPose& pose, const Eigen::VectorXd& rows) const {
   const MeasurementRows kinds = rows_of(pose);
   Eigen::VectorXd weighed = rows;
-  weighed.head(kinds.position) *= millimetres(1.0);
-  weighed.segment(kinds.position, kinds.orientation) *= mm_per_rad_;
-  const double share = kinds.position > 0 ? 0.0 : 1.0 / std::sqrt(static_cast<double>(std::max(kinds.distances, 1)));
+  weighed.head(kinds.points()) *= millimetres(1.0);
+  weighed.segment(kinds.points(), kinds.orientation) *= mm_per_rad_;
+  const double share = kinds.points() > 0 ? 0.0 : 1.0 / std::sqrt(static_cast<double>(std::max(kinds.distances, 1)));
   weighed.tail(kinds.distances) *= millimetres(share);
   return weighed;
 }
@@ -78,24 +78,26 @@ Eigen::Isometry3d DistalIndex::predicted(const CorrectedRobot& robot, std::size_
 
 double DistalIndex::operator()(const CorrectedRobot& robot) const {
   double sum = 0.0;
+  const CorrectedRobot placed = with_own_contacts(robot, data_, poses_);
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const MeasuredPose& pose = data_.poses[poses_[i]];
-    sum += weigh(pose, residual(predicted(robot, i), data_, pose)).squaredNorm();
+    sum += weigh(pose, residual(placed, predicted(robot, i), data_, pose)).squaredNorm();
   }
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
 std::vector<LinearizedPose> DistalIndex::linearized(const CorrectedRobot& robot) const {
   // At the corrected joints, and without the corrections: their slopes are no part of what a change of theirs does.
-  const CorrectedRobot bare = without_corrections(robot);
+  const CorrectedRobot bare = without_corrections(robot), placed = with_own_contacts(robot, data_, poses_);
   std::vector<LinearizedPose> poses;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const MeasuredPose& pose = data_.poses[poses_[i]];
     const JointVector corrected = robot.corrected_joints(pose.joints);
     const Eigen::Isometry3d predicted_pose = predicted(robot, i);
     const auto motion = bare.predict_with_jacobian(Stop(pose).with_joints(corrected), pose.target).jacobian;
-    const Eigen::MatrixXd slope = measurement_jacobian(predicted_pose, data_, pose) * motion;
-    LinearizedPose linearized_pose{corrected - pose.joints, weigh(pose, residual(predicted_pose, data_, pose)), slope};
+    const Eigen::MatrixXd slope = measurement_jacobian(placed, predicted_pose, data_, pose) * motion;
+    LinearizedPose linearized_pose{corrected - pose.joints, weigh(pose, residual(placed, predicted_pose, data_, pose)),
+                                   slope};
     for (Eigen::Index joint = 0; joint < slope.cols(); ++joint) {
       linearized_pose.jacobian_mm.col(joint) = weigh(pose, slope.col(joint));
     }

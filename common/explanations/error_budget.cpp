@@ -19,8 +19,7 @@ using SquaredErrors_mm2 = std::vector<double>;  ///< of the judging poses
 
 SquaredErrors_mm2 squared_errors(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
   SquaredErrors_mm2 errors;
-  for (const std::size_t pose : poses)
-    errors.push_back(std::pow(millimetres(tool_error_m(robot, data, data.poses[pose])), 2));
+  for (const double error_m : tool_errors_m(robot, data, poses)) errors.push_back(std::pow(millimetres(error_m), 2));
   return errors;
 }
 
@@ -31,12 +30,12 @@ double mean_of(const SquaredErrors_mm2& errors) {
 /// The poses on which models are judged: those with a tool error that is not gross.
 std::vector<std::size_t> judging_poses(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
   std::vector<std::size_t> poses = problem.validation.empty() ? problem.fitted : problem.validation;
-  const auto error_m = [&](std::size_t pose) { return tool_error_m(robot, problem.data, problem.data.poses[pose]); };
-  std::vector<double> errors_m;
-  for (const std::size_t pose : poses) errors_m.push_back(error_m(pose));
-  const double limit_m = gross_error_limit(std::move(errors_m));
-  std::erase_if(poses, [&](std::size_t pose) { return !(error_m(pose) <= limit_m); });
-  return poses;
+  const std::vector<double> errors_m = tool_errors_m(robot, problem.data, poses);
+  const double limit_m = gross_error_limit(errors_m);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (errors_m[i] <= limit_m) kept.push_back(poses[i]);
+  return kept;
 }
 
 double root_of_fall(double without_mm2, double with_mm2) {

@@ -48,6 +48,7 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
     : bare_(model),
       left_out_(among(effects, model.robot)),
       linearization_(linearize_without(problem, model, left_out_)) {
+  bare_.robot = with_contacts_of(std::move(bare_.robot), linearization_.ids, problem.data);
   EffectColumns columns;
   for (const PricedEffect& one : effects) {
     const auto held =

@@ -219,9 +219,11 @@ std::vector<Eigen::Isometry3d> candidates_from_distances(const DataSet& data,
 CorrectedRobot locate_base_and_tools(const DataSet& data, std::span<const std::size_t> poses,
                                      const DeclaredModel& declared, const CorrectedRobot& start,
                                      const FitOptions& options) {
-  if (options.starts == 0 || !(declared.registration || declared.tool)) return start;
+  const bool is_placed = has_instrument(data) || !has_contacts(data);
+  if (options.starts == 0 || !is_placed || !(declared.registration || declared.tool)) return start;
   CorrectedRobot without_effects = start;
   without_effects.effects.clear();
+  without_effects.contacts.clear();  // the base is found by what instruments say
   const BaseSearch search(data, poses, declared, without_effects, options);
   std::vector<Eigen::Isometry3d> bases{start.sensor_from_base};
   if (declared.registration && data.frame == Frame::sensor) {

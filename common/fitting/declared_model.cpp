@@ -13,6 +13,7 @@
 #include "errors/check.hpp"
 #include "fitting/fit.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {
 namespace {
@@ -110,6 +111,18 @@ std::string effect_name(const Effect& effect) {
   return name.str();
 }
 
+std::string contact_number_name(const ParameterId& id) {
+  constexpr std::array<const char*, 7> kMotions{"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg", "radius_mm"};
+  return "contact " + id.target + " " + kMotions.at(static_cast<std::size_t>(id.index));
+}
+
+/// What of a joint is where the arm stands, which contacts leave open: a move of the base does the same.
+bool is_where_the_arm_stands(const ParameterId& id, const Chain& chain) {
+  if (id.kind != Kind::link || id.index != 0) return false;
+  const bool before_axis = chain.convention == Convention::modified_dh;
+  return before_axis || id.link == LinkParameter::theta || id.link == LinkParameter::d;
+}
+
 std::string ratio_text(double share) {
   std::ostringstream text;
   text.precision(2);
@@ -146,6 +159,7 @@ bool DeclaredModel::holds(std::string_view kind) const {
 std::string ParameterId::name() const {
   if (kind == Kind::link) return "joint " + std::to_string(index + 1) + " " + link_name(link);
   if (kind == Kind::effect) return effect;
+  if (kind == Kind::contact) return contact_number_name(*this);
   const std::string axis = kAxes.at(static_cast<std::size_t>(index));
   const std::string of_what = kind == Kind::base_translation || kind == Kind::base_rotation ? "base_" : "tool_";
   const std::string suffix = target.empty() ? "" : " of " + target;
@@ -154,6 +168,7 @@ std::string ParameterId::name() const {
 
 bool ParameterId::is_angle() const {
   if (kind == Kind::effect) return false;
+  if (kind == Kind::contact) return index >= 3 && index != kRadiusMotion;
   if (kind != Kind::link) return kind == Kind::base_rotation || kind == Kind::tool_rotation;
   return link == LinkParameter::theta || link == LinkParameter::alpha || link == LinkParameter::beta;
 }
@@ -176,13 +191,37 @@ std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot) {
 std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared,
                                          const FitOptions& options) {
   std::vector<ParameterId> ids;
-  if (declared.registration) {
+  const bool placed = has_instrument(data) || !has_contacts(data);
+  if (declared.registration && placed) {
     add_axes(ids, Kind::base_translation, {});
     add_axes(ids, Kind::base_rotation, {});
   }
   add_links(ids, data.robot.chain, declared, options.near_parallel_rad);
+  if (!placed) std::erase_if(ids, [&](const ParameterId& id) { return is_where_the_arm_stands(id, data.robot.chain); });
   if (declared.tool) add_tools(ids, data);
   return ids;
+}
+
+std::vector<ParameterId> contact_parameters(const DataSet& data, std::span<const std::size_t> poses) {
+  std::vector<ParameterId> ids;
+  for (const auto& [group, members] : contact_groups(data, poses)) {
+    const ContactForm form = data.contacts.form_of(group.contact);
+    for (const int motion : motions_of({.kind = form.kind, .is_radius_known = form.radius_m.has_value()})) {
+      ids.push_back({.kind = Kind::contact, .index = motion, .target = group.contact, .set = group.set});
+    }
+  }
+  return ids;
+}
+
+CorrectedRobot with_contacts_of(CorrectedRobot robot, const std::vector<ParameterId>& ids, const DataSet& data) {
+  std::set<ContactGroup> lacking;
+  for (const ParameterId& id : ids)
+    if (id.kind == Kind::contact && !robot.contacts.contains({id.target, id.set})) lacking.insert({id.target, id.set});
+  if (lacking.empty()) return robot;
+  std::vector<std::size_t> poses;
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    if (lacking.contains(group_of(data.poses[i]))) poses.push_back(i);
+  return with_own_contacts(std::move(robot), data, poses);
 }
 
 std::string UnidentifiedDirection::sentence() const {

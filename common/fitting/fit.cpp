@@ -9,6 +9,7 @@
 #include "errors/input_error.hpp"
 #include "fitting/base_search.hpp"
 #include "fitting/identifiable.hpp"
+#include "fitting/known_relations.hpp"
 #include "fitting/least_squares.hpp"
 #include "fitting/observation.hpp"
 #include "fitting/parameter_space.hpp"
@@ -56,6 +57,7 @@ ScaledJacobian jacobian_at_reference(const LeastSquares& problem) {
     scaled_rows(problem.data, problem.space, point, observation, problem.scales, rows);
     factor.add(rows.jacobian);
   }
+  factor.add(relation_rows(problem.data, problem.space, point).jacobian);
   return ScaledJacobian(factor.factor());
 }
 
@@ -94,6 +96,7 @@ std::vector<ParameterEstimate> estimates_of(const ParameterSpace& space, const M
   std::vector<ParameterEstimate> estimates;
   for (int i = 0; i < space.size(); ++i) {
     const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
+    if (id.kind == ParameterId::Kind::contact) continue;
     estimates.push_back({id, parameter_value(nominal, id), parameter_value(point.robot, id),
                          std::sqrt(std::max(0.0, of_values(i, i)))});
   }
@@ -134,6 +137,13 @@ Fit make_fit(const LeastSquares& problem, const ScaledFit& result, const Correct
   return fit;
 }
 
+/// Where contacts are is nobody's question: directions of the arm's numbers alone are said.
+void leave_out_places(std::vector<UnidentifiedDirection>& directions) {
+  for (UnidentifiedDirection& direction : directions)
+    std::erase_if(direction.parts, [](const auto& part) { return part.first.kind == ParameterId::Kind::contact; });
+  std::erase_if(directions, [](const UnidentifiedDirection& direction) { return direction.parts.empty(); });
+}
+
 Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double rank_tolerance) {
   const std::vector<ParameterId>& ids = problem.space.ids();
   const ScaledJacobian jacobian = jacobian_at_reference(problem);
@@ -146,17 +156,21 @@ Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double
   for (auto& weak : weak_directions(jacobian, ids, covariance, problem.prior.precision)) {
     fit.unidentified.push_back(std::move(weak));
   }
-  fit.rank = problem.space.size() - static_cast<int>(fit.unidentified.size());
+  leave_out_places(fit.unidentified);
+  fit.rank = static_cast<int>(fit.estimates.size()) - static_cast<int>(fit.unidentified.size());
   fit.sentence = summary_of(fit, problem.observations.size());
   return fit;
 }
 
-/// The declared parameters and, where they are to be refitted, the coefficients of the start's effects.
-std::vector<ParameterId> parameters_of(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& start,
+/// The declared parameters, where they are to be refitted the coefficients of the start's effects, and the places that
+/// the poses touch.
+std::vector<ParameterId> parameters_of(const DataSet& data, std::span<const std::size_t> poses,
+                                       const DeclaredModel& declared, const CorrectedRobot& start,
                                        const FitOptions& options) {
   std::vector<ParameterId> ids = free_parameters(data, declared, options);
-  if (!options.refit_effects) return ids;
-  for (ParameterId& id : effect_parameters(start)) ids.push_back(std::move(id));
+  if (options.refit_effects)
+    for (ParameterId& id : effect_parameters(start)) ids.push_back(std::move(id));
+  for (ParameterId& id : contact_parameters(data, poses)) ids.push_back(std::move(id));
   return ids;
 }
 
@@ -195,12 +209,13 @@ Fit fit_placed(const DataSet& data, const std::vector<Observation>& observations
 Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                  const CorrectedRobot& start, const FitOptions& options) {
   require_known_anchors(data, poses);
-  const std::vector<ParameterId> ids = parameters_of(data, declared, start, options);
+  const std::vector<ParameterId> ids = parameters_of(data, poses, declared, start, options);
   const auto parameters = static_cast<int>(ids.size());
   int measured = 0;
   for (const std::size_t pose : poses) measured += rows_of(data.poses[pose]).total();
   if (measured <= parameters) return too_few(start, poses.size(), measured, parameters);
-  const CorrectedRobot placed = locate_base_and_tools(data, poses, declared, start, options);
+  const CorrectedRobot placed =
+      with_own_contacts(locate_base_and_tools(data, poses, declared, start, options), data, poses);
   const auto observations = observe(data, poses, placed);
   Fit fit = fit_placed(data, observations, ids, placed, declared.tool, options);
   if (fit.status == FitStatus::too_few_poses) {

@@ -61,10 +61,19 @@ struct Fit {
   std::vector<std::size_t> outliers;   ///< poses farther out than the robust scale allows, ascending
 };
 
-/// The parameters `declared` frees on this data: base, then links by joint, then tools by target. Geometry is, for a
-/// revolute joint, d, a, alpha, and beta in place of d on a link between near-parallel axes; for a prismatic one, whose
-/// axis has a direction but no place, the two angles theta and alpha (beta and alpha on such a link).
+/// The parameters `declared` frees on this data: base, then links by joint, then tools by target. Where all is touched
+/// and nothing measured by an instrument, no base, and of the first joint nothing that only says where the arm stands.
+/// Geometry is, for a revolute joint, d, a, alpha, and beta in place of d on a link between near-parallel axes; for a
+/// prismatic one, whose axis has a direction but no place, the two angles theta and alpha (beta and alpha on such a
+/// link).
 std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared, const FitOptions& options);
+
+/// The numbers of the places that these poses touch: nobody knows them beforehand and no model keeps them, but they are
+/// free wherever the poses are fitted, so that what they take is not believed of the arm.
+std::vector<ParameterId> contact_parameters(const DataSet& data, std::span<const std::size_t> poses);
+
+/// `robot` with a place for every contact among `ids`: its own, or else that of its poses on average.
+CorrectedRobot with_contacts_of(CorrectedRobot robot, const std::vector<ParameterId>& ids, const DataSet& data);
 
 /// Every coefficient of the robot's effects, by effect.
 std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot);
@@ -79,6 +88,8 @@ std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot);
 /// orientations otherwise. Directions below rank_tolerance are held where the start has them, and what a base or a tool
 /// can explain is not laid at a joint's door. Covariance is sigma^2 (J^T J + sigma^2 / prior^2)^+ with
 /// sigma^2 = 2 cost / dof. Throws InputError where distances were measured from unknown anchors.
+/// Places that the poses touch start at their poses' mean and are free beside the rest (with what is known between
+/// them), so that estimates, scales and standard errors are those of least squares with the places eliminated.
 Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                  const CorrectedRobot& start, const FitOptions& options = {});
 

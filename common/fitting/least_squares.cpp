@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fitting/declared_model.hpp"
+#include "fitting/known_relations.hpp"
 #include "fitting/row_sums.hpp"
 #include "random/distributions.hpp"
 
@@ -65,6 +66,12 @@ QuadraticModel quadratic_model_at(const LeastSquares& problem, const Eigen::Vect
   model.cost += 0.5 * prior.squaredNorm();
   model.gradient.noalias() += rows.transpose() * prior;
   model.curvature.noalias() += rows.transpose() * rows;
+  const RelationRows known = relation_rows(problem.data, problem.space, point);
+  if (known.residual.size() == 0) return model;
+  const Eigen::MatrixXd along = known.jacobian * problem.basis;
+  model.cost += 0.5 * known.residual.squaredNorm();
+  model.gradient.noalias() += along.transpose() * known.residual;
+  model.curvature.noalias() += along.transpose() * along;
   return model;
 }
 
@@ -211,10 +218,12 @@ std::array<RowKindSums, kRowKinds> sum_up(const LeastSquares& problem, const Eig
   return sums;
 }
 
-/// What the prior tells of z.
-Eigen::MatrixXd prior_information(const LeastSquares& problem) {
+/// What the prior, and what is known between contacts, tell of z.
+Eigen::MatrixXd prior_information(const LeastSquares& problem, const Eigen::VectorXd& change) {
   const Eigen::MatrixXd rows = problem.prior.precision.asDiagonal() * problem.basis;
-  return rows.transpose() * rows;
+  const RelationRows known = relation_rows(problem.data, problem.space, problem.space.at(change));
+  const Eigen::MatrixXd along = known.jacobian * problem.basis;
+  return rows.transpose() * rows + along.transpose() * along;
 }
 
 std::vector<std::size_t> find_outliers(const LeastSquares& problem, const CorrectedRobot& robot,
@@ -255,7 +264,7 @@ RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
 
 Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
   const auto sums = sum_up(problem, change);
-  Eigen::MatrixXd information = prior_information(problem), rescaled = information;
+  Eigen::MatrixXd information = prior_information(problem, change), rescaled = information;
   for (const RowKindSums& sum : sums) information += sum.information;
   const Eigen::MatrixXd inverse = pseudo_inverse(information);
   const CorrectedRobot robot = problem.space.at(change).robot;

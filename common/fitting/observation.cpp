@@ -41,7 +41,7 @@ std::vector<Observation> observe(const DataSet& data, std::span<const std::size_
 
 RowCounts count_rows(const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
-  return {rows.position, rows.orientation, rows.distances};
+  return {rows.points(), rows.orientation, rows.distances};
 }
 
 RowCounts count_rows(const DataSet& data, const std::vector<Observation>& observations) {
@@ -65,7 +65,7 @@ int rows_in_use(const DataSet& data, const std::vector<Observation>& observation
 
 Eigen::VectorXd unscaled_residual(const DataSet& data, const CorrectedRobot& robot, const Observation& observation) {
   const MeasuredPose& pose = data.poses[observation.pose];
-  return residual(robot.predict(observation.corrected, observation.motions, pose.target), data, pose);
+  return residual(robot, robot.predict(observation.corrected, observation.motions, pose.target), data, pose);
 }
 
 void scaled_residual(const DataSet& data, const CorrectedRobot& robot, const Observation& observation,
@@ -77,8 +77,9 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
                  const Observation& observation, const RowScales& scales, ScaledRows& rows) {
   const MeasuredPose& pose = data.poses[observation.pose];
   space.move_tool(point, observation.corrected, observation.motions, pose.target, rows.motion);
-  scale_residual(residual(rows.motion.predicted, data, pose), pose, scales, rows);
-  const auto measured = measurement_jacobian(rows.motion.predicted, data, pose);
+  if (!pose.contact.empty()) space.move_contact(point, group_of(pose), rows.motion);
+  scale_residual(residual(point.robot, rows.motion.predicted, data, pose), pose, scales, rows);
+  const auto measured = measurement_jacobian(point.robot, rows.motion.predicted, data, pose);
   rows.jacobian.resize(rows.residual.size(), space.size());
   for_each_row_in_use(pose, scales, [&](int to, int from, double scale) {
     rows.jacobian.row(to).noalias() = (-1.0 / scale) * measured.row(from) * rows.motion.twists;

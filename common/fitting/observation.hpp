@@ -15,7 +15,7 @@
 
 namespace demecal::inline fitting {
 
-/// The kinds of rows: position, orientation, distance, in the order they stand in.
+/// The kinds of rows: position (points measured or touched), orientation, distance, in the order they stand in.
 inline constexpr std::size_t kPosition = 0, kOrientation = 1, kDistance = 2, kRowKinds = 3;
 
 /// Per kind: the standard deviation of its residuals (m, rad, m), 0 where a fit does not use it.

@@ -35,6 +35,12 @@ RotationVectors rotation_vectors_of(const std::vector<ParameterId>& ids, const E
   return turns;
 }
 
+/// Translations and radius: the rotation waits until its whole vector is known.
+void move_place(ContactPlace& place, int motion, double change) {
+  if (motion == kRadiusMotion) place.radius_m += change;
+  if (motion < 3) place.frame.translation() += change * place.frame.linear().col(motion);
+}
+
 void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
   switch (id.kind) {
     case Kind::base_translation:
@@ -48,6 +54,9 @@ void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
       return;
     case Kind::effect:
       robot.effects[static_cast<std::size_t>(id.index)].values[static_cast<std::size_t>(id.coefficient)] += change;
+      return;
+    case Kind::contact:
+      move_place(robot.contacts.at({id.target, id.set}), id.index, change);
       return;
     case Kind::base_rotation:
     case Kind::tool_rotation:
@@ -84,7 +93,8 @@ Twist twist_of(const ParameterId& id, const ModelPoint& point, const TwistFrames
       twist.tail<3>() = frames.base * link.tail<3>();
       break;
     }
-    case Kind::effect:  // added by motion, since one coefficient may move several places
+    case Kind::effect:   // added by motion, since one coefficient may move several places
+    case Kind::contact:  // added for the poses that touch it
       break;
   }
   return twist;
@@ -185,7 +195,29 @@ ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
     point.robot.tools.at(target).linear() = rotation_of(turn) * reference_.tool(target).linear();
     point.tool_turns[target] = left_jacobian(turn);
   }
+  for (int i = 0; i < size(); ++i) {
+    const ParameterId& id = ids_[static_cast<std::size_t>(i)];
+    if (id.kind != Kind::contact || id.index < 3 || id.index == kRadiusMotion) continue;
+    point.contact_turns.try_emplace({id.target, id.set}, Eigen::Vector3d::Zero()).first->second[id.index - 3] =
+        change[i];
+  }
+  for (const auto& [group, turn] : point.contact_turns) {
+    Eigen::Isometry3d& frame = point.robot.contacts.at(group).frame;
+    frame.linear() = (frame.linear() * rotation_of(turn)).eval();
+  }
   return point;
+}
+
+void ParameterSpace::move_contact(const ModelPoint& point, const ContactGroup& group, ToolMotion& motion) const {
+  const auto place = point.robot.contacts.find(group);
+  if (place == point.robot.contacts.end()) return;
+  const auto turned = point.contact_turns.find(group);
+  const Eigen::Vector3d turn = turned == point.contact_turns.end() ? Eigen::Vector3d::Zero() : turned->second;
+  for (int i = 0; i < size(); ++i) {
+    const ParameterId& id = ids_[static_cast<std::size_t>(i)];
+    if (id.kind != Kind::contact || id.set != group.set || id.target != group.contact) continue;
+    motion.twists.col(i).head<3>() += equivalent_motion(place->second, id.index, turn, motion.predicted.translation());
+  }
 }
 
 void ParameterSpace::move_tool(const ModelPoint& point, const JointVector& corrected,
@@ -223,6 +255,8 @@ double parameter_value(const CorrectedRobot& robot, const ParameterId& id) {
       return vector_of(robot.tool(id.target).linear())[id.index];
     case Kind::link:
       return robot.chain.joints[static_cast<std::size_t>(id.index)].parameter(id.link);
+    case Kind::contact:
+      return 0.0;
     case Kind::effect:
       return static_cast<std::size_t>(id.index) < robot.effects.size()
                  ? robot.effects[static_cast<std::size_t>(id.index)].value(static_cast<std::size_t>(id.coefficient))
@@ -238,7 +272,7 @@ Eigen::MatrixXd value_jacobian(const ParameterSpace& space, const ModelPoint& po
   };
   for (int i = 0; i < space.size(); ++i) {
     const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
-    if (!(id.is_angle() && id.kind != Kind::link) || id.index != 0) continue;
+    if (!(id.is_angle() && id.kind != Kind::link && id.kind != Kind::contact) || id.index != 0) continue;
     jacobian.block<3, 3>(i, i) = id.kind == Kind::base_rotation
                                      ? turned(point.robot.sensor_from_base, point.base_turns)
                                      : turned(point.robot.tool(id.target), point.tool_turns.at(id.target));

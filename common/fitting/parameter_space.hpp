@@ -20,6 +20,8 @@ struct ModelPoint {
   Eigen::Matrix3d base_turns = Eigen::Matrix3d::Identity();
   /// The same of each target's tool, in the flange frame.
   std::map<std::string, Eigen::Matrix3d> tool_turns;
+  /// Of each contact's place: the rotation vector by which it is turned, in its reference's frame.
+  std::map<ContactGroup, Eigen::Vector3d> contact_turns{};
 };
 
 /// Where the tool is, and its twist (6 x parameters; linear m, angular rad; measurements' frame) per unit of each.
@@ -30,7 +32,8 @@ struct ToolMotion {
 
 /// Changes (rad, m) of a reference robot's parameters. Link parameters and translations add; rotations are rotation
 /// vectors applied before the reference's: the base's in the measurements' frame about the base's origin, the tools'
-/// in the flange frame about the tool point. Coefficients of effects add too.
+/// in the flange frame about the tool point. Coefficients of effects add too. Contacts' places move along and about
+/// their reference's axes.
 class ParameterSpace {
  public:
   ParameterSpace(CorrectedRobot reference, std::vector<ParameterId> ids);
@@ -46,6 +49,10 @@ class ParameterSpace {
   /// overwritten; given again it is not reallocated.
   void move_tool(const ModelPoint& point, const JointVector& corrected, const std::vector<EffectMotion>& motions,
                  const std::string& target, ToolMotion& motion) const;
+
+  /// Adds to a tool's motion, whose pose touches a contact of `group`, what moving the contact's place would have the
+  /// tool seem to do.
+  void move_contact(const ModelPoint& point, const ContactGroup& group, ToolMotion& motion) const;
 
  private:
   CorrectedRobot reference_;

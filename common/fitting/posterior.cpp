@@ -1,5 +1,6 @@
 #include "fitting/posterior.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -31,13 +32,12 @@ std::vector<double> votes(std::span<const std::size_t> groups) {
 }
 
 bool is_of_distances(const MeasuredPose& pose) {
-  return !pose.position_m && !pose.distances_m.empty();
+  return !measures_point(pose) && !pose.distances_m.empty();
 }
 
-}  // namespace
-
-PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot& robot, const Stop& stop,
-                               const std::string& target) {
+/// The tool's twist per unit of each of the posterior's independent numbers: 6 x columns of its factor.
+Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior, const CorrectedRobot& robot,
+                                                     const Stop& stop, const std::string& target) {
   const auto numbers = static_cast<Eigen::Index>(posterior.ids.size() + posterior.terms.size());
   DEMECAL_CHECK(posterior.factor.rows() == numbers, posterior.factor.rows() << " rows of " << numbers << " numbers");
   const ParameterSpace space(robot, posterior.ids);
@@ -46,7 +46,7 @@ PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot&
                   robot.motions(stop, target), target, motion);
   Eigen::Matrix<double, 6, Eigen::Dynamic> spread =
       motion.twists * posterior.factor.topRows(static_cast<Eigen::Index>(posterior.ids.size()));
-  if (posterior.terms.empty()) return spread * spread.transpose();
+  if (posterior.terms.empty()) return spread;
   const Eigen::Vector3d& tool_m = robot.tool(target).translation();
   Jacobian joints = joint_jacobian(robot.chain, robot.actual_joints(stop), tool_m);
   const Eigen::Matrix3d& base = robot.sensor_from_base.linear();
@@ -56,6 +56,45 @@ PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot&
   for (const CorrectionTerm& term : posterior.terms) {
     spread += term.shape(stop.joints[term.joint]) * joints.col(term.joint) * posterior.factor.row(row++);
   }
+  return spread;
+}
+
+/// Of a pose that touches something: what is left of the posterior where the contact's place is taken from the poses of
+/// its group, which are wrong together.
+double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot, const DataSet& data,
+                         const MeasuredPose& pose) {
+  std::vector<const MeasuredPose*> group;
+  std::vector<Eigen::Vector3d> points;
+  for (const MeasuredPose& other : data.poses) {
+    if (other.contact.empty() || group_of(other) != group_of(pose)) continue;
+    group.push_back(&other);
+    points.push_back(robot.predict(Stop(other), other.target).translation());
+  }
+  const ContactPlace place = contact_place(data.contacts.form_of(pose.contact), points);
+  const std::vector<int> motions = motions_of(place);
+  const int count = rows_of(place.kind);
+  Eigen::MatrixXd spread(count * std::ssize(group), posterior.factor.cols());
+  Eigen::MatrixXd moved(spread.rows(), std::ssize(motions));
+  Eigen::Index own = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Eigen::Index first = count * static_cast<Eigen::Index>(i);
+    if (group[i] == &pose) own = first;
+    const auto rows = contact_jacobian(place, points[i]);
+    spread.middleRows(first, count) =
+        rows * pose_spread(posterior, robot, Stop(*group[i]), group[i]->target).topRows<3>();
+    for (std::size_t k = 0; k < motions.size(); ++k)
+      moved.block(first, static_cast<Eigen::Index>(k), count, 1) =
+          rows * equivalent_motion(place, motions[k], Eigen::Vector3d::Zero(), points[i]);
+  }
+  spread -= moved * moved.completeOrthogonalDecomposition().solve(spread).eval();
+  return spread.middleRows(own, count).squaredNorm();
+}
+
+}  // namespace
+
+PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot& robot, const Stop& stop,
+                               const std::string& target) {
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> spread = pose_spread(posterior, robot, stop, target);
   return spread * spread.transpose();
 }
 
@@ -89,10 +128,11 @@ double normal_quantile_of_scores(std::span<const double> scores, std::span<const
 
 double posterior_square_m2(const Posterior& posterior, const CorrectedRobot& robot, const DataSet& data,
                            const MeasuredPose& pose) {
+  if (!pose.contact.empty()) return touched_square_m2(posterior, robot, data, pose);
   const Stop stop(pose);
   const PoseCovariance covariance = pose_covariance(posterior, robot, stop, pose.target);
   if (!is_of_distances(pose)) return covariance.topLeftCorner<3, 3>().trace();
-  const Eigen::MatrixXd rows = measurement_jacobian(robot.predict(stop, pose.target), data, pose);
+  const Eigen::MatrixXd rows = measurement_jacobian(robot, robot.predict(stop, pose.target), data, pose);
   const auto count = static_cast<Eigen::Index>(pose.distances_m.size());
   const Eigen::MatrixXd lines = rows.bottomRows(count);
   return (lines * covariance * lines.transpose()).trace() / static_cast<double>(count);
@@ -101,7 +141,8 @@ double posterior_square_m2(const Posterior& posterior, const CorrectedRobot& rob
 double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& pose) {
   const double model_error_m2 = std::pow(interval.model_error_m, 2);
   if (is_of_distances(pose)) return std::pow(interval.distance_noise_m, 2) + model_error_m2;
-  return 3.0 * (std::pow(interval.noise_m, 2) + model_error_m2);
+  const double axes = pose.contact.empty() ? 3.0 : rows_of(pose.contact_kind);
+  return axes * (std::pow(interval.noise_m, 2) + model_error_m2);
 }
 
 double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints) {

@@ -12,6 +12,8 @@ namespace demecal::inline html {
 
 /// The tool error from stage to stage, as table and bars.
 std::string stages_section(const Report& report);
+/// What was touched: the spread of every contact before and after, known lengths, and what contacts cannot tell.
+std::string contacts_section(const Report& report);
 /// What the closed loop tried, found and could not find.
 std::string loop_section(const Report& report);
 /// Every joint's error, correction and evolution.

@@ -16,6 +16,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
+#include "prediction/contact_place.hpp"
 
 namespace demecal::inline prediction {
 
@@ -78,6 +79,8 @@ struct CorrectedRobot {
   std::vector<JointCorrection> corrections;        ///< one per joint
   std::vector<Effect> effects{};                   ///< what else the arm does, by how `described` stands
   Robot described{};  ///< the arm as its maker describes it; needed where there are effects
+  /// Where contacts are taken to be, in the measurements' frame: estimates beside the arm, none of its numbers.
+  std::map<ContactGroup, ContactPlace> contacts{};
 
   /// flange_from_tool of a target; the robot must have it.
   const Eigen::Isometry3d& tool(const std::string& target) const;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,60 +43,159 @@ double percentile_95(const std::vector<double>& ascending) {
   return std::lerp(ascending[below], ascending[above], rank - static_cast<double>(below));
 }
 
+/// Where the robot has the contact that a pose touches; null: nowhere.
+const ContactPlace* place_of(const CorrectedRobot& robot, const MeasuredPose& pose) {
+  const auto found = robot.contacts.find(group_of(pose));
+  return found == robot.contacts.end() ? nullptr : &found->second;
+}
+
+Eigen::Vector3d tool_point(const CorrectedRobot& robot, const MeasuredPose& pose) {
+  return robot.predict(Stop(pose), pose.target).translation();
+}
+
+std::vector<std::size_t> all_poses(const DataSet& data) {
+  std::vector<std::size_t> all(data.poses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
 }  // namespace
 
 MeasurementRows rows_of(const MeasuredPose& pose) {
-  return {pose.position_m ? 3 : 0, pose.orientation ? 3 : 0, static_cast<int>(pose.distances_m.size())};
+  return {pose.position_m ? 3 : 0, pose.contact.empty() ? 0 : rows_of(pose.contact_kind), pose.orientation ? 3 : 0,
+          static_cast<int>(pose.distances_m.size())};
 }
 
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  return residual(robot.predict(Stop(pose), pose.target), data, pose);
+  return residual(robot, robot.predict(Stop(pose), pose.target), data, pose);
 }
 
-Eigen::VectorXd residual(const Eigen::Isometry3d& predicted, const DataSet& data, const MeasuredPose& pose) {
+Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& predicted, const DataSet& data,
+                         const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
   Eigen::VectorXd result(rows.total());
   if (pose.position_m) result.head<3>() = *pose.position_m - predicted.translation();
+  if (rows.contact > 0) {
+    const ContactPlace* const place = place_of(robot, pose);
+    auto own = result.segment(rows.position, rows.contact);
+    own.setZero();
+    if (place != nullptr) own = contact_residual(*place, predicted.translation());
+  }
   if (pose.orientation) {
-    result.segment<3>(rows.position) = rotation_between(predicted.linear(), pose.orientation->toRotationMatrix());
+    result.segment<3>(rows.points()) = rotation_between(predicted.linear(), pose.orientation->toRotationMatrix());
   }
   result.tail(rows.distances) = distance_errors(predicted.translation(), data, pose);
   return result;
 }
 
-Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const Eigen::Isometry3d& predicted, const DataSet& data,
+Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const CorrectedRobot& robot,
+                                                              const Eigen::Isometry3d& predicted, const DataSet& data,
                                                               const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
   Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(rows.total(), 6);
   if (pose.position_m) jacobian.topLeftCorner<3, 3>().setIdentity();
-  if (pose.orientation) jacobian.block<3, 3>(rows.position, 3).setIdentity();
+  if (const ContactPlace* const place = rows.contact > 0 ? place_of(robot, pose) : nullptr) {
+    jacobian.block(rows.position, 0, rows.contact, 3) = contact_jacobian(*place, predicted.translation());
+  }
+  if (pose.orientation) jacobian.block<3, 3>(rows.points(), 3).setIdentity();
   for (int i = 0; i < rows.distances; ++i) {
     const Eigen::Vector3d line = predicted.translation() - anchor(data, static_cast<std::size_t>(i));
-    jacobian.block<1, 3>(rows.position + rows.orientation + i, 0) = line.normalized().transpose();
+    jacobian.block<1, 3>(rows.points() + rows.orientation + i, 0) = line.normalized().transpose();
   }
   return jacobian;
 }
 
-double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  return tool_error_m(robot.predict(Stop(pose), pose.target), data, pose);
+CorrectedRobot with_own_contacts(CorrectedRobot robot, const DataSet& data, std::span<const std::size_t> poses) {
+  for (const auto& [group, members] : contact_groups(data, poses)) {
+    std::vector<Eigen::Vector3d> points;
+    for (const std::size_t pose : members) points.push_back(tool_point(robot, data.poses[pose]));
+    robot.contacts[group] = contact_place(data.contacts.form_of(group.contact), points);
+  }
+  return robot;
 }
 
-double tool_error_m(const Eigen::Isometry3d& predicted, const DataSet& data, const MeasuredPose& pose) {
+CorrectedRobot with_own_contacts(CorrectedRobot robot, const DataSet& data) {
+  return with_own_contacts(std::move(robot), data, all_poses(data));
+}
+
+std::vector<double> tool_errors_m(const CorrectedRobot& robot, const DataSet& data,
+                                  std::span<const std::size_t> poses) {
+  if (!has_contacts(data)) {
+    std::vector<double> errors_m;
+    for (const std::size_t pose : poses) errors_m.push_back(tool_error_m(robot, data, data.poses[pose]));
+    return errors_m;
+  }
+  std::set<ContactGroup> groups;
+  for (const std::size_t pose : poses)
+    if (!data.poses[pose].contact.empty()) groups.insert(group_of(data.poses[pose]));
+  std::vector<std::size_t> members;
+  for (const std::size_t pose : all_poses(data))
+    if (groups.contains(group_of(data.poses[pose]))) members.push_back(pose);
+  const CorrectedRobot placed = with_own_contacts(robot, data, members);
+  std::vector<double> errors_m;
+  for (const std::size_t pose : poses) errors_m.push_back(tool_error_m(placed, data, data.poses[pose]));
+  return errors_m;
+}
+
+std::vector<double> tool_errors_m(const CorrectedRobot& robot, const std::vector<Eigen::Isometry3d>& predicted,
+                                  const DataSet& data, std::span<const std::size_t> poses) {
+  DEMECAL_CHECK(predicted.size() == poses.size(), predicted.size() << " predictions of " << poses.size() << " poses");
+  std::map<ContactGroup, std::vector<Eigen::Vector3d>> points;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (!data.poses[poses[i]].contact.empty())
+      points[group_of(data.poses[poses[i]])].push_back(predicted[i].translation());
+  CorrectedRobot placed;
+  if (points.empty()) placed.contacts = robot.contacts;
+  for (const auto& [group, touched] : points)
+    placed.contacts[group] = contact_place(data.contacts.form_of(group.contact), touched);
+  std::vector<double> errors_m;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    errors_m.push_back(tool_error_m(placed, predicted[i], data, data.poses[poses[i]]));
+  return errors_m;
+}
+
+double tool_error_m(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
+  return tool_error_m(robot, robot.predict(Stop(pose), pose.target), data, pose);
+}
+
+double tool_error_m(const CorrectedRobot& robot, const Eigen::Isometry3d& predicted, const DataSet& data,
+                    const MeasuredPose& pose) {
   const Eigen::Vector3d point = predicted.translation();
+  if (!pose.contact.empty()) {
+    const ContactPlace* const place = place_of(robot, pose);
+    return place == nullptr ? kNone : contact_residual(*place, point).norm();
+  }
   if (pose.position_m) return (*pose.position_m - point).norm();
   if (pose.distances_m.empty()) return kNone;
   return distance_errors(point, data, pose).norm() / std::sqrt(static_cast<double>(pose.distances_m.size()));
 }
 
+bool measures_point(const MeasuredPose& pose) {
+  return pose.position_m.has_value() || !pose.contact.empty();
+}
+
+std::vector<LengthError> length_errors(const CorrectedRobot& robot, const DataSet& data) {
+  const CorrectedRobot placed = with_own_contacts(robot, data);
+  std::vector<LengthError> errors;
+  for (const KnownDistance& known : data.contacts.distances) {
+    for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
+      const auto first = placed.contacts.find({known.first, set}), second = placed.contacts.find({known.second, set});
+      if (first == placed.contacts.end() || second == placed.contacts.end()) continue;
+      const double length_m = (first->second.frame.translation() - second->second.frame.translation()).norm();
+      errors.push_back({&known, set, length_m - known.length_m});
+    }
+  }
+  return errors;
+}
+
 ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {
+  std::vector<std::size_t> measured;
+  for (const std::size_t i : poses)
+    if (measures_point(data.poses[i]) || !data.poses[i].distances_m.empty()) measured.push_back(i);
   std::vector<double> errors_mm;
-  for (const std::size_t i : poses) {
-    const MeasuredPose& pose = data.poses[i];
-    const MeasurementRows rows = rows_of(pose);
-    if (rows.position + rows.distances == 0) continue;
-    const double error_mm = millimetres(tool_error_m(robot, data, pose));
+  for (const double error_m : tool_errors_m(robot, data, measured)) {
     // A formula may predict no number at all; such a pose is infinitely far off, and can be sorted.
-    errors_mm.push_back(std::isnan(error_mm) ? std::numeric_limits<double>::infinity() : error_mm);
+    errors_mm.push_back(std::isnan(error_m) ? std::numeric_limits<double>::infinity() : millimetres(error_m));
   }
   return error_figures(std::move(errors_mm));
 }

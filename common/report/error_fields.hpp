@@ -56,4 +56,9 @@ void fields(auto& visit, Like<UncertaintyEntry> auto& entry) {
         entry.coverage_factor, "expanded_mm", entry.expanded_mm, "remark", entry.remark);
 }
 
+void fields(auto& visit, Like<LengthErrorEntry> auto& length) {
+  visit("between", length.between, "set", length.set, "known_mm", length.known_mm, "sigma_mm", length.sigma_mm,
+        "before_mm", length.before_mm, "error_mm", length.error_mm);
+}
+
 }  // namespace demecal::inline report

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -69,6 +70,7 @@ void fields(auto& visit, Like<UnappliedEffect> auto& effect) {
 void fields(auto& visit, Like<Evaluation> auto& evaluation) {
   visit("error_mm", evaluation.error_mm, "pose_errors", evaluation.pose_errors, "data_check", evaluation.data_check,
         "effects_not_applied", evaluation.effects_not_applied, "uncertainty", evaluation.uncertainty);
+  visit.when(evaluation.touches, "length_errors_mm", evaluation.length_errors);
 }
 
 void fields(auto& visit, Like<ComparedMethod> auto& method) {
@@ -98,11 +100,16 @@ std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedMod
                                         const CorrectedRobot* before) {
   constexpr double kOutside = 1.1;  ///< less is not worth a flag
   std::vector<PoseErrorEntry> poses;
-  for (const MeasuredPose& pose : data.poses) {
+  std::vector<std::size_t> all(data.poses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<double> after_m = tool_errors_m(robot, data, all);
+  const std::vector<double> before_m = before == nullptr ? std::vector<double>{} : tool_errors_m(*before, data, all);
+  for (const std::size_t i : all) {
+    const MeasuredPose& pose = data.poses[i];
     PoseErrorEntry entry{pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
     const double widened = extrapolation(data.robot.chain, model.measured, pose.joints);
-    if (before != nullptr) entry.before_mm = if_finite(millimetres(tool_error_m(*before, data, pose)));
-    entry.after_mm = if_finite(millimetres(tool_error_m(robot, data, pose)));
+    if (before != nullptr) entry.before_mm = if_finite(millimetres(before_m[i]));
+    entry.after_mm = if_finite(millimetres(after_m[i]));
     if (model.posterior && model.interval)
       entry.interval95_mm =
           if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, widened)));

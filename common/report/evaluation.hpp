@@ -27,6 +27,18 @@ ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data);
 std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
                                         const CorrectedRobot* before);
 
+/// Of every known length between contacts, in every set that touches both its ends. `before`: none where not known.
+std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
+                                                   const CorrectedRobot* before);
+
+/// Of every contact and set; empty where nothing is touched.
+std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRobot& registered,
+                                          const CorrectedRobot& before, const CorrectedRobot& after);
+
+/// What these contacts can tell of the arm and what they cannot, the most important first; empty where nothing is
+/// touched.
+std::vector<std::string> contact_notes(const DataSet& data);
+
 /// Where the radii of poses come from.
 PredictionEntry prediction_entry(const PredictionInterval& interval);
 
@@ -62,6 +74,8 @@ struct Evaluation {
   std::vector<UnappliedEffect> effects_not_applied;
   std::optional<PredictionEntry> prediction;      ///< for people alone
   std::optional<UncertaintyEntry> uncertainty{};  ///< of a corrected position at poses like these
+  std::vector<LengthErrorEntry> length_errors{};
+  bool touches = false;  ///< whether the poses touch anything: then lengths are listed
 };
 
 /// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "pose_errors": [...],

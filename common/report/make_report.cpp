@@ -46,9 +46,10 @@ Report::Poses named_poses(const Conclusions& run) {
   Report::Poses poses = counts_of(data);
   const bool looped = run.loop.stopped != StopReason::not_run;
   poses.outliers = ids(data, looped ? run.loop.outliers : run.preparation.declared.outliers);
+  const CorrectedRobot placed = with_own_contacts(run.model.robot, data);
   for (const MeasuredPose& pose : data.excluded) {
-    poses.excluded.push_back({pose.pose_id, std::string(to_string(pose.set)),
-                              if_finite(millimetres(tool_error_m(run.model.robot, data, pose)))});
+    poses.excluded.push_back(
+        {pose.pose_id, std::string(to_string(pose.set)), if_finite(millimetres(tool_error_m(placed, data, pose)))});
   }
   for (const SingularPose& singular : run.preparation.targets.singular)
     poses.near_singular.push_back(data.poses[singular.pose].pose_id);
@@ -183,6 +184,9 @@ Report make_report(const Conclusions& run) {
   }
   report.pose_errors = flagged_errors(run, report.poses);
   if (!data.poses.empty()) report.arm = arm_entry(model.robot, data.poses.front().target);
+  report.contacts = contact_entries(data, run.preparation.registered.robot, run.before, model.robot);
+  report.length_errors = length_error_entries(data, model.robot, &run.before);
+  report.contact_notes = contact_notes(data);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   report.noise_floor_mm = noise_floor_mm(data);
   set_loop(run.loop, model.nominal, report);

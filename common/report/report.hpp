@@ -63,6 +63,22 @@ struct PoseErrorEntry {
   PosePlace place{};
 };
 
+/// The poses of one set that touch one contact: how far from where they have it on average (rms).
+struct ContactEntry {
+  std::string contact, set, kind;
+  std::uint64_t poses = 0;
+  std::optional<double> registered_rms_mm, before_rms_mm, after_rms_mm;
+};
+
+/// A known length between contacts as the poses of one set have it, minus what is known.
+struct LengthErrorEntry {
+  std::vector<std::string> between;
+  std::string set;
+  std::optional<double> known_mm, sigma_mm;
+  std::optional<double> before_mm;  ///< of what the closed loop started from
+  std::optional<double> error_mm;   ///< of the model
+};
+
 /// What the radii of single poses come from.
 struct PredictionEntry {
   std::optional<double> quantile, noise_mm, distance_noise_mm, model_error_mm;
@@ -253,6 +269,9 @@ struct Report {
   std::optional<BeforeAfter> unseen_validation_rms_mm;   ///< where validation poses had a part in the last fit
   std::vector<PoseErrorEntry> pose_errors;               ///< of all poses; empty where nothing was fitted
   std::optional<ArmEntry> arm{};                         ///< where something was fitted
+  std::vector<LengthErrorEntry> length_errors{};         ///< of known lengths between contacts
+  std::vector<ContactEntry> contacts{};                  ///< where poses touch something
+  std::vector<std::string> contact_notes{};              ///< what contacts can and cannot tell: sentences
   std::optional<PredictionEntry> prediction_interval{};  ///< behind their radii
   std::optional<double> noise_floor_mm;  ///< standard deviation of repeats per axis, where there are repeats
   std::vector<CauseEntry> causes;        ///< of what the loop added, the costliest first

@@ -182,6 +182,12 @@ void fields(auto& visit, Like<FrontEntry> auto& point) {
         "chosen", point.chosen);
 }
 
+void fields(auto& visit, Like<ContactEntry> auto& contact) {
+  visit("contact", contact.contact, "set", contact.set, "kind", contact.kind, "poses", contact.poses,
+        "registered_rms_mm", contact.registered_rms_mm, "before_rms_mm", contact.before_rms_mm, "after_rms_mm",
+        contact.after_rms_mm);
+}
+
 void loop_fields(auto& visit, Like<Report> auto& report) {
   visit("causes", report.causes, "front", report.front, "rounds", report.rounds, "dropped", report.dropped, "not_found",
         report.not_found, "unseen", report.untestable, "decoys", report.decoys, "stopped", report.stopped,
@@ -208,8 +214,11 @@ void fields(auto& visit, Like<Report> auto& report) {
     fit.when(report.unseen_validation_rms_mm.has_value(), "unseen_validation_rms_mm", report.unseen_validation_rms_mm);
   });
   visit.when(report.arm.has_value(), "arm", report.arm);
-  visit("pose_errors", report.pose_errors, "prediction_interval", report.prediction_interval, "noise_floor_mm",
-        report.noise_floor_mm);
+  visit("pose_errors", report.pose_errors);
+  visit.when(!report.contacts.empty(), "length_errors_mm", report.length_errors);
+  visit.when(!report.contacts.empty(), "contacts", report.contacts);
+  visit.when(!report.contact_notes.empty(), "contact_notes", report.contact_notes);
+  visit("prediction_interval", report.prediction_interval, "noise_floor_mm", report.noise_floor_mm);
   loop_fields(visit, report);
   visit("performance_index_mm2", report.performance_index_mm2, "joints", report.joints);
   visit.when(report.shared_functions.has_value(), "shared_functions", report.shared_functions);

@@ -6,6 +6,7 @@
 
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
+#include "fitting/known_relations.hpp"
 #include "fitting/least_squares.hpp"
 #include "fitting/parameter_space.hpp"
 #include "fitting/row_sums.hpp"
@@ -21,6 +22,7 @@ std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const Correct
                                   const FitOptions& options) {
   std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared, options);
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
+  for (ParameterId& id : contact_parameters(problem.data, problem.fitted)) ids.push_back(std::move(id));
   return ids;
 }
 
@@ -67,16 +69,30 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& s
     beliefs(first + i, first + n) = -columns.precision[i] * columns.offset[i];
   }
   factor.add(beliefs);
+  RowMatrix known = RowMatrix::Zero(columns.known.rows(), first + n + 1);
+  known.middleCols(first, n) = columns.known;
+  known.col(first + n) = columns.known_residual;
+  factor.add(known);
   const Eigen::MatrixXd left = factor.factor().bottomRightCorner(n + 1, n + 1);
   return relevance(left, smooth.families(), static_cast<double>(residual.size()));
 }
 
-ModelColumns model_columns(const ParameterSpace& space, const Prior& prior, const SmoothCorrections& smooth,
-                           const Eigen::VectorXd& kept_precision, const ResidualField& fitted,
-                           const ResidualField& validation, const RowMatrix& shared) {
-  ModelColumns columns{
-      beside(fitted.declared, smooth.columns(fitted)), beside(validation.declared, smooth.columns(validation)), {}, {}};
+/// What is known between contacts, over the model's columns: `terms` smooth ones come after those of `space`.
+void add_known(const DataSet& data, const ParameterSpace& space, Eigen::Index terms, ModelColumns& columns) {
+  const RelationRows known = relation_rows(data, space, space.at(Eigen::VectorXd::Zero(space.size())));
+  columns.known = RowMatrix::Zero(known.residual.size(), space.size() + terms);
+  columns.known.leftCols(space.size()) = -known.jacobian;
+  columns.known_residual = known.residual;
+}
+
+ModelColumns model_columns(const DataSet& data, const ParameterSpace& space, const Prior& prior,
+                           const SmoothCorrections& smooth, const Eigen::VectorXd& kept_precision,
+                           const ResidualField& fitted, const ResidualField& validation, const RowMatrix& shared) {
+  RowMatrix unseen = smooth.columns(validation);
+  leave_out_places(validation, unseen);
+  ModelColumns columns{beside(fitted.declared, smooth.columns(fitted)), beside(validation.declared, unseen), {}, {}};
   const Eigen::Index n = space.size(), terms = smooth.coefficients.size();
+  add_known(data, space, terms, columns);
   columns.precision.setZero(n + terms);
   columns.precision.head(n) = prior.precision;
   columns.offset.setZero(n + terms);
@@ -111,8 +127,13 @@ std::vector<Eigen::Index> without_effects(const std::vector<bool>& left_out, con
 }
 
 ModelColumns those_of(const ModelColumns& columns, const std::vector<Eigen::Index>& kept) {
-  return {columns.fitted(Eigen::all, kept), columns.validation(Eigen::all, kept), columns.precision(kept),
-          columns.offset(kept)};
+  return {columns.fitted(Eigen::all, kept),
+          columns.validation(Eigen::all, kept),
+          columns.precision(kept),
+          columns.offset(kept),
+          0,
+          columns.known(Eigen::all, kept),
+          columns.known_residual};
 }
 
 void append(ModelColumns& columns, const SharedErrors& shared) {
@@ -123,6 +144,7 @@ void append(ModelColumns& columns, const SharedErrors& shared) {
   columns.precision.tail(more).setOnes();
   columns.offset.conservativeResize(known + more);
   columns.offset.tail(more).setZero();
+  columns.known = beside(columns.known, RowMatrix::Zero(columns.known.rows(), more));
   columns.shared = more;
 }
 
@@ -207,13 +229,16 @@ Linearization linearize_without(const DiagnosisProblem& problem, const Diagnosed
                                 const std::vector<bool>& left_out) {
   const FitOptions options;
   std::vector<ParameterId> ids = free_ids(problem, model.robot, options);
-  const ParameterSpace space(model.robot, ids);
+  const ParameterSpace space(with_contacts_of(model.robot, ids, problem.data), ids);
   Prior prior = link_prior(space, nominal_robot(problem.data), options);
   ResidualField fitted = residual_field(problem.data, problem.fitted, space, model.scales, true, model.noise);
-  ResidualField validation = residual_field(problem.data, problem.validation, space, model.scales, false, model.noise);
+  ResidualField validation =
+      unseen_field(problem.data, problem.validation, space.reference(), ids, model.scales, model.noise);
   believe_effects_small(ids, model.robot, problem.data.robot, fitted.states, prior);
-  const SharedErrors shared = shared_errors(model.noise, fitted, validation);
-  ModelColumns columns = model_columns(space, prior, model.smooth, model.precision, fitted, validation, shared.fitted);
+  SharedErrors shared = shared_errors(model.noise, fitted, validation);
+  leave_out_places(validation, shared.validation);
+  ModelColumns columns =
+      model_columns(problem.data, space, prior, model.smooth, model.precision, fitted, validation, shared.fitted);
   const std::vector<Eigen::Index> kept =
       without_effects(left_out, model.robot, model.smooth.coefficients.size(), ids, fitted, validation);
   if (std::ssize(kept) < columns.precision.size()) columns = those_of(columns, kept);
@@ -230,7 +255,7 @@ Linearization linearize_without(const DiagnosisProblem& problem, const Diagnosed
 DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps) {
   for (int step = 0; step < steps; ++step) {
     const Linearization linearization = linearize(problem, model);
-    const ParameterSpace space(model.robot, linearization.ids);
+    const ParameterSpace space(with_contacts_of(model.robot, linearization.ids, problem.data), linearization.ids);
     model.robot = space.at(linearization.changes.head(space.size())).robot;
     model.smooth.coefficients += linearization.changes.tail(model.smooth.coefficients.size());
     model.robot.corrections = model.smooth.corrections();

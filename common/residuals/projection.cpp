@@ -41,13 +41,19 @@ void append(RowMatrix& to, const RowMatrix& columns) {
 Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation)
     : residual_(fitted),
       validation_residual_(validation),
-      prior_residual_(-model.precision.cwiseProduct(model.offset)),
+      prior_residual_(model.known.rows() + model.precision.size()),
       shared_(model.shared) {
   TriangularFactor factor(static_cast<int>(model.fitted.cols()));
   factor.add(model.fitted);
-  const RowMatrix prior = model.precision.asDiagonal().toDenseMatrix();
+  const Eigen::Index columns = model.precision.size(), known = model.known.rows();
+  RowMatrix prior(known + columns, columns);
+  if (known > 0) prior.topRows(known) = model.known;
+  prior.bottomRows(columns) = model.precision.asDiagonal().toDenseMatrix();
+  if (known > 0) prior_residual_.head(known) = model.known_residual;
+  prior_residual_.tail(columns) = -model.precision.cwiseProduct(model.offset);
   factor.add(prior);
   to_basis_ = orthonormaliser(factor.factor());
+  has_prior_.assign(static_cast<std::size_t>(known), true);
   for (const double precision : model.precision) has_prior_.push_back(precision != 0.0);
   basis_ = model.fitted * to_basis_;
   validation_basis_ = model.validation * to_basis_;

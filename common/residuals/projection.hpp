@@ -20,6 +20,9 @@ struct ModelColumns {
   Eigen::VectorXd precision;
   Eigen::VectorXd offset;
   Eigen::Index shared = 0;  ///< how many of them, the last, are errors that poses share: noise, not the model's numbers
+  /// Further beliefs, of unit variance, that several columns share: what is known between contacts.
+  RowMatrix known{};
+  Eigen::VectorXd known_residual{};
 };
 
 /// The norm below which a column is taken to be nothing: a whole radian, metre or unit share that moves all that was
@@ -48,7 +51,8 @@ class Projection {
   /// Sum of squares left, prior values included, and degrees of freedom of the fitted rows.
   double squares() const { return residual_.squaredNorm() + prior_residual_.squaredNorm(); }
   double freedom() const;
-  /// Over the rows of the prior: one a column of the model it was made from, zero where nothing is believed.
+  /// Over the rows of the prior: what is known between contacts, then one row a column of the model it was made from,
+  /// zero where nothing is believed.
   const RowMatrix& prior_basis() const { return prior_basis_; }
   const Eigen::VectorXd& prior_residual() const { return prior_residual_; }
   /// How many of these rows, the last, are of errors that poses share.

@@ -168,7 +168,7 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
     const Stop stop(pose);
     const Eigen::Vector3d tool = rows.motion.predicted.translation();
     const Twists twists = place_twists(real_places(robot, stop), robot.sensor_from_base, tool);
-    const auto measured = measurement_jacobian(rows.motion.predicted, data, pose);
+    const auto measured = measurement_jacobian(robot, rows.motion.predicted, data, pose);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto& [row, scale] = used[static_cast<std::size_t>(i)];
       field.motions.row(first + i).noalias() = (1.0 / scale) * measured.row(row) * twists;
@@ -274,6 +274,7 @@ RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) c
       }
     }
   }
+  leave_out_places(field, matrix);
   return matrix;
 }
 

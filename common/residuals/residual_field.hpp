@@ -51,6 +51,8 @@ struct ResidualField {
   std::vector<ArmState> states;          ///< one per pose
   std::vector<Eigen::MatrixXd> within;   ///< per pose: root (lower) of the covariance of its scaled rows; empty: none
   std::vector<Eigen::Index> scattering;  ///< columns of `motions` of the joints that scatter by it
+  /// Orthonormal columns: what moving the places does that these poses touch and nobody fits. Rows say nothing of it.
+  RowMatrix places{};
 
   Eigen::Index rows() const { return residual.size(); }
   Eigen::Index rows_of_pose(std::size_t i) const { return first_row[i + 1] - first_row[i]; }
@@ -65,6 +67,14 @@ inline Eigen::Index motion_column(int place, int axis) {
 
 /// The norm of a pose with `rows` rows of unit variance at and beyond which it has no weight.
 double rejection_norm(int rows);
+
+/// Takes out of rows over the field what the places explain that its poses touch and nobody fits.
+void leave_out_places(const ResidualField& field, RowMatrix& rows);
+
+/// The field of poses that no fit is to learn from: contacts are where these poses themselves have them, and what
+/// moving them there does is left out of residual and columns. `ids`: the free parameters that it has columns for.
+ResidualField unseen_field(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot,
+                           const std::vector<ParameterId>& ids, const RowScales& scales, const NoiseModel& noise = {});
 
 /// How many poses of a field are not repeats of others.
 std::size_t distinct_poses(const ResidualField& field);

@@ -74,6 +74,14 @@ void check_poses(const Scenario& scenario, std::size_t joints) {
   require(scenario.repeats >= 1, std::to_string(scenario.repeats), "repeats: must be 1 or more");
 }
 
+void check_contacts(const Scenario& scenario) {
+  if (scenario.touched.empty()) return;
+  require(scenario.sensor_from_base.matrix().isIdentity(0.0), "",
+          "contacts: nothing measures where the base stands; leave sensor_from_base out");
+  require(!scenario.orientation_measured, "", "contacts: no instrument measures orientation");
+  require(scenario.play_m >= 0.0, number_text(scenario.play_m), "play: must not be negative");
+}
+
 }  // namespace
 
 void check(const Scenario& scenario) {
@@ -84,6 +92,7 @@ void check(const Scenario& scenario) {
   require(masses == 0 || masses == joints, std::to_string(masses), "robot: links must be as many as joints");
   check_poses(scenario, joints);
   check_truth(scenario, static_cast<int>(joints));
+  check_contacts(scenario);
   require(scenario.noise_m >= 0.0, number_text(scenario.noise_m), "noise: must not be negative");
   require(scenario.orientation_noise_rad >= 0.0, number_text(scenario.orientation_noise_rad),
           "orientation noise: must not be negative");

@@ -15,6 +15,13 @@
 
 namespace demecal::inline simulation {
 
+/// A point that the robot touches.
+struct TouchedPoint {
+  std::string contact;
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< base frame
+  bool for_acceptance = false;                     ///< touched by accept poses only
+};
+
 /// What is wrong with it is its TrueErrors.
 struct Scenario : TrueErrors {
   std::string name;
@@ -39,6 +46,11 @@ struct Scenario : TrueErrors {
   double orientation_noise_rad = 0.0;
   std::vector<double> payloads_kg;  ///< drawn per pose; empty: no payload column
   bool approach_recorded = true;
+
+  // or what it touches in place of being measured
+  std::vector<TouchedPoint> touched;           ///< empty: it is measured
+  double play_m = 0.0;                         ///< of the tool there, standard deviation per axis
+  std::vector<KnownDistance> known_distances;  ///< as the data set states them
 
   // its circumstances
   double seconds_per_pose = 0.0;                 ///< time from one measurement to the next; 0: no time column

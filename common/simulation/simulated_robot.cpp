@@ -1,12 +1,15 @@
 #include "simulation/simulated_robot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 
 #include "random/random_purpose.hpp"
 #include "simulation/stance.hpp"
+#include "simulation/touching.hpp"
 #include "simulation/truth.hpp"
 
 namespace demecal::inline simulation {
@@ -16,18 +19,6 @@ Eigen::Vector3d normal_vector(double deviation, RandomStream& random) {
   Eigen::Vector3d vector;
   for (double& element : vector) element = deviation * random.normal();
   return vector;
-}
-
-/// Moves below this, rad or m, leave a gear where it was: they give a joint no direction.
-constexpr double kSmallestMove = 2e-3;
-
-ApproachSigns signs_of_move(const JointVector& from, const JointVector& to) {
-  ApproachSigns signs(to.size());
-  for (Eigen::Index i = 0; i < to.size(); ++i) {
-    const double move = to[i] - from[i];
-    signs[i] = move > kSmallestMove ? 1.0 : move < -kSmallestMove ? -1.0 : 0.0;
-  }
-  return signs;
 }
 
 PoseSet set_of(std::size_t pose, const std::array<int, 3>& counts) {
@@ -61,12 +52,13 @@ class Tour {
     for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
       const double payload_kg = draw_payload(scenario_.payloads_kg, payload_);
       for (int repeat = 0; repeat < scenario_.repeats; ++repeat) {
-        const Visit visit{.commanded = poses_[pose],
-                          .approach = signs_of_move(come_from(pose, repeat), poses_[pose]),
-                          .payload_kg = payload_kg,
-                          .time_s = scenario_.seconds_per_pose * static_cast<double>(rows.size())};
-        rows.push_back(robot.measure(visit, noise_));
-        rows.back().set = set_of(pose, scenario_.poses);
+        Visit visit{.commanded = poses_[pose],
+                    .approach = signs_of_move(come_from(pose, repeat), poses_[pose]),
+                    .payload_kg = payload_kg,
+                    .time_s = scenario_.seconds_per_pose * static_cast<double>(rows.size())};
+        const PoseSet set = set_of(pose, scenario_.poses);
+        rows.push_back(scenario_.touched.empty() ? robot.measure(visit, noise_) : touch(robot, pose, set, visit));
+        rows.back().set = set;
         rows.back().pose_id = std::to_string(pose + 1).insert(0, 1, 'P');
       }
     }
@@ -74,6 +66,18 @@ class Tour {
   }
 
  private:
+  /// The pose moved so that the tool touches its contact. The next one comes from there.
+  MeasuredPose touch(const SimulatedRobot& robot, std::size_t pose, PoseSet set, const Visit& start) {
+    const TouchedPoint& point = touched_by(scenario_, set, touches_[set]++);
+    const JointVector from = pose > 0 ? poses_[pose - 1] : scenario_.home.size() > 0 ? scenario_.home : poses_[0];
+    const Visit visit = touching_visit(scenario_, robot, point, start, from, noise_);
+    poses_[pose] = visit.commanded;
+    MeasuredPose touched = robot.measure(visit, noise_);
+    touched.position_m.reset();
+    touched.contact = point.contact;
+    return touched;
+  }
+
   const JointVector& come_from(std::size_t pose, int repeat) {
     if (repeat > 0) return poses_[another(pose, poses_.size(), repeats_)];
     if (pose > 0) return poses_[pose - 1];
@@ -83,6 +87,7 @@ class Tour {
   const Scenario& scenario_;
   RandomStream noise_, payload_, repeats_;  ///< apart, so that another noise leaves the poses as they are
   std::vector<JointVector> poses_;
+  std::map<PoseSet, std::size_t> touches_;
 };
 
 }  // namespace
@@ -168,6 +173,12 @@ DataSet simulate(const Scenario& scenario) {
   data.robot = scenario.robot;
   data.frame = scenario.sensor_from_base.matrix().isIdentity(0.0) ? Frame::base : Frame::sensor;
   data.poses = Tour(scenario).measure(robot);
+  for (const KnownDistance& known : scenario.known_distances) {
+    const auto touched = [&](const std::string& contact) {
+      return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) { return pose.contact == contact; });
+    };
+    if (touched(known.first) && touched(known.second)) data.contacts.distances.push_back(known);
+  }
   return data;
 }
 

@@ -40,7 +40,7 @@ double cost_of(const StructureProblem& problem, const StructuredArm& arm, std::s
   double sum = 0.0;
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = problem.data.poses[index];
-    const Eigen::VectorXd rows = residual(arm.predict(pose.joints, pose.target), problem.data, pose);
+    const Eigen::VectorXd rows = residual(arm.robot, arm.predict(pose.joints, pose.target), problem.data, pose);
     sum += rows.cwiseProduct(weights_of(problem, pose)).squaredNorm();
   }
   return sum;
@@ -80,8 +80,9 @@ Rows rows_at(const StructureProblem& problem, const StructuredArm& arm, int numb
     const Eigen::VectorXd weights = weights_of(problem, pose);
     const Eigen::Index count = weights.size();
     rows.jacobian.middleRows(next, count) =
-        weights.asDiagonal() * (measurement_jacobian(motion.predicted, problem.data, pose) * motion.twists);
-    rows.residual.segment(next, count) = residual(motion.predicted, problem.data, pose).cwiseProduct(weights);
+        weights.asDiagonal() * (measurement_jacobian(arm.robot, motion.predicted, problem.data, pose) * motion.twists);
+    rows.residual.segment(next, count) =
+        residual(arm.robot, motion.predicted, problem.data, pose).cwiseProduct(weights);
     next += count;
   }
   rows.jacobian.bottomRightCorner(genes, genes) = prior.asDiagonal();

@@ -63,6 +63,36 @@ std::string stages(const Report& report) {
   return text + last_fit(report) + intervals(report.pose_errors, report.prediction_interval);
 }
 
+std::string length_line(const LengthErrorEntry& length) {
+  const auto number = [](const std::optional<double>& mm) { return mm ? fmt::format("{:+.3f}", *mm) : "–"; };
+  return fmt::format("    {:<38}{:>10.3f}{:>9}{:>9}\n",
+                     fmt::format("{} to {} ({})", length.between.empty() ? "" : length.between.front(),
+                                 length.between.empty() ? "" : length.between.back(), length.set),
+                     length.known_mm.value_or(0.0), number(length.before_mm), number(length.error_mm));
+}
+
+std::string lengths(const std::vector<LengthErrorEntry>& all) {
+  if (all.empty()) return {};
+  std::string text =
+      fmt::format("  {:<40}{:>10}{:>9}{:>9}\n", "known lengths, error in mm", "known", "before", "after");
+  for (const LengthErrorEntry& length : all) text += length_line(length);
+  return text;
+}
+
+/// What was touched: what contacts tell, their spread, and the lengths between them.
+std::string contacts(const Report& report) {
+  if (report.contacts.empty()) return {};
+  std::string text =
+      fmt::format("\n  {:<40}{:>10}{:>9}{:>9}{:>9}\n", "contacts, rms in mm", "poses", "tool", "before", "after");
+  const auto number = [](const std::optional<double>& mm) { return mm ? fmt::format("{:.3f}", *mm) : "–"; };
+  for (const ContactEntry& one : report.contacts)
+    text += fmt::format("    {:<38}{:>10}{:>9}{:>9}{:>9}\n", fmt::format("{} ({})", one.contact, one.set), one.poses,
+                        number(one.registered_rms_mm), number(one.before_rms_mm), number(one.after_rms_mm));
+  text += lengths(report.length_errors);
+  for (const std::string& note : report.contact_notes) text += wrapped("  -", note, 4);
+  return text;
+}
+
 std::string joints(const Report& report) {
   std::string text =
       fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
@@ -132,7 +162,7 @@ std::string excluded(const Report& report) {
 }  // namespace
 
 std::string to_terminal(const Report& report) {
-  std::string text = data_check(report) + stages(report) + structure(report);
+  std::string text = data_check(report) + stages(report) + contacts(report) + structure(report);
   if (!report.joints.empty()) text.append("\n").append(joints(report)).append(shared_functions(report));
   if (const std::string loop = loop_to_terminal(report); !loop.empty()) text.append("\n").append(loop).append("\n");
   text += named("suspected outliers (down-weighted in the fit, included in all errors)", report.poses.outliers);
@@ -152,6 +182,7 @@ std::string to_terminal(const Evaluation& evaluation) {
     const SetErrors& errors = evaluation.error_mm.*set.errors;
     if (errors.mean_mm) text += figures_line(std::string("  ") + set.name, kSetColumns, errors);
   }
+  text += lengths(evaluation.length_errors);
   text += intervals(evaluation.pose_errors, evaluation.prediction);
   if (evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",

@@ -141,7 +141,10 @@ TEST(FormatsDocument, HasTheKeysOfRobots) {
 }
 
 TEST(FormatsDocument, HasTheKeysOfDataSets) {
-  expect_keys_of({.title = "DATASET.yaml", .read = load_data_set, .open_maps = {{"tools_mm", "TARGET"}}});
+  expect_keys_of(
+      {.title = "DATASET.yaml",
+       .read = load_data_set,
+       .open_maps = {{"tools_mm", "TARGET"}, {"contacts.kinds", "CONTACT"}, {"contacts.radii_mm", "CONTACT"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfCells) {
@@ -165,7 +168,7 @@ TEST(FormatsDocument, HasTheKeysOfGrids) {
 }
 
 TEST(FormatsDocument, HasTheKeysOfScenarios) {
-  expect_keys_of({.title = "SCENARIO.yaml", .read = load_scenario});
+  expect_keys_of({.title = "SCENARIO.yaml", .read = load_scenario, .open_maps = {{"contacts.points_mm", "CONTACT"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfPreparations) {

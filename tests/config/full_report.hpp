@@ -34,6 +34,9 @@ inline Report full_report() {
   report.pose_errors.front().place = {{10, 20}, {1, 2, 3}, {0.3, 0, 0.4}, {0.3, 0, 0}, 21.5, 60.0};
   report.arm =
       ArmEntry{std::vector<double>(12), {{"revolute", std::vector<double>(12)}}, std::vector<double>(12), {0, 0, 50}};
+  report.length_errors = {{{"left", "right"}, "accept", 50.0, 0.05, 0.4, 0.06}};
+  report.contacts = {{"left", "accept", "point", 30, 8.1, 0.7, 0.5}};
+  report.contact_notes = {"No length is known."};
   report.prediction_interval = {2.1, 0.05, 0.0, 0.02, "accept", 30, 1, "a remark"};
   report.distal = {{1, 10, "0.001 * SIN(theta)", 40.0}};
   report.runtime.waited_share = {{"cell-a-1", 0.04}};

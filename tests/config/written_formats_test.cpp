@@ -106,7 +106,9 @@ TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
                                                      report.data_check,
                                                      {{"backlash", 2, "approach", 30, "It cannot be applied."}},
                                                      report.prediction_interval,
-                                                     made_up_uncertainty()})});
+                                                     made_up_uncertainty(),
+                                                     report.length_errors,
+                                                     true})});
 }
 
 /// Two cells with one seed each.

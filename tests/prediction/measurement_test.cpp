@@ -108,7 +108,7 @@ TEST(MeasurementJacobian, IsTheChangeOfTheMeasuredQuantities) {
     const JointVector q = random_joints(stream, robot.chain);
     const Eigen::Isometry3d predicted = robot.predict(q, "");
     const MeasuredPose pose = measured(data, q, predicted, position, orientation, distances);
-    const auto jacobian = measurement_jacobian(predicted, data, pose);
+    const auto jacobian = measurement_jacobian(robot, predicted, data, pose);
     ASSERT_EQ(jacobian.rows(), rows_of(pose).total());
     for (int axis = 0; axis < 6; ++axis) {
       const Twist motion = step * Twist::Unit(axis);
@@ -124,14 +124,14 @@ TEST(MeasurementJacobian, AtAnAnchorHasNoDerivative) {
   const DataSet data = data_with_anchors();
   const Eigen::Isometry3d at_anchor(Eigen::Translation3d(data.anchors_m[0]));
   const MeasuredPose pose = measured(data, {}, at_anchor, false, false, 1);
-  EXPECT_TRUE(measurement_jacobian(at_anchor, data, pose).isZero(0.0));
+  EXPECT_TRUE(measurement_jacobian({}, at_anchor, data, pose).isZero(0.0));
 }
 
 TEST(MeasurementDeathTest, RefusesDistancesWithoutAnchors) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   MeasuredPose pose;
   pose.distances_m = {1.0};
-  EXPECT_DEATH(measurement_jacobian(Eigen::Isometry3d::Identity(), DataSet(), pose), "distance 0 of 0 anchors");
+  EXPECT_DEATH(measurement_jacobian({}, Eigen::Isometry3d::Identity(), DataSet(), pose), "distance 0 of 0 anchors");
 }
 
 TEST(ToolError, IsTheDistanceOfThePositionsWhateverElseWasMeasured) {

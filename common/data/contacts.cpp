@@ -1,0 +1,27 @@
+#include "data/contacts.hpp"
+
+#include "errors/check.hpp"
+
+namespace demecal::inline data {
+
+std::string_view to_string(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::point:
+      return "point";
+    case ContactKind::plane:
+      return "plane";
+    case ContactKind::sphere:
+      return "sphere";
+    case ContactKind::line:
+      return "line";
+  }
+  DEMECAL_CHECK(false, "contact kind=" << static_cast<int>(kind));
+  return "";
+}
+
+ContactForm Contacts::form_of(const std::string& contact) const {
+  const auto found = forms.find(contact);
+  return found == forms.end() ? ContactForm{} : found->second;
+}
+
+}  // namespace demecal::inline data

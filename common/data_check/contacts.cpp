@@ -1,0 +1,209 @@
+#include "data_check/contacts.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "effects/arm_state.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
+
+namespace demecal::inline data_check {
+namespace {
+
+constexpr double kImplausible_m = 5e-3;  ///< of the median pose: no arm leaves so much once its links are fitted
+constexpr double kFar = 8.0;             ///< deviations beyond which no noise goes
+constexpr double kLeast_m = 3e-4;        ///< what a ball's play may be
+constexpr double kThere = 0.3;           ///< of the error: how far off the contact may be that a pose touches instead
+
+DeclaredModel declared_for(const DataSet& data, std::size_t poses) {
+  const DeclaredModel all{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
+  return 3 * poses > 2 * free_parameters(data, all, {}).size() ? all
+                                                               : DeclaredModel{.registration = true, .tool = true};
+}
+
+/// Tool and links as the calibration poses have them; nothing where they are too few.
+std::optional<Fit> fitted_arm(const DataSet& data) {
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  const Fit fit = fit_declared(data, poses, declared_for(data, poses.size()), nominal_robot(data));
+  if (fit.status == FitStatus::too_few_poses) return std::nullopt;
+  return fit;
+}
+
+double median_error_m(const DataSet& data, const CorrectedRobot& robot) {
+  return median(tool_errors_m(robot, data, poses_of(data, PoseSet::calibration)));
+}
+
+/// The same data with one joint counted the other way.
+DataSet with_sign_changed(const DataSet& data, int joint) {
+  DataSet changed = data;
+  for (MeasuredPose& pose : changed.poses) pose.joints[joint] = -pose.joints[joint];
+  return changed;
+}
+
+Finding contradiction(const DataSet& data, double as_given_m) {
+  constexpr double kExplains = 0.3;
+  double best_m = std::numeric_limits<double>::infinity();
+  int best = -1;
+  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
+    const DataSet changed = with_sign_changed(data, joint);
+    const std::optional<Fit> fit = fitted_arm(changed);
+    const double left_m = fit ? median_error_m(changed, fit->robot) : best_m;
+    if (left_m < best_m) {
+      best_m = left_m;
+      best = joint;
+    }
+  }
+  if (best_m < kExplains * as_given_m)
+    return {.kind = FindingKind::joint_sign,
+            .joint = best,
+            .as_given_mm = millimetres(as_given_m),
+            .if_changed_mm = millimetres(best_m),
+            .sentence = fmt::format("Joint {} counts the other way than the robot's description {}. Negate its column.",
+                                    best + 1, before_and_after(as_given_m, best_m))};
+  return {.kind = FindingKind::other_robot,
+          .as_given_mm = millimetres(as_given_m),
+          .sentence = fmt::format(
+              "Poses that touch one contact are predicted {} from their middle even with all links fitted: the joint "
+              "angles are not of this robot, the joints are in another order or unit, or rows name the wrong contacts.",
+              distance_text(as_given_m))};
+}
+
+/// The poses that say what they touch, and where the robot predicts them.
+class ContactSearch {
+ public:
+  ContactSearch(const DataSet& data, const CorrectedRobot& robot) : data_(data), groups_(contact_groups(data)) {
+    for (const MeasuredPose& pose : data.poses)
+      points_.push_back(pose.contact.empty() ? Eigen::Vector3d::Zero()
+                                             : Eigen::Vector3d(robot.predict(Stop(pose), pose.target).translation()));
+    std::vector<double> errors_m;
+    for (const auto& [group, members] : groups_) {
+      if (members.size() < 2) continue;
+      const ContactPlace place = place_without(group, std::nullopt);
+      for (const std::size_t pose : members) errors_m.push_back(contact_residual(place, points_[pose]).norm());
+    }
+    if (!errors_m.empty()) far_m_ = std::max(kLeast_m, kFar * median(errors_m) / normal_length_quantile(3, 0.5));
+  }
+
+  std::vector<Finding> findings() {
+    std::vector<Finding> all;
+    while (const std::optional<WrongPose> wrong = worst_at_another()) {
+      all.push_back(named(*wrong));
+      left_out_.push_back(wrong->pose);
+    }
+    for (const auto& [group, members] : groups_) {
+      for (const std::size_t pose : members) {
+        const double error_m = std::ranges::find(left_out_, pose) == left_out_.end() ? error_at(group, pose) : 0.0;
+        if (error_m > far_m_) all.push_back(touching_nothing(pose, error_m));
+      }
+    }
+    return all;
+  }
+
+ private:
+  struct WrongPose {
+    std::size_t pose = 0;
+    std::string fits;
+    double error_m = 0.0, elsewhere_m = 0.0;
+  };
+
+  /// Where the group's poses but one have the contact; of points the median along each axis, which few cannot move.
+  ContactPlace place_without(const ContactGroup& group, std::optional<std::size_t> without) const {
+    std::vector<Eigen::Vector3d> points;
+    for (const std::size_t pose : groups_.at(group)) {
+      const bool out = std::ranges::find(left_out_, pose) != left_out_.end() || pose == without;
+      if (!out) points.push_back(points_[pose]);
+    }
+    if (points.empty()) points.push_back(points_[groups_.at(group).front()]);
+    ContactPlace place = contact_place(data_.contacts.form_of(group.contact), points);
+    if (place.kind != ContactKind::point) return place;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> along;
+      for (const Eigen::Vector3d& point : points) along.push_back(point[axis]);
+      place.frame.translation()[axis] = median(along);
+    }
+    return place;
+  }
+
+  double error_at(const ContactGroup& group, std::size_t pose) const {
+    return contact_residual(place_without(group, pose), points_[pose]).norm();
+  }
+
+  /// Of the poses that lie far from their own contact and at another one, the one that gains most.
+  std::optional<WrongPose> worst_at_another() const {
+    std::optional<WrongPose> worst;
+    for (const auto& [group, members] : groups_) {
+      if (members.size() < 2) continue;
+      for (const std::size_t pose : members) {
+        if (std::ranges::find(left_out_, pose) != left_out_.end()) continue;
+        const double error_m = error_at(group, pose);
+        if (!(error_m > far_m_)) continue;
+        for (const auto& [other, others] : groups_) {
+          if (other == group || data_.poses[others.front()].contact_kind != ContactKind::point) continue;
+          if (other.contact == group.contact) continue;
+          const double elsewhere_m = contact_residual(place_without(other, std::nullopt), points_[pose]).norm();
+          if (elsewhere_m > kThere * error_m) continue;
+          if (!worst || error_m - elsewhere_m > worst->error_m - worst->elsewhere_m)
+            worst = WrongPose{pose, other.contact, error_m, elsewhere_m};
+        }
+      }
+    }
+    return worst;
+  }
+
+  Finding named(const WrongPose& wrong) const {
+    const MeasuredPose& pose = data_.poses[wrong.pose];
+    return {
+        .kind = FindingKind::wrong_contact,
+        .poses = {pose.pose_id},
+        .as_given_mm = millimetres(wrong.error_m),
+        .if_changed_mm = millimetres(wrong.elsewhere_m),
+        .sentence = fmt::format("Line {} ({}) names contact '{}', but lies {} from it and {} from '{}': most likely "
+                                "it touched '{}'. Correct the name, or exclude the pose.",
+                                pose.line, pose.pose_id, pose.contact, distance_text(wrong.error_m),
+                                distance_text(wrong.elsewhere_m), wrong.fits, wrong.fits)};
+  }
+
+  Finding touching_nothing(std::size_t index, double error_m) const {
+    const MeasuredPose& pose = data_.poses[index];
+    return {
+        .kind = FindingKind::outlier,
+        .poses = {pose.pose_id},
+        .as_given_mm = millimetres(error_m),
+        .sentence = fmt::format("Line {} ({}) lies {} from contact '{}', where the others agree within {}: the tool "
+                                "was not seated, or its joint values belong to another moment.",
+                                pose.line, pose.pose_id, distance_text(error_m), pose.contact, distance_text(far_m_))};
+  }
+
+  const DataSet& data_;
+  std::map<ContactGroup, std::vector<std::size_t>> groups_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<std::size_t> left_out_;
+  double far_m_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot) {
+  if (!has_contacts(data)) return {};
+  return ContactSearch(data, robot).findings();
+}
+
+std::vector<Finding> check_contacts(const DataSet& data) {
+  if (!has_contacts(data)) return {};
+  const std::optional<Fit> fit = fitted_arm(data);
+  if (!fit) return {};
+  const double left_m = median_error_m(data, fit->robot);
+  if (left_m > kImplausible_m) return {contradiction(data, left_m)};
+  return find_wrong_contacts(data, fit->robot);
+}
+
+}  // namespace demecal::inline data_check

@@ -1,0 +1,152 @@
+#include "prediction/contact_place.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "errors/check.hpp"
+#include "kinematics/angles.hpp"
+
+namespace demecal::inline prediction {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+Eigen::Vector3d middle_of(const Points& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
+  return mean;
+}
+
+/// The points' own axes as columns, by ascending extent.
+Eigen::Matrix3d axes_of(const Points& points, const Eigen::Vector3d& middle) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& point : points) spread += (point - middle) * (point - middle).transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+}
+
+/// A rotation whose z is that direction.
+Eigen::Matrix3d frame_along(const Eigen::Vector3d& direction) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction).toRotationMatrix();
+}
+
+/// Centre and radius of the sphere through points, linear in x^2 = 2 c x + (r^2 - c^2); few points give the smallest.
+void fit_sphere(const Points& points, ContactPlace& place) {
+  const Eigen::Vector3d middle = place.frame.translation();
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 4);
+  Eigen::VectorXd squares(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::Vector3d off = points[static_cast<std::size_t>(i)] - middle;
+    rows.row(i) << 2.0 * off.transpose(), 1.0;
+    squares[i] = off.squaredNorm();
+  }
+  const Eigen::Vector4d found = rows.completeOrthogonalDecomposition().solve(squares);
+  place.frame.translation() = middle + found.head<3>();
+  if (!place.is_radius_known) place.radius_m = std::sqrt(std::max(found[3] + found.head<3>().squaredNorm(), 0.0));
+}
+
+/// Gauss and Newton's steps from a place nearby.
+void refine_sphere(const Points& points, ContactPlace& place) {
+  constexpr int kSteps = 20;
+  const Eigen::Index numbers = place.is_radius_known ? 3 : 4;
+  if (std::ssize(points) < numbers) return;
+  for (int step = 0; step < kSteps; ++step) {
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 4);
+    Eigen::VectorXd left(rows.rows());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const Eigen::Vector3d& point = points[static_cast<std::size_t>(i)];
+      rows.row(i) << -contact_jacobian(place, point), -1.0;
+      left[i] = contact_residual(place, point)[0];
+    }
+    const Eigen::VectorXd change = rows.leftCols(numbers).completeOrthogonalDecomposition().solve(left);
+    if (!change.allFinite()) return;
+    place.frame.translation() += change.head<3>();
+    if (!place.is_radius_known) place.radius_m += change[3];
+  }
+}
+
+}  // namespace
+
+std::vector<int> motions_of(const ContactPlace& place) {
+  switch (place.kind) {
+    case ContactKind::point:
+      return {0, 1, 2};
+    case ContactKind::plane:
+      return {2, 3, 4};
+    case ContactKind::sphere:
+      return place.is_radius_known ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 1, 2, kRadiusMotion};
+    case ContactKind::line:
+      return {0, 1, 3, 4};
+  }
+  DEMECAL_CHECK(false, "contact kind=" << static_cast<int>(place.kind));
+  return {};
+}
+
+int rows_of(ContactKind kind) {
+  return kind == ContactKind::point ? 3 : kind == ContactKind::line ? 2 : 1;
+}
+
+Eigen::VectorXd contact_residual(const ContactPlace& place, const Eigen::Vector3d& point_m) {
+  const Eigen::Vector3d off = place.frame.inverse() * point_m;
+  switch (place.kind) {
+    case ContactKind::point:
+      return -off;
+    case ContactKind::plane:
+      return Eigen::VectorXd::Constant(1, -off.z());
+    case ContactKind::sphere:
+      return Eigen::VectorXd::Constant(1, place.radius_m - off.norm());
+    case ContactKind::line:
+      return -off.head<2>();
+  }
+  DEMECAL_CHECK(false, "contact kind=" << static_cast<int>(place.kind));
+  return {};
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 3> contact_jacobian(const ContactPlace& place, const Eigen::Vector3d& point_m) {
+  const Eigen::Matrix3d to_frame = place.frame.linear().transpose();
+  switch (place.kind) {
+    case ContactKind::point:
+      return to_frame;
+    case ContactKind::plane:
+      return to_frame.row(2);
+    case ContactKind::sphere:
+      return (point_m - place.frame.translation()).stableNormalized().transpose();
+    case ContactKind::line:
+      return to_frame.topRows<2>();
+  }
+  DEMECAL_CHECK(false, "contact kind=" << static_cast<int>(place.kind));
+  return {};
+}
+
+Eigen::Vector3d equivalent_motion(const ContactPlace& place, int motion, const Eigen::Vector3d& turn,
+                                  const Eigen::Vector3d& point_m) {
+  const Eigen::Vector3d off = point_m - place.frame.translation();
+  if (motion == kRadiusMotion) return -off.stableNormalized();
+  if (motion < 3) return -(place.frame.linear() * rotation_of(turn).transpose()).col(motion);
+  return -turn_axis(place, motion, turn).cross(off);
+}
+
+Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Vector3d& turn) {
+  // The frame is reference * exp(turn); a step of the vector turns it by left_jacobian(turn), seen in the reference.
+  const Eigen::Matrix3d reference = place.frame.linear() * rotation_of(turn).transpose();
+  return reference * left_jacobian(turn).col(motion - 3);
+}
+
+ContactPlace contact_place(const ContactForm& form, const std::vector<Eigen::Vector3d>& points_m) {
+  constexpr double kShortest_m = 1e-9;
+  ContactPlace place{form.kind, Eigen::Isometry3d::Identity(), form.radius_m.value_or(0.0), form.radius_m.has_value()};
+  const Eigen::Vector3d middle = middle_of(points_m);
+  place.frame.translation() = middle;
+  if (form.kind == ContactKind::plane || form.kind == ContactKind::line) {
+    const Eigen::Vector3d axis = axes_of(points_m, middle).col(form.kind == ContactKind::plane ? 0 : 2);
+    if (axis.norm() > kShortest_m) place.frame.linear() = frame_along(axis);
+  }
+  if (form.kind == ContactKind::sphere) {
+    fit_sphere(points_m, place);
+    refine_sphere(points_m, place);
+  }
+  return place;
+}
+
+}  // namespace demecal::inline prediction

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
+#include "report/evaluation.hpp"
+
+namespace demecal::inline report {
+namespace {
+
+std::optional<double> rms_mm(const DataSet& data, const CorrectedRobot& robot, const std::vector<std::size_t>& poses) {
+  return if_finite(error_figures(robot, data, poses).rms_mm);
+}
+
+/// The known lengths between contacts that calibration poses touch at both ends.
+std::size_t fitted_lengths(const DataSet& data) {
+  std::set<std::string> touched;
+  for (const MeasuredPose& pose : data.poses)
+    if (pose.set == PoseSet::calibration) touched.insert(pose.contact);
+  return static_cast<std::size_t>(std::ranges::count_if(data.contacts.distances, [&](const KnownDistance& known) {
+    return touched.contains(known.first) && touched.contains(known.second);
+  }));
+}
+
+std::size_t calibration_contacts(const DataSet& data) {
+  const auto groups = contact_groups(data);
+  return static_cast<std::size_t>(
+      std::ranges::count_if(groups, [](const auto& group) { return group.first.set == PoseSet::calibration; }));
+}
+
+}  // namespace
+
+std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
+                                                   const CorrectedRobot* before) {
+  const std::vector<LengthError> after = length_errors(robot, data);
+  const std::vector<LengthError> first = before == nullptr ? std::vector<LengthError>{} : length_errors(*before, data);
+  std::vector<LengthErrorEntry> entries;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const LengthError& one = after[i];
+    LengthErrorEntry entry{{one.known->first, one.known->second},
+                           std::string(to_string(one.set)),
+                           millimetres(one.known->length_m),
+                           millimetres(one.known->sigma_m),
+                           {},
+                           if_finite(millimetres(one.error_m))};
+    if (before != nullptr) entry.before_mm = if_finite(millimetres(first[i].error_m));
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRobot& registered,
+                                          const CorrectedRobot& before, const CorrectedRobot& after) {
+  std::vector<ContactEntry> entries;
+  for (const auto& [group, poses] : contact_groups(data)) {
+    entries.push_back({group.contact, std::string(to_string(group.set)),
+                       std::string(to_string(data.contacts.form_of(group.contact).kind)), poses.size(),
+                       rms_mm(data, registered, poses), rms_mm(data, before, poses), rms_mm(data, after, poses)});
+  }
+  return entries;
+}
+
+std::vector<std::string> contact_notes(const DataSet& data) {
+  if (!has_contacts(data)) return {};
+  std::vector<std::string> notes;
+  const std::size_t lengths = fitted_lengths(data);
+  if (!has_instrument(data)) {
+    if (lengths == 0)
+      notes.emplace_back(
+          "No length between contacts is known: the scale of the arm is not measured and stays the description's. Two "
+          "contacts at a known distance (contacts.distances) would give it.");
+    notes.emplace_back(
+        "Contacts do not tell where the arm stands: its base is neither needed nor fitted, and the first joint's zero, "
+        "height and what lies before its axis stay as described.");
+    if (calibration_contacts(data) == 1)
+      notes.emplace_back(
+          "All calibration poses touch one contact: what moves all of them together is not seen, such as an error of "
+          "the first joint that depends on its angle alone. A second contact elsewhere would show it.");
+  }
+  notes.emplace_back(
+      "Tool errors here are distances from where all poses of a contact and set have it on average: they show how well "
+      "the poses agree, and not errors that they share.");
+  return notes;
+}
+
+}  // namespace demecal::inline report

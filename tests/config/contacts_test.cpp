@@ -1,0 +1,115 @@
+// What DATASET.yaml says of contacts is read, written back, and refused where it makes no sense; rows may be measured
+// by what they touch alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../errors/complaint.hpp"
+#include "config/data_set_file.hpp"
+#include "config/input_files.hpp"
+#include "prediction/measurement.hpp"
+#include "sample_files.hpp"
+#include "simulation/simulated_robot.hpp"
+#include "temporary_folder.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string kTouching = R"yaml(demecal_dataset: 1
+name: touching
+robot: robot.yaml
+poses: poses.csv
+columns: {joints: [q1_deg, q2_mm], contact: contact, set: set, pose: pose_id}
+)yaml";
+
+const std::string kTouches = R"csv(pose_id,set,contact,q1_deg,q2_mm
+P1,calibration,a,10,20
+P2,calibration,b,-80,100
+P3,accept,plate,-40,100
+P4,accept,ball,-45,100
+)csv";
+
+class Contacts : public ::testing::Test {
+ protected:
+  Contacts() { folder_.write("robot.yaml", kRobotText); }
+
+  DataSet load(const std::string& more, const std::string& poses = kTouches) {
+    folder_.write("poses.csv", poses);
+    return load_data_set(folder_.write("dataset.yaml", kTouching + more));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Contacts, AreReadAndWrittenBack) {
+  const DataSet data = load(R"yaml(contacts:
+  kinds: {plate: plane, ball: sphere}
+  radii_mm: {ball: 12.7}
+  distances: [{between: [a, ball], mm: 50, sigma_mm: 0.05}]
+)yaml");
+  EXPECT_EQ(data.poses[0].contact, "a");
+  EXPECT_FALSE(data.poses[0].position_m);
+  EXPECT_EQ(data.poses[2].contact_kind, ContactKind::plane);
+  EXPECT_EQ(rows_of(data.poses[0]).total(), 3);
+  EXPECT_EQ(rows_of(data.poses[2]).total(), 1);
+  EXPECT_DOUBLE_EQ(*data.contacts.form_of("ball").radius_m, 0.0127);
+  ASSERT_EQ(data.contacts.distances.size(), 1u);
+  EXPECT_DOUBLE_EQ(data.contacts.distances[0].length_m, 0.05);
+  EXPECT_DOUBLE_EQ(data.contacts.distances[0].sigma_m, 5e-5);
+  const TemporaryFolder written;
+  const DataSet back = load_data_set(write_data_set(data, written.path(), "again"));
+  EXPECT_EQ(back.poses[3].contact, "ball");
+  EXPECT_EQ(back.poses[3].contact_kind, ContactKind::sphere);
+  EXPECT_NEAR(*back.contacts.form_of("ball").radius_m, 0.0127, 1e-15);
+  EXPECT_EQ(back.contacts.distances[0].second, "ball");
+}
+
+TEST_F(Contacts, ThatNoPoseTouchesAreRefused) {
+  EXPECT_THAT(complaint([&] { load("contacts: {distances: [{between: [a, balls], mm: 50, sigma_mm: 1}]}\n"); }),
+              AllOf(HasSubstr("balls"), HasSubstr("is no contact of the poses; the nearest is 'ball'")));
+  EXPECT_THAT(complaint([&] { load("contacts: {kinds: {c: plane}}\n"); }), HasSubstr("is no contact of the poses"));
+}
+
+TEST_F(Contacts, HaveOnlyWhatTheirKindHas) {
+  EXPECT_THAT(complaint([&] { load("contacts: {radii_mm: {a: 5}}\n"); }), HasSubstr("only spheres have a radius"));
+  EXPECT_THAT(complaint([&] {
+                load("contacts: {kinds: {plate: plane}, distances: [{between: [a, plate], mm: 5, sigma_mm: 1}]}\n");
+              }),
+              HasSubstr("distances are between points or centres of spheres"));
+  EXPECT_THAT(complaint([&] { load("contacts: {parallel: [{between: [a, b], sigma_deg: 1}]}\n"); }),
+              HasSubstr("only planes and lines have a direction"));
+}
+
+TEST_F(Contacts, OfARowThatMeasuresNothingElseMustBeNamed) {
+  EXPECT_THAT(complaint([&] { load("", "pose_id,set,contact,q1_deg,q2_mm\nP1,calibration,,10,20\n"); }),
+              HasSubstr("every row names what the tool touches"));
+}
+
+TEST(ShippedContacts, AreWhatTheScenarioGives) {
+  const std::string configs = DEMECAL_SOURCE_DIR "/configs/";
+  const DataSet shipped = load_data_set(configs + "data/puma761-sockets/dataset.yaml");
+  const DataSet made = simulate(load_scenario(configs + "scenarios/sockets.yaml"));
+  ASSERT_EQ(shipped.poses.size(), made.poses.size());
+  for (std::size_t i = 0; i < made.poses.size(); ++i) {
+    EXPECT_LT((shipped.poses[i].joints - made.poses[i].joints).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_EQ(shipped.poses[i].contact, made.poses[i].contact);
+    EXPECT_EQ(shipped.poses[i].set, made.poses[i].set);
+  }
+}
+
+TEST(RealContacts, LoadAsTheyAre) {
+  for (const char* robot : {"panda-1", "panda-4"}) {
+    const std::string file =
+        std::string(DEMECAL_SOURCE_DIR) + "/../shared/data/panda-sockets/" + robot + "/dataset.yaml";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "the measured robots are not on this machine: " << file;
+    const DataSet data = load_data_set(file);
+    EXPECT_EQ(data.contacts.distances.size(), 3u);
+    EXPECT_GT(poses_of(data, PoseSet::accept).size(), 50u);
+    EXPECT_FALSE(has_instrument(data));
+  }
+}
+
+}  // namespace
+}  // namespace demecal
