@@ -4,6 +4,8 @@
 #include <unistd.h>
 #include <csignal>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
@@ -35,7 +37,9 @@ const std::atomic<bool>& watch_for_interrupt() {
 }
 
 CheckedData load_checked(const std::filesystem::path& path) {
-  CheckedData checked{load_data_set(path), {}};
+  DescribedDataSet described = load_described_data_set(path);
+  CheckedData checked{std::move(described.data), {}};
+  for (const std::string& sentence : described.recognised) fmt::print(stderr, "{}\n", sentence);
   checked.check = check_without_copies(checked.data);
   return checked;
 }

@@ -49,6 +49,8 @@ void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
 void add_monitor(CLI::App& app, ExitCode& exit_code);
+void add_template(CLI::App& app, ExitCode& exit_code);
+void add_new(CLI::App& app, ExitCode& exit_code);
 
 /// A data set as every command takes it up: read, checked against its robot, and what was found said first.
 struct CheckedData {

@@ -27,6 +27,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", DEMECAL_VERSION);
   ExitCode exit_code = ExitCode::done;
+  demecal::add_new(app, exit_code);
+  demecal::add_template(app, exit_code);
   demecal::add_calibrate(app, exit_code);
   demecal::add_check(app, exit_code);
   demecal::add_compare(app, exit_code);

@@ -17,8 +17,19 @@ namespace demecal::inline config {
 /// and rule at the first fault in any of the three files.
 DataSet load_data_set(const std::filesystem::path& path);
 
-/// What stands under `columns`.
-ColumnMap read_column_map(const YamlNode& node);
+/// The same, with what was found of how its files are written and joined: a sentence each, for people; none of plain
+/// CSV.
+struct DescribedDataSet {
+  DataSet data;
+  std::vector<std::string> recognised;
+};
+DescribedDataSet load_described_data_set(const std::filesystem::path& path);
+
+/// What a map of columns is of: all that there is, or a part of it.
+enum class ColumnsOf { all, part };
+
+/// What stands under `columns`: names, or numbers of columns. Of all that there is, joints must be among them.
+ColumnMap read_column_map(const YamlNode& node, ColumnsOf of = ColumnsOf::all);
 
 /// What stands under `units`; nothing is assumed where the key is missing (null).
 AssumedUnits read_units(const YamlNode* node);

@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,15 +15,13 @@
 #include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
+#include "config/pose_files.hpp"
 #include "data/columns.hpp"
-#include "data/csv.hpp"
 #include "data/data_set.hpp"
-#include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 #include "random/random_stream.hpp"
-#include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {
@@ -88,7 +85,10 @@ void exclude(const YamlNode* ids, DataSet& data) {
 }
 
 ColumnName read_column(const YamlNode& node) {
-  return {node.text(), {node.file, node.line}};
+  ColumnName name{node.text(), {node.file, node.line}};
+  const bool number = !node.quoted && node.scalar.find_first_not_of("0123456789") == std::string::npos;
+  if (number) name.number = static_cast<std::size_t>(node.whole_number(1, 10000));
+  return name;
 }
 
 std::vector<ColumnName> read_columns(const YamlNode* node) {
@@ -107,44 +107,46 @@ std::optional<ColumnName> read_single(const YamlNode* node) {
 }  // namespace
 
 DataSet load_data_set(const std::filesystem::path& path) {
+  return load_described_data_set(path).data;
+}
+
+DescribedDataSet load_described_data_set(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
   root.with_version("dataset", 1)
       .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "contacts", "units",
-                  "frame", "split", "exclude", "certificate"});
+                  "frame", "split", "exclude", "join", "certificate"});
   DataSet data;
   data.name = root.find("name") ? root.at("name").text() : path.stem().string();
   data.robot = read_named(root.at("robot"), load_robot);
   if (const YamlNode* frame = root.find("frame")) {
     data.frame = frame->one_of<Frame>({{"base", Frame::base}, {"sensor", Frame::sensor}});
   }
-  const ColumnMap columns = read_column_map(root.at("columns"));
   const AssumedUnits units = read_units(root.find("units"));
-  require_anchors(root, columns);
-  read_anchors(root.find("anchors_mm"), columns.distances.size(), data);
   data.tools_m = read_tools(root.find("tools_mm"));
   const SplitKeys split = read_split(root.find("split"));
 
-  const std::string bytes = read_named(root.at("poses"), read_file);
-  data.file = resolve(path, root.at("poses").text()).string();
-  data.sha256 = sha256(bytes);
-  std::istringstream text(bytes);
-  data.poses = read_poses(read_csv(text, data.file), columns, units, data.robot.chain, data.tools_m);
-  read_contacts(root.find("contacts"), columns, data);
-  if (!columns.set) {
+  PosesOfFiles read = read_pose_files(root, units, data.robot.chain, data.tools_m);
+  require_anchors(root, read.columns);
+  read_anchors(root.find("anchors_mm"), read.columns.distances.size(), data);
+  data.file = std::move(read.file);
+  data.sha256 = std::move(read.sha256);
+  data.poses = std::move(read.poses);
+  read_contacts(root.find("contacts"), read.columns, data);
+  if (!read.columns.set) {
     RandomStream random{split.seed};
     split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
   }
   exclude(root.find("exclude"), data);
   if (const YamlNode* certificate = root.find("certificate")) read_certificate(*certificate);
-  return data;
+  return {std::move(data), std::move(read.recognised)};
 }
 
-ColumnMap read_column_map(const YamlNode& node) {
+ColumnMap read_column_map(const YamlNode& node, ColumnsOf of) {
   node.with_keys({"joints", "position", "orientation", "distances", "approach", "payload", "temperature", "time", "set",
                   "pose", "target", "contact"});
   ColumnMap map;
   map.where = {node.file, node.line};
-  map.joints = read_columns(&node.at("joints"));
+  map.joints = read_columns(of == ColumnsOf::all ? &node.at("joints") : node.find("joints"));
   map.position = read_columns(node.find("position"));
   map.orientation = read_columns(node.find("orientation"));
   map.distances = read_columns(node.find("distances"));

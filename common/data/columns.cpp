@@ -23,6 +23,45 @@ constexpr std::array<ColumnUnit, 7> kUnits{{
     {"s", Quantity::time, unchanged},
 }};
 
+double from_centimetres(double value) {
+  return value * 1e-2;
+}
+double from_micrometres(double value) {
+  return value * 1e-6;
+}
+double from_inches(double value) {
+  return value * 25.4e-3;
+}
+double from_thousandths(double value) {
+  return value * 1e-3;
+}
+
+/// Units that headings give in brackets, beside those above.
+constexpr std::array<ColumnUnit, 22> kHeadingUnits{{
+    {"°", Quantity::angle, radians},
+    {"degree", Quantity::angle, radians},
+    {"degrees", Quantity::angle, radians},
+    {"radian", Quantity::angle, unchanged},
+    {"radians", Quantity::angle, unchanged},
+    {"mrad", Quantity::angle, from_thousandths},
+    {"millimeter", Quantity::length, metres},
+    {"millimeters", Quantity::length, metres},
+    {"meter", Quantity::length, unchanged},
+    {"meters", Quantity::length, unchanged},
+    {"cm", Quantity::length, from_centimetres},
+    {"um", Quantity::length, from_micrometres},
+    {"µm", Quantity::length, from_micrometres},
+    {"in", Quantity::length, from_inches},
+    {"inch", Quantity::length, from_inches},
+    {"inches", Quantity::length, from_inches},
+    {"g", Quantity::mass, from_thousandths},
+    {"°c", Quantity::temperature, unchanged},
+    {"c", Quantity::temperature, unchanged},
+    {"sec", Quantity::time, unchanged},
+    {"seconds", Quantity::time, unchanged},
+    {"ms", Quantity::time, from_thousandths},
+}};
+
 /// Units that other programs write; silence about them would be a wrong number.
 constexpr std::array<std::string_view, 21> kForeignUnits{
     "degrees", "mrad", "arcsec", "arcmin", "turns", "um",         "cm", "inch", "in",  "ft", "g",
@@ -71,15 +110,62 @@ ColumnUnit unit_without_suffix(const ColumnName& column, Quantity quantity, cons
                    "carries no unit: " + expected_ending(quantity) + ", or `units:` must give the unit");
 }
 
+std::size_t numbered_index(const CsvTable& table, const ColumnName& name) {
+  if (name.number <= table.columns.size()) return name.number - 1;
+  throw InputError(
+      name.where, std::to_string(name.number),
+      "is the number of no column of " + table.file + ", which has " + std::to_string(table.columns.size()));
+}
+
+/// A table of another program may have one name twice, as of nominal and measured coordinates.
+void require_single(const CsvTable& table, const ColumnName& name, std::size_t first) {
+  for (std::size_t other = first + 1; other < table.columns.size(); ++other) {
+    if (table.columns[first] != table.columns[other] || table.find(name.name) != first) continue;
+    if (!table.headings.empty() && table.headings[first] != table.headings[other] && name.name == table.headings[first])
+      continue;
+    throw InputError(name.where, name.name,
+                     "is the name of columns " + std::to_string(first + 1) + " and " + std::to_string(other + 1) +
+                         " of " + table.file + "; give the number of the one that is meant");
+  }
+}
+
 std::size_t index_of(const CsvTable& table, const ColumnName& name) {
-  if (const auto index = table.find(name.name)) return *index;
+  if (name.number > 0) return numbered_index(table, name);
+  if (const auto index = table.find(name.name)) {
+    require_single(table, name, *index);
+    return *index;
+  }
   throw InputError(
       name.where, name.name,
       "is no column of " + table.file + "; the nearest is '" + nearest_name(name.name, table.columns) + "'");
 }
 
-std::string why_no_number(const std::string& text) {
+/// The name by which the table calls it, for messages.
+std::string shown_name(const CsvTable& table, const ColumnName& name, std::size_t index) {
+  return name.number > 0 ? table.columns[index] : name.name;
+}
+
+UnitConversion conversion_of(const CsvTable& table, const ColumnName& name, std::size_t index, Quantity quantity,
+                             const AssumedUnits& units) {
+  const ColumnName shown{shown_name(table, name, index), name.where};
+  if (table.units.empty() || table.units[index].empty()) return unit_of(shown, quantity, units).to_inside;
+  const std::string& text = table.units[index];
+  const auto unit = find_heading_unit(text);
+  if (!unit)
+    throw InputError(name.where, shown.name,
+                     "is headed with the unit '" + text + "', which is not supported; " + expected_ending(quantity));
+  if (unit->quantity != quantity) {
+    throw InputError(name.where, shown.name,
+                     "is headed with '" + text + "', a unit of " + std::string(wording(unit->quantity).is) + "; " +
+                         expected_ending(quantity));
+  }
+  return unit->to_inside;
+}
+
+std::string why_no_number(const std::string& text, char decimal) {
   if (text.empty()) return "is empty where a number is expected";
+  if (decimal == ',' && text.find('.') != std::string::npos)
+    return "has a point where the file writes decimal commas: is it a separator of thousands?";
   const std::string lower = lower_case(text);
   if (lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos)
     return "must be a finite number";
@@ -106,6 +192,14 @@ std::optional<ColumnUnit> find_unit(std::string_view name) {
   return *found;
 }
 
+std::optional<ColumnUnit> find_heading_unit(std::string_view text) {
+  const std::string lower = lower_case(text);
+  if (const auto unit = find_unit(lower)) return unit;
+  const auto found = std::ranges::find_if(kHeadingUnits, [&](const ColumnUnit& unit) { return unit.name == lower; });
+  if (found == kHeadingUnits.end()) return std::nullopt;
+  return *found;
+}
+
 ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUnits& assumed) {
   const std::string suffix = suffix_of(column.name);
   if (const auto unit = find_unit(suffix)) {
@@ -120,14 +214,24 @@ ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUni
 }
 
 TableColumn::TableColumn(const CsvTable& table, const ColumnName& name, UnitConversion to_inside)
-    : file_(table.file), name_(name.name), index_(index_of(table, name)), to_inside_(to_inside) {}
+    : file_(table.file),
+      index_(index_of(table, name)),
+      table_(name.table),
+      decimal_(table.decimal),
+      to_inside_(to_inside) {
+  name_ = shown_name(table, name, index_);
+}
 
 TableColumn::TableColumn(const CsvTable& table, const ColumnName& name, Quantity quantity, const AssumedUnits& units)
-    : TableColumn(table, name, unit_of(name, quantity, units).to_inside) {}
+    : TableColumn(table, name) {
+  to_inside_ = conversion_of(table, name, index_, quantity, units);
+}
 
 double TableColumn::number(const CsvRow& row) const {
-  const auto value = parse_number(text(row));
-  if (!value) fail(row, why_no_number(text(row)));
+  std::string written = text(row);
+  if (decimal_ == ',' && written.find('.') == std::string::npos) std::ranges::replace(written, ',', '.');
+  const auto value = decimal_ == ',' && text(row).find('.') != std::string::npos ? std::nullopt : parse_number(written);
+  if (!value) fail(row, why_no_number(text(row), decimal_));
   return to_inside_ ? to_inside_(*value) : *value;
 }
 

@@ -17,6 +17,8 @@ namespace demecal::inline data {
 struct ColumnName {
   std::string name;
   InputError::Where where;
+  std::size_t number = 0;  ///< of the column in its table, from 1, where it is meant by that; 0: by its name
+  std::size_t table = 0;   ///< among those that the poses are read from
 };
 
 struct ColumnMap {
@@ -44,6 +46,10 @@ struct ColumnUnit {
 /// The unit of that name, among: deg rad mm m kg celsius s. Nothing for any other.
 std::optional<ColumnUnit> find_unit(std::string_view name);
 
+/// The unit that a heading gives apart from its name, as in "X [mm]": those of find_unit(), and what other programs
+/// write (degrees, in, um, ms, ...). Nothing where it is not known.
+std::optional<ColumnUnit> find_heading_unit(std::string_view text);
+
 /// What `units:` says of columns whose names carry no unit.
 struct AssumedUnits {
   std::optional<ColumnUnit> angle;
@@ -63,6 +69,8 @@ class TableColumn {
   /// The same for a quantity, with its unit.
   TableColumn(const CsvTable& table, const ColumnName& name, Quantity quantity, const AssumedUnits& units);
 
+  std::size_t table() const { return table_; }  ///< ColumnName::table
+  std::size_t index() const { return index_; }
   const std::string& text(const CsvRow& row) const { return row.fields[index_]; }
   /// The row's number, converted. Throws InputError where the field writes none.
   double number(const CsvRow& row) const;
@@ -72,6 +80,8 @@ class TableColumn {
   std::string file_;
   std::string name_;
   std::size_t index_;
+  std::size_t table_ = 0;
+  char decimal_ = '.';
   UnitConversion to_inside_;
 };
 

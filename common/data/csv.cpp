@@ -108,9 +108,11 @@ void write_line(std::ostream& text, const std::vector<std::string>& fields) {
 }  // namespace
 
 std::optional<std::size_t> CsvTable::find(std::string_view column) const {
-  const auto found = std::find(columns.begin(), columns.end(), column);
-  if (found == columns.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - columns.begin());
+  for (const std::vector<std::string>* names : {&columns, &headings}) {
+    const auto found = std::find(names->begin(), names->end(), column);
+    if (found != names->end()) return static_cast<std::size_t>(found - names->begin());
+  }
+  return std::nullopt;
 }
 
 CsvTable read_csv(std::istream& text, const std::string& file) {

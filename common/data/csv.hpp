@@ -18,10 +18,14 @@ struct CsvRow {
 struct CsvTable {
   std::string file;                  ///< as named to the user
   std::size_t header_line = 0;       ///< in the file, from 1
-  std::vector<std::string> columns;  ///< all different, none empty
+  std::vector<std::string> columns;  ///< all different, none empty, where the table is one of read_csv()
   std::vector<CsvRow> rows;          ///< at least one after reading
+  char decimal = '.';                ///< point or comma
+  /// What tables of other programs have beside it, one a column; empty: nothing of the kind.
+  std::vector<std::string> units{};     ///< as the heading gives them, without brackets: "mm"; empty where it does not
+  std::vector<std::string> headings{};  ///< as they stand in the file, unit and all
 
-  /// Index of the column of that name, if there is one.
+  /// Index of the column of that name or heading, if there is one.
   std::optional<std::size_t> find(std::string_view column) const;
 };
 

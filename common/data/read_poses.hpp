@@ -31,10 +31,22 @@ void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain,
 /// Poses of one id have equal joints and serve one set: otherwise validation would judge what calibration has seen.
 void check_repeats(std::span<const MeasuredPose> poses, const std::string& file);
 
-/// One pose per row of the table, in its order, in SI units and radians. Where there is no pose column every row is a
+/// Rows of several tables that belong together, one of each.
+struct JoinedTables {
+  std::vector<CsvTable> tables;                ///< one at least
+  std::vector<std::vector<std::size_t>> rows;  ///< per pose: its row in each table
+  std::size_t main = 0;                        ///< whose lines poses are named by
+};
+
+/// The table by itself.
+JoinedTables alone(CsvTable table);
+
+/// One pose per row of the tables, in its order, in SI units and radians. Where there is no pose column every row is a
 /// pose of its own ("line 7"); where there is no set column all are for calibration. `tools_m` names the targets there
 /// are. Throws InputError where a column is missing or named twice, its unit is unclear, a value is no number or breaks
 /// its rule, or rows of one pose differ in joints or set. Whether the values are plausible is data_check's to say.
+std::vector<MeasuredPose> read_poses(const JoinedTables& tables, const ColumnMap& columns, const AssumedUnits& units,
+                                     const Chain& chain, const std::map<std::string, Eigen::Vector3d>& tools_m);
 std::vector<MeasuredPose> read_poses(const CsvTable& table, const ColumnMap& columns, const AssumedUnits& units,
                                      const Chain& chain, const std::map<std::string, Eigen::Vector3d>& tools_m);
 

@@ -53,7 +53,8 @@ const YamlNode& YamlNode::with_keys(std::span<const std::string> allowed) const 
     if (std::find(allowed.begin(), allowed.end(), child.name) != allowed.end()) continue;
     const std::string where = key.empty() ? "" : " of " + key;
     const InputError fault({child.file, child.line}, child.name,
-                           "is no key" + where + "; the nearest is '" + nearest_name(child.name, allowed) + "'");
+                           "is no key" + where + "; the nearest is '" + nearest_name(child.name, allowed) +
+                               "'. Keys that are allowed here: " + joined(allowed));
     throw UnknownKey(fault, {allowed.begin(), allowed.end()});
   }
   return *this;

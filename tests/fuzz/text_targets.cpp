@@ -14,6 +14,9 @@
 #include "symbolic/calculus.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/printing.hpp"
+#include "tables/guess_columns.hpp"
+#include "tables/read_table.hpp"
+#include "tables/time_stamp.hpp"
 #include "targets.hpp"
 #include "terminal/monitor_page.hpp"
 
@@ -63,6 +66,20 @@ void read_table(std::string_view bytes) {
   }
   for (const CsvRow& row : table.rows)
     demand(row.fields.size() == table.columns.size(), "rows are as wide as the header");
+}
+
+void read_foreign_table(std::string_view bytes) {
+  try {
+    const CsvTable read = tables::read_table(bytes, "table.txt").table;
+    demand(!read.rows.empty(), "a table has rows");
+    for (const CsvRow& row : read.rows)
+      demand(row.fields.size() == read.columns.size(), "rows are as wide as the headings");
+    guess_columns(read, 6, {});
+    for (const CsvRow& row : read.rows) {
+      for (const std::string& field : row.fields) parse_time_stamp(field);
+    }
+  } catch (const InputError&) {
+  }
 }
 
 void read_event_lines(std::string_view bytes) {
@@ -145,6 +162,16 @@ std::vector<Target> text_targets() {
            {"-cos(PI/2)*sin(theta1)", "(a2*cos(q1) + d3^2)/(1.5e-1 - tan(x))", "sqrt(abs(q1)) - -q1*sin(q1 + PI)^2"},
            read_expression},
           {"table", {"a,b\n1,2\n\"x\"\"y\", 3\r\n# no\n"}, read_table},
+          {"foreign_table",
+           {"Inspection\nPoint;X [mm];Y [mm]\nA;1,5;-2\nB;3,25;4\n", "# x y z\n1.5 2 3\n4 5 6e3\n",
+            "24.11.2026 10:00:01,5\t1\t2\n24.11.2026 10:00:02,5\t\"3\"\t4\n",
+            std::string("\xFF\xFE"
+                        "a\0;\0b\0\n\0"
+                        "1\0;\0"
+                        "2\0\n\0",
+                        18),
+            "sep=;\r\na;b\r\n\xB0;1,5\r\n"},
+           read_foreign_table},
           {"events", {kEvents}, read_event_lines},
           {"journal", {some_journal()}, read_records_of},
           {"journal_contents", {some_contents()}, read_record_contents}};

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/data_set_file.hpp"
+#include "data/columns.hpp"
+#include "data/csv.hpp"
+#include "data/data_set.hpp"
+#include "data/text.hpp"
+#include "effects/arm_state.hpp"
+#include "kinematics/chain.hpp"
+#include "yaml/yaml_node.hpp"
+
+namespace demecal::inline config {
+namespace {
+
+constexpr double kFine = 1e-3;   ///< of a degree or millimetre
+constexpr double kFiner = 1e-6;  ///< of a radian or metre
+
+/// How a joint's column is written.
+struct JointColumn {
+  std::string name;
+  UnitConversion to_inside;
+
+  std::string text(double inside) const {
+    const double unit = to_inside(1.0), step = unit < 0.1 ? kFine : kFiner;
+    const int digits = static_cast<int>(std::lround(-std::log10(step)));
+    return fmt::format("{:.{}f}", inside / unit, digits);
+  }
+};
+
+/// Whether the names of the data set's columns say all that a table of poses needs: not where they are numbers, or
+/// where the file's own headings give the units.
+bool names_suffice(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {
+  const auto has_unit = [&](const ColumnName& column) {
+    const std::size_t ending = column.name.rfind('_');
+    const bool own = ending != std::string::npos && find_unit(lower_case(column.name.substr(ending + 1)));
+    return column.number == 0 && (own || (units.angle && units.length));
+  };
+  return columns.joints.size() == chain.joints.size() && std::ranges::all_of(columns.joints, has_unit);
+}
+
+std::vector<JointColumn> joint_columns(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {
+  std::vector<JointColumn> joints;
+  if (!names_suffice(columns, units, chain)) {
+    for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+      const bool turns = is_revolute(chain.joints[i]);
+      joints.push_back(
+          {"q" + std::to_string(i + 1) + (turns ? "_deg" : "_mm"), find_unit(turns ? "deg" : "mm")->to_inside});
+    }
+    return joints;
+  }
+  for (std::size_t i = 0; i < columns.joints.size(); ++i) {
+    const bool turns = is_revolute(chain.joints[i]);
+    const ColumnUnit unit = unit_of(columns.joints[i], turns ? Quantity::angle : Quantity::length, units);
+    joints.push_back({columns.joints[i].name, unit.to_inside});
+  }
+  return joints;
+}
+
+/// The names the data set gives to the joints' approach; where it has none, the customary ones.
+std::vector<std::string> approach_names(const ColumnMap& columns, std::size_t joints) {
+  std::vector<std::string> names;
+  for (const ColumnName& column : columns.approach) {
+    if (column.number == 0) names.push_back(column.name);
+  }
+  for (std::size_t i = names.size(); i < joints; ++i) names.push_back("s" + std::to_string(i + 1));
+  return names;
+}
+
+}  // namespace
+
+std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const DataSet& data,
+                               const std::vector<Stop>& stops) {
+  const YamlNode root = read_yaml(data_set_file);
+  const ColumnMap columns = root.find("columns") ? read_column_map(root.at("columns"), ColumnsOf::part) : ColumnMap{};
+  const std::vector<JointColumn> joints = joint_columns(columns, read_units(root.find("units")), data.robot.chain);
+  CsvTable table{.file = {},
+                 .header_line = 0,
+                 .columns = {columns.pose && columns.pose->number == 0 ? columns.pose->name : "pose_id"},
+                 .rows = {}};
+  for (const JointColumn& joint : joints) table.columns.push_back(joint.name);
+  for (std::string& name : approach_names(columns, joints.size())) table.columns.push_back(std::move(name));
+  if (columns.payload) table.columns.push_back(columns.payload->number == 0 ? columns.payload->name : "payload_kg");
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const Stop& stop = stops[i];
+    CsvRow row{0, {"N" + std::to_string(i + 1)}};
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      row.fields.push_back(joints[k].text(stop.joints[static_cast<Eigen::Index>(k)]));
+    }
+    for (Eigen::Index k = 0; k < stop.joints.size(); ++k) {
+      row.fields.push_back(fmt::format("{:.0f}", stop.approach.size() > 0 ? stop.approach[k] : 0.0));
+    }
+    if (columns.payload) row.fields.push_back(fmt::format("{:.6g}", stop.payload_kg));
+    table.rows.push_back(std::move(row));
+  }
+  std::ostringstream text;
+  write_csv(text, table);
+  return text.str();
+}
+
+}  // namespace demecal::inline config

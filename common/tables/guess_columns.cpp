@@ -1,0 +1,163 @@
+#include "tables/guess_columns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include "data/columns.hpp"
+#include "data/text.hpp"
+#include "tables/layout.hpp"
+#include "tables/time_stamp.hpp"
+
+namespace demecal::inline tables {
+namespace {
+
+constexpr std::size_t kMostJoints = 9;
+
+/// A name in small letters, without signs between them and without a unit at its end: "Joint_1_deg" becomes "joint1".
+std::string plain_name(std::string_view column) {
+  std::string name = lower_case(column);
+  const std::size_t ending = name.rfind('_');
+  if (ending != std::string::npos && find_heading_unit(name.substr(ending + 1))) name.resize(ending);
+  std::erase_if(name, [](char c) { return std::string_view(" _-.:$").find(c) != std::string_view::npos; });
+  return name;
+}
+
+/// Columns by their plain names; of equal names the first.
+class NamedColumns {
+ public:
+  explicit NamedColumns(const CsvTable& table) {
+    for (const std::string& column : table.columns) names_.push_back(plain_name(column));
+  }
+
+  std::optional<std::size_t> find(std::string_view name) const {
+    const auto found = std::ranges::find(names_, name);
+    if (found == names_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+
+  std::optional<std::size_t> first_of(std::initializer_list<std::string_view> names) const {
+    for (const std::string_view name : names) {
+      if (const auto found = find(name)) return found;
+    }
+    return std::nullopt;
+  }
+
+  /// All of the names; empty where one is missing.
+  std::vector<std::size_t> all_of(const std::vector<std::string>& names) const {
+    std::vector<std::size_t> columns;
+    for (const std::string& name : names) {
+      const auto found = find(name);
+      if (!found) return {};
+      columns.push_back(*found);
+    }
+    return columns;
+  }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+constexpr std::array<std::string_view, 11> kJointStems{
+    "q", "j", "joint", "axis", "a", "theta", "actualq", "jointangle", "jointposition", "position", "t"};
+
+std::vector<std::string> numbered_names(std::string_view stem, std::size_t from, std::size_t count) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) names.push_back(std::string(stem) + std::to_string(from + i));
+  return names;
+}
+
+/// Joints counted from one, or from zero as recorders of UR arms do.
+std::vector<std::size_t> joint_columns(const NamedColumns& named, std::size_t joints) {
+  for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
+    for (const std::string_view stem : kJointStems) {
+      auto columns = named.all_of(numbered_names(stem, from, joints));
+      if (!columns.empty()) return columns;
+    }
+  }
+  return {};
+}
+
+std::vector<std::size_t> triple(const NamedColumns& named, std::initializer_list<std::array<const char*, 3>> choices) {
+  for (const auto& names : choices) {
+    auto columns = named.all_of({names.begin(), names.end()});
+    if (!columns.empty()) return columns;
+  }
+  return {};
+}
+
+GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names) {
+  const NamedColumns named(table);
+  GuessedColumns guess;
+  std::vector<std::string> plain;
+  for (const std::string& name : joint_names) plain.push_back(plain_name(name));
+  if (!plain.empty()) guess.joints = named.all_of(plain);
+  if (guess.joints.empty()) guess.joints = joint_columns(named, joints);
+  guess.position = triple(named, {{"x", "y", "z"},
+                                  {"posx", "posy", "posz"},
+                                  {"measuredx", "measuredy", "measuredz"},
+                                  {"xmeasured", "ymeasured", "zmeasured"},
+                                  {"xact", "yact", "zact"},
+                                  {"px", "py", "pz"}});
+  guess.sigma =
+      triple(named, {{"sx", "sy", "sz"}, {"ux", "uy", "uz"}, {"sigmax", "sigmay", "sigmaz"}, {"stdx", "stdy", "stdz"}});
+  guess.orientation = named.all_of({"qw", "qx", "qy", "qz"});
+  guess.approach = named.all_of(numbered_names("s", 1, joints));
+  guess.name = named.first_of({"poseid", "pose", "pointid", "pointname", "point", "name", "pointno", "id", "nr", "no"});
+  guess.time = named.first_of({"time", "timestamp", "datetime", "t", "stamp", "zeit", "zeitstempel"});
+  guess.set = named.find("set");
+  guess.payload = named.first_of({"payload", "payloadkg"});
+  guess.temperature = named.first_of({"temperature", "temperaturecelsius", "temp"});
+  guess.target = named.first_of({"targetid", "target"});
+  return guess;
+}
+
+/// What the fields of a column are, all of them.
+template <typename Is>
+bool holds(const CsvTable& table, std::size_t column, const Is& is) {
+  return std::ranges::all_of(table.rows, [&](const CsvRow& row) { return is(row.fields[column]); });
+}
+
+GuessedColumns by_contents(const CsvTable& table, std::size_t joints) {
+  std::vector<std::size_t> numbers;
+  GuessedColumns guess;
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    if (holds(table, column, is_numeric)) {
+      numbers.push_back(column);
+    } else if (!guess.time &&
+               holds(table, column, [](const auto& field) { return parse_time_stamp(field).has_value(); })) {
+      guess.time = column;
+    } else if (!guess.name) {
+      guess.name = column;
+    }
+  }
+  const auto take = [&](std::size_t from, std::size_t count) {
+    return std::vector<std::size_t>(numbers.begin() + static_cast<std::ptrdiff_t>(from),
+                                    numbers.begin() + static_cast<std::ptrdiff_t>(from + count));
+  };
+  if (numbers.size() == 3 && joints != 3) guess.position = take(0, 3);
+  if (numbers.size() == joints && joints != 3) guess.joints = take(0, joints);
+  if (numbers.size() == joints + 3) {
+    guess.joints = take(0, joints);
+    guess.position = take(joints, 3);
+  }
+  return guess;
+}
+
+}  // namespace
+
+GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names) {
+  return table.header_line > 0 ? by_names(table, joints, joint_names) : by_contents(table, joints);
+}
+
+std::size_t count_joint_columns(const CsvTable& table) {
+  const NamedColumns named(table);
+  for (std::size_t joints = kMostJoints; joints > 1; --joints) {
+    if (!joint_columns(named, joints).empty()) return joints;
+  }
+  return 0;
+}
+
+}  // namespace demecal::inline tables

@@ -1,0 +1,27 @@
+// Which columns of a table hold what, by the names that instruments and loggers give them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/csv.hpp"
+
+namespace demecal::inline tables {
+
+/// Indices of columns; empty, or nothing, where the table has none of the kind.
+struct GuessedColumns {
+  std::vector<std::size_t> joints, position, orientation, sigma, approach;
+  std::optional<std::size_t> name, time, set, payload, temperature, target;
+};
+
+/// By their headings: joints q1 or j1, joint_1, axis1, A1 ... in a row of `joints`, or `joint_names` themselves; x y z;
+/// qw qx qy qz; sx sy sz; a name or point; a time. In a table without headings: three columns of numbers are a
+/// position, as many as there are joints are joints, both together are both, and a first column of words is the name.
+GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names);
+
+/// How many joints the table seems to have, by columns of numbered names; 0 where it has none.
+std::size_t count_joint_columns(const CsvTable& table);
+
+}  // namespace demecal::inline tables

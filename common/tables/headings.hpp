@@ -1,0 +1,30 @@
+// Which line of a table heads its columns, and what the headings say.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/csv.hpp"
+#include "tables/layout.hpp"
+
+namespace demecal::inline tables {
+
+struct Headings {
+  std::size_t line = 0;             ///< in the file, from 1; 0: there are none
+  std::vector<std::string> fields;  ///< as they stand there, one a column
+  std::vector<std::string> units;   ///< of a row of units below them; empty: there is none
+  bool in_comment = false;
+  std::size_t lines_before = 0;  ///< that are neither comments nor blank
+};
+
+/// The headings of the rows that begin at layout.first_row. Throws InputError where a line before the rows may be a row
+/// or the headings, but has another width, and where two lines may be the headings.
+Headings find_headings(const std::vector<TextLine>& lines, const Layout& layout, const ToldLayout& told,
+                       const std::string& file);
+
+/// Names, units and headings of the table's columns.
+void set_columns(const Headings& headings, std::size_t width, CsvTable& table);
+
+}  // namespace demecal::inline tables

@@ -1,0 +1,56 @@
+// How a table is laid out in a text: what separates columns, which sign the decimals have, where headings and rows
+// begin.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace demecal::inline tables {
+
+enum class Delimiter { comma, semicolon, tab, blanks };
+
+/// "comma", "semicolon", "tab", "blanks": as data sets name it.
+std::string_view to_string(Delimiter delimiter);
+
+/// What a user says of a table; the rest is recognised.
+struct ToldLayout {
+  std::optional<Delimiter> delimiter{};
+  std::optional<char> decimal{};             ///< point or comma
+  std::optional<std::size_t> header_line{};  ///< from 1; 0: no line has headings
+};
+
+/// Without blanks and tabs around it.
+std::string_view trimmed(std::string_view text);
+
+/// A line that is neither blank nor a comment.
+struct TextLine {
+  std::size_t number = 0;  ///< in the file, from 1
+  std::string_view text;
+  bool comment = false;
+};
+
+/// The lines of the text that are not blank, without line ends; of comments there are marks # % ! and //.
+std::vector<TextLine> lines_of(std::string_view text);
+
+/// The fields of a line, without quotes and surrounding blanks. A quote that does not embrace its field is a part of
+/// it.
+std::vector<std::string> fields_of(std::string_view line, Delimiter delimiter);
+
+/// Whether the field is a number, with a point or with a comma.
+bool is_numeric(std::string_view field);
+
+struct Layout {
+  Delimiter delimiter = Delimiter::comma;
+  std::size_t width = 0;      ///< fields of a row
+  std::size_t first_row = 0;  ///< in the lines
+};
+
+/// The layout of the rows, nothing where no separator gives lines of several fields with numbers among them. Throws
+/// InputError where two separators explain the lines as well.
+std::optional<Layout> recognise_layout(const std::vector<TextLine>& lines, const ToldLayout& told,
+                                       const std::string& file);
+
+}  // namespace demecal::inline tables

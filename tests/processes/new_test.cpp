@@ -1,0 +1,115 @@
+// demecal new and demecal template: from files of other programs to files that other commands take at once.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "config/input_files.hpp"
+#include "data/text.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/units.hpp"
+#include "program.hpp"
+#include "random/random_stream.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string shipped_robot(const std::string& name) {
+  return std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/" + name + ".yaml";
+}
+
+std::string comma_text(double value) {
+  std::string text = number_text(std::round(1e3 * value) / 1e3);
+  std::ranges::replace(text, '.', ',');
+  return text;
+}
+
+/// A tracker's text with decimal commas and a log of joints with time stamps of another clock, of an arm whose second
+/// joint is off by a milliradian.
+void write_measurement(const SmallJob& job, const std::string& robot_file, RandomStream& random) {
+  const Robot robot = load_robot(robot_file);
+  std::ofstream tracker(job.path("tracker.txt")), log(job.path("joints.log"));
+  tracker << "Survey of a robot\n\nTime [s];X [mm];Y [mm];Z [mm]\n";
+  log << "timestamp\tj1\tj2\tj3\tj4\tj5\tj6\n";
+  JointVector before = JointVector::Zero(6);
+  for (int pose = 0; pose < 40; ++pose) {
+    JointVector q(6);
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const Joint& joint = robot.chain.joints[static_cast<std::size_t>(j)];
+      q[j] = random.real(std::max(joint.lower, -1.2), std::min(joint.upper, 1.2));
+    }
+    for (int row = 0; row < 30; ++row) {
+      const double way = std::min(1.0, row / 12.0), time_s = 3.0 * pose + 0.1 * row;
+      log << "10:" << (time_s < 60.0 ? "00" : "01") << ':' << (std::fmod(time_s, 60.0) < 9.95 ? "0" : "")
+          << number_text(std::round(10.0 * std::fmod(time_s, 60.0)) / 10.0);
+      for (Eigen::Index j = 0; j < 6; ++j) log << '\t' << number_text(degrees((1.0 - way) * before[j] + way * q[j]));
+      log << '\n';
+    }
+    JointVector real = q;
+    real[1] += 1e-3;
+    const Eigen::Vector3d point_mm = 1e3 * tool_position(robot.chain, real);
+    tracker << comma_text(500.0 + 3.0 * pose + 2.2) << ';' << comma_text(1500.0 - point_mm.y()) << ';'
+            << comma_text(point_mm.x() - 300.0) << ';' << comma_text(point_mm.z()) << '\n';
+    before = q;
+  }
+}
+
+class FirstHour : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(FirstHour, MakesAModelOfFilesOfOtherPrograms) {
+  const SmallJob job;
+  RandomStream random{311};
+  const std::string robot = shipped_robot(GetParam());
+  write_measurement(job, robot, random);
+  const Ended made = run("demecal", {"new", job.path("cell"), "--robot", robot, "--poses", job.path("tracker.txt"),
+                                     job.path("joints.log")});
+  ASSERT_EQ(made.code, 0) << made.err << made.out;
+  EXPECT_THAT(made.out, HasSubstr("40 poses of"));
+  EXPECT_THAT(made.out, HasSubstr("the offset of the clocks is found by the arm's motion"));
+  EXPECT_THAT(made.err, HasSubstr("semicolons between 4 columns, decimal commas, headings in line 3 with units"));
+  const Ended fitted = run("demecal", {"diagnose", job.path("cell/dataset.yaml"), "--declare",
+                                       "registration,joint_offset", "--max-effects", "0", "--out", job.path("result")});
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  const Ended evaluated = run("demecal", {"evaluate", job.path("result/model.yaml"), job.path("cell/dataset.yaml")});
+  EXPECT_EQ(evaluated.code, 0) << evaluated.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfArms, FirstHour, ::testing::Values("ur10", "puma761", "elbow-offset"));
+
+TEST(New, RefusesWhatCannotBeToldAndLeavesStrangersFiles) {
+  const SmallJob job;
+  const std::string robot = shipped_robot("ur10");
+  std::ofstream(job.path("points.txt")) << "x y\n1 2\n";
+  const Ended without = run("demecal", {"new", job.path("cell"), "--robot", robot, "--poses", job.path("points.txt")});
+  EXPECT_EQ(without.code, 11);
+  EXPECT_THAT(without.err, HasSubstr("no columns are called as the 6 joints may be"));
+  EXPECT_FALSE(std::filesystem::exists(job.path("cell")));
+  std::filesystem::create_directories(job.path("mine"));
+  std::ofstream(job.path("mine/dataset.yaml")) << "mine\n";
+  RandomStream random{312};
+  write_measurement(job, robot, random);
+  const Ended mine = run("demecal", {"new", job.path("mine"), "--robot", robot, "--poses", job.path("tracker.txt"),
+                                     job.path("joints.log")});
+  EXPECT_EQ(mine.code, 10) << mine.err;
+}
+
+TEST(Template, PrintsAFileOrWritesItOnce) {
+  const SmallJob job;
+  const Ended printed = run("demecal", {"template", "robot"});
+  EXPECT_EQ(printed.code, 0);
+  EXPECT_THAT(printed.out, HasSubstr("demecal_robot: 1"));
+  EXPECT_EQ(run("demecal", {"template", "job", "--out", job.path("first.yaml")}).code, 0);
+  EXPECT_EQ(run("demecal", {"template", "job", "--out", job.path("first.yaml")}).code, 10);
+  EXPECT_EQ(run("demecal", {"template", "cell"}).code, 10);
+}
+
+}  // namespace
+}  // namespace demecal
