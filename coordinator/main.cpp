@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   demecal::add_prepare(app, exit_code);
   demecal::add_simulate(app, exit_code);
   demecal::add_report(app, exit_code);
+  demecal::add_robot(app, exit_code);
   demecal::add_study(app, exit_code);
   demecal::add_monitor(app, exit_code);
   demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });

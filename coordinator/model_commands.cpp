@@ -12,6 +12,7 @@
 #include "acceptance/certificate.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/input_files.hpp"
+#include "config/model_export.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
@@ -36,7 +37,7 @@ namespace demecal {
 namespace {
 
 struct ExportRequest {
-  std::string file, out, target, format = "text";
+  std::string file, out, target, urdf, format = "text";
   int derivative = 0;  ///< by this joint, from 1; 0: none
 };
 
@@ -88,7 +89,32 @@ Listing listing_asked(Algebra& algebra, const ExportRequest& request) {
   return listing_of_robot(algebra, request, model.robot, title);
 }
 
+void write_or_print(const ExportRequest& request, const std::string& text) {
+  if (request.out.empty()) {
+    fmt::print("{}", text);
+  } else {
+    write_file(request.out, text);
+  }
+}
+
+/// A robot file is taken as a model of which nothing was identified.
+CalibratedModel model_asked(const ExportRequest& request) {
+  if (read_yaml(request.file).find("demecal_robot") == nullptr) return load_model(request.file);
+  CalibratedModel model;
+  model.nominal = load_robot(request.file);
+  model.robot = as_drawn(model.nominal);
+  return model;
+}
+
+ExitCode run_urdf(const ExportRequest& request) {
+  const ExportedArm exported = calibrated_urdf(model_asked(request), request.urdf);
+  for (const std::string& note : exported.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
+  write_or_print(request, exported.text);
+  return ExitCode::done;
+}
+
 ExitCode run(const ExportRequest& request) {
+  if (request.format == "urdf") return run_urdf(request);
   Algebra algebra;
   Listing listing = listing_asked(algebra, request);
   if (request.derivative > static_cast<int>(listing.actual.size())) {
@@ -96,12 +122,7 @@ ExitCode run(const ExportRequest& request) {
                      "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
   }
   if (request.derivative > 0) listing = derivative(listing, request.derivative);
-  const std::string code = code_of(listing, code_languages().at(request.format));
-  if (request.out.empty()) {
-    fmt::print("{}", code);
-  } else {
-    write_file(request.out, code);
-  }
+  write_or_print(request, code_of(listing, code_languages().at(request.format)));
   return ExitCode::done;
 }
 
@@ -146,13 +167,15 @@ ExitCode run(const EvaluateRequest& request) {
 
 void add_export(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<ExportRequest>();
-  CLI::App* command = app.add_subcommand("export", "the corrected forward model as formulas or code");
+  CLI::App* command =
+      app.add_subcommand("export", "the corrected forward model as formulas or code, or the arm as a URDF");
   command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
-  command->add_option("--format", request->format, "text, c, python or matlab")
-      ->check(CLI::IsMember({"text", "c", "python", "matlab"}))
+  command->add_option("--format", request->format, "text, c, python, matlab or urdf")
+      ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf"}))
       ->capture_default_str();
   command->add_option("--out", request->out, "file to write; without it, standard output");
   command->add_option("--target", request->target, "the tool point, where the model has several");
+  command->add_option("--urdf", request->urdf, "the URDF that the robot was imported from, where it has moved");
   command->add_option("--derivative", request->derivative, "the pose's derivative by this joint, instead of the pose")
       ->check(CLI::Range(1, kMaxJoints));
   command->callback([request, &exit_code] { exit_code = run(*request); });

@@ -60,8 +60,8 @@ JointRows rows_at(const DataSet& data, const MeasuredPose& pose, const Corrected
                   const JointBelief& belief, const RowScales& scales) {
   const PoseAndJacobian predicted = robot.predict_with_jacobian(Stop(pose).with_joints(joints), pose.target);
   const Eigen::VectorXd residuals = residual(robot, predicted.pose, data, pose);
-  const Eigen::MatrixXd jacobian =
-      measurement_jacobian(robot, predicted.pose, data, pose) * predicted.jacobian * belief.deviation.asDiagonal();
+  const Eigen::MatrixXd jacobian = measurement_jacobian(robot, predicted.pose, data, pose) *
+                                   by_drives(robot.chain, predicted.jacobian) * belief.deviation.asDiagonal();
   const RowCounts count = count_rows(pose);
   JointRows rows;
   std::vector<Eigen::Index> used;

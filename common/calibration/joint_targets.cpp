@@ -92,7 +92,7 @@ class ExactTargets {
     const InverseSolution solution = inverse(model, goal(robot_, data_, pose), pose.joints, options_);
     const double weight = pose_weight(solution, options_);
     if (weight < 1.0) singular.push_back({index, solution.smallest_singular, solution.status});
-    return {difference(robot_.chain, solution.q, pose.joints), weight};
+    return {driven_joints(robot_.chain, difference(robot_.chain, solution.q, pose.joints)), weight};
   }
 
  private:

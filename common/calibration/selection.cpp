@@ -193,8 +193,10 @@ std::vector<JointVector> PoseEvaluator::with(std::vector<JointVector> corrected,
                                              const JointCorrection& correction) const {
   const auto at = static_cast<Eigen::Index>(joint);
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    const double commanded = data_.poses[poses_[i]].joints[at];
-    corrected[i][at] = commanded + correction(commanded);
+    const JointVector& commanded = data_.poses[poses_[i]].joints;
+    JointVector driven = driven_joints(data_.robot.chain, corrected[i]);
+    driven[at] = driven_joints(data_.robot.chain, commanded)[at] + correction(commanded[at]);
+    corrected[i] = commanded_joints(data_.robot.chain, driven);
   }
   return corrected;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "data/data_set.hpp"
 #include "preparation/prepared.hpp"
@@ -21,6 +22,18 @@ Robot load_robot(const std::filesystem::path& path);
 
 /// The same of a map already read, such as one inside another file; its version key is the caller's to check.
 Robot read_robot(const YamlNode& node);
+
+/// The ROBOT.yaml of an arm imported from a URDF, with what was assumed as comments. Paths are as in its arguments.
+struct ImportRequest {
+  std::string file;                      ///< the URDF
+  std::optional<std::string> base, tip;  ///< links
+  std::string beside;                    ///< the file that the text will stand in
+};
+struct ImportedRobot {
+  std::string text;
+  std::vector<std::string> notes;
+};
+ImportedRobot import_urdf(const ImportRequest& request);
 
 /// The keys of a ROBOT.yaml but its version, one or more lines each, every line moved `indent` spaces to the right.
 /// read_robot() reads them back.

@@ -3,18 +3,18 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "config/arm_drawing.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
+#include "kinematics/drawn_arm.hpp"
 #include "kinematics/units.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "yaml/yaml_node.hpp"
@@ -24,69 +24,6 @@ namespace demecal::inline config {
 namespace {
 
 constexpr double kMostGravity_mps2 = 20.0;  // beyond it stands a mistaken unit, not another planet
-constexpr double kShortestReach_m = 0.01;   // below it lengths were given in metres
-
-/// An angle of a link, rad. A right angle written in radians is the commonest slip in such tables.
-double link_angle(const YamlNode& node) {
-  const double angle_deg = node.number(-360.0, 360.0);
-  for (const double suspect : {0.5 * std::numbers::pi, std::numbers::pi}) {
-    if (std::abs(std::abs(angle_deg) - suspect) < 1e-3) node.fail("looks like radians; degrees are expected");
-  }
-  return radians(angle_deg);
-}
-
-double optional_angle(const YamlNode* node) {
-  return node ? link_angle(*node) : 0.0;
-}
-
-Joint read_joint(const YamlNode& node) {
-  node.with_keys({"type", "alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "beta_deg", "limits_deg", "limits_mm"});
-  Joint joint;
-  joint.type =
-      node.at("type").one_of<JointType>({{"revolute", JointType::revolute}, {"prismatic", JointType::prismatic}});
-  joint.alpha_rad = link_angle(node.at("alpha_deg"));
-  joint.a_m = metres(node.at("a_mm").number());
-  joint.d_m = metres(node.at("d_mm").number());
-  joint.theta_rad = optional_angle(node.find("theta_offset_deg"));
-  joint.beta_rad = optional_angle(node.find("beta_deg"));
-  const bool revolute = is_revolute(joint);
-  if (const YamlNode* wrong = node.find(revolute ? "limits_mm" : "limits_deg")) {
-    wrong->fail("", std::string("is of the wrong unit: ") +
-                        (revolute ? "a revolute joint has limits_deg" : "a prismatic joint has limits_mm"));
-  }
-  const auto [lower, upper] = node.at(revolute ? "limits_deg" : "limits_mm").range();
-  joint.lower = revolute ? radians(lower) : metres(lower);
-  joint.upper = revolute ? radians(upper) : metres(upper);
-  return joint;
-}
-
-void check_reach(const YamlNode& joints, const Chain& chain) {
-  double reach_m = 0.0;
-  for (const Joint& joint : chain.joints) {
-    reach_m += std::abs(joint.a_m) + std::abs(joint.d_m);
-    if (!is_revolute(joint)) reach_m += std::max(std::abs(joint.lower), std::abs(joint.upper));
-  }
-  if (reach_m > 0.0 && reach_m < kShortestReach_m) {
-    joints.fail("", "reach less than " + number_text(millimetres(kShortestReach_m)) +
-                        " mm in all; lengths are expected in millimetres and look like metres");
-  }
-}
-
-Chain read_chain(const YamlNode& node) {
-  Chain chain;
-  chain.convention =
-      node.at("convention")
-          .one_of<Convention>({{"standard_dh", Convention::standard_dh}, {"modified_dh", Convention::modified_dh}});
-  const YamlNode& joints = node.at("joints");
-  if (joints.list().empty() || joints.children.size() > static_cast<std::size_t>(kMaxJoints)) {
-    joints.fail("",
-                "must be from 1 to " + std::to_string(kMaxJoints) + ", not " + std::to_string(joints.children.size()));
-  }
-  for (const YamlNode& joint : joints.children) chain.joints.push_back(read_joint(joint));
-  check_reach(joints, chain);
-  chain.tool_m = metres(1.0) * node.at("tool_mm").vector3();
-  return chain;
-}
 
 std::vector<LinkMass> read_masses(const YamlNode& links, std::size_t joints) {
   std::vector<LinkMass> masses;
@@ -105,6 +42,13 @@ Eigen::Vector3d read_gravity(const YamlNode& node) {
   return gravity_mps2;
 }
 
+/// The file's place is kept whole: models that hold the robot stand in other folders.
+UrdfSource read_urdf_source(const YamlNode& node) {
+  node.with_keys({"file", "base", "tip"});
+  const std::filesystem::path file = resolve(node.file, node.at("file").text());
+  return {std::filesystem::absolute(file).lexically_normal().string(), node.at("base").text(), node.at("tip").text()};
+}
+
 JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
   const std::vector<double> values = node.numbers();
   if (std::ssize(values) != chain.size())
@@ -112,16 +56,19 @@ JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
   return joints_from_deg_or_mm(chain, values);
 }
 
-std::string joint_text(const Joint& joint) {
-  const bool revolute = is_revolute(joint);
-  const auto limit = revolute ? degrees_text : millimetres_text;
-  std::ostringstream text;
-  text << "{type: " << (revolute ? "revolute" : "prismatic") << ", alpha_deg: " << degrees_text(joint.alpha_rad)
-       << ", a_mm: " << millimetres_text(joint.a_m) << ", d_mm: " << millimetres_text(joint.d_m)
-       << ", theta_offset_deg: " << degrees_text(joint.theta_rad);
-  if (joint.beta_rad != 0.0) text << ", beta_deg: " << degrees_text(joint.beta_rad);
-  text << (revolute ? ", limits_deg: [" : ", limits_mm: [") << limit(joint.lower) << ", " << limit(joint.upper) << "]}";
-  return text.str();
+/// The arm of a robot that was read as rows, or made without a file.
+DrawnArm drawing_of(const Robot& robot) {
+  if (robot.drawing) return *robot.drawing;
+  DrawnArm arm{.convention = robot.chain.convention, .joints = {}};
+  for (const Joint& joint : robot.chain.joints) arm.joints.push_back({.row = joint});
+  for (const LinkMass& link : robot.masses) arm.centres_m.push_back(link.centre_m);
+  return arm;
+}
+
+/// The masses' centres in the frames of the chain's links.
+void set_centres(Robot& robot, const std::vector<Eigen::Isometry3d>& drawn_links) {
+  for (std::size_t i = 0; i < robot.masses.size(); ++i)
+    robot.masses[i].centre_m = drawn_links[i] * robot.masses[i].centre_m;
 }
 
 std::string home_text(const Robot& robot) {
@@ -165,14 +112,23 @@ MatrixText read_matrix(const YamlNode& node) {
 }  // namespace
 
 Robot read_robot(const YamlNode& node) {
-  node.with_keys({"demecal_robot", "name", "convention", "joints", "tool_mm", "links", "gravity_mps2",
-                  "repeatability_mm", "home_deg"});
+  node.with_keys({"demecal_robot", "name", "convention", "base", "joints", "flange", "couplings", "tool_mm", "links",
+                  "gravity_mps2", "urdf", "repeatability_mm", "home_deg"});
   Robot robot;
   robot.name = node.at("name").text();
-  robot.chain = read_chain(node);
+  DrawnArm drawing = read_drawing(node);
+  EquivalentChain equivalent = equivalent_chain(drawing);
+  robot.chain = std::move(equivalent.chain);
+  robot.chain.tool_m = metres(1.0) * node.at("tool_mm").vector3();
   if (const YamlNode* links = node.find("links")) robot.masses = read_masses(*links, robot.chain.joints.size());
+  if (is_more_than_rows(drawing)) {
+    for (const LinkMass& link : robot.masses) drawing.centres_m.push_back(link.centre_m);
+    robot.drawing = std::move(drawing);
+    set_centres(robot, equivalent.drawn_links);
+  }
   if (const YamlNode* gravity = node.find("gravity_mps2")) robot.gravity_mps2 = read_gravity(*gravity);
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
+  if (const YamlNode* urdf = node.find("urdf")) robot.urdf = read_urdf_source(*urdf);
   if (const YamlNode* home = node.find("home_deg")) robot.home = read_declared_home(*home, robot.chain);
   return robot;
 }
@@ -183,19 +139,27 @@ Robot load_robot(const std::filesystem::path& path) {
 
 std::string robot_text(const Robot& robot, int indent) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
-  const char* convention = robot.chain.convention == Convention::standard_dh ? "standard_dh" : "modified_dh";
+  const DrawnArm drawing = drawing_of(robot);
   std::ostringstream text;
   text << margin << "name: " << yaml_text(robot.name) << '\n';
-  text << margin << "convention: " << convention << '\n';
+  text << margin << "convention: " << convention_word(drawing) << '\n';
+  if (drawing.base != Origin{}) text << margin << "base: " << origin_text(drawing.base) << '\n';
   text << margin << "joints:\n";
-  for (const Joint& joint : robot.chain.joints) text << margin << "  - " << joint_text(joint) << '\n';
+  for (const DrawnJoint& joint : drawing.joints) text << margin << "  - " << joint_text(drawing, joint) << '\n';
+  if (drawing.flange != Origin{}) text << margin << "flange: " << origin_text(drawing.flange) << '\n';
+  if (!drawing.couplings.empty()) text << margin << "couplings: " << couplings_text(drawing) << '\n';
   text << margin << "tool_mm: " << yaml_mm(robot.chain.tool_m) << '\n';
   if (!robot.masses.empty()) text << margin << "links:\n";
-  for (const LinkMass& link : robot.masses) {
-    text << margin << "  - {mass_kg: " << number_text(link.mass_kg) << ", com_mm: " << yaml_mm(link.centre_m) << "}\n";
+  for (std::size_t i = 0; i < robot.masses.size(); ++i) {
+    text << margin << "  - {mass_kg: " << number_text(robot.masses[i].mass_kg)
+         << ", com_mm: " << yaml_mm(drawing.centres_m.at(i)) << "}\n";
   }
   text << margin << "gravity_mps2: " << yaml_numbers({robot.gravity_mps2.data(), 3}) << '\n';
   if (robot.repeatability_m) text << margin << "repeatability_mm: " << millimetres_text(*robot.repeatability_m) << '\n';
+  if (robot.urdf) {
+    text << margin << "urdf: {file: " << yaml_text(robot.urdf->file) << ", base: " << yaml_text(robot.urdf->base)
+         << ", tip: " << yaml_text(robot.urdf->tip) << "}\n";
+  }
   if (robot.home.size() > 0) text << margin << "home_deg: " << home_text(robot) << '\n';
   return text.str();
 }

@@ -39,6 +39,7 @@ std::string in_border_unit(double value, bool angle) {
 }
 
 void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const std::string& file) {
+  if (joint.endless) return;
   const bool angle = is_revolute(joint);
   const double margin = angle ? kLimitMargin_rad : kLimitMargin_m;
   const double value = pose.joints[static_cast<Eigen::Index>(index)];

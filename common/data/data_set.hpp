@@ -15,6 +15,7 @@
 
 #include "data/contacts.hpp"
 #include "kinematics/chain.hpp"
+#include "kinematics/drawn_arm.hpp"
 
 namespace demecal::inline data {
 
@@ -53,6 +54,13 @@ struct LinkMass {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
 };
 
+/// Where an arm was imported from.
+struct UrdfSource {
+  std::string file;  ///< absolute, or as it was given
+  std::string base;  ///< link
+  std::string tip;   ///< link
+};
+
 /// The arm as its maker describes it.
 struct Robot {
   std::string name;
@@ -60,7 +68,9 @@ struct Robot {
   std::vector<LinkMass> masses;  ///< empty where unknown
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};
   std::optional<double> repeatability_m;
-  JointVector home{};  ///< rad, m: where programs start that do not say it; empty: not declared
+  JointVector home{};                 ///< rad, m: where programs start that do not say it; empty: not declared
+  std::optional<DrawnArm> drawing{};  ///< where the file says more of the arm than rows; `chain` is made from it
+  std::optional<UrdfSource> urdf{};   ///< the file that `drawing` was made from
 };
 
 struct DataSet {

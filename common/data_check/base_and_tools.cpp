@@ -79,7 +79,8 @@ std::optional<double> turn_of_last_joint(const Chain& chain, const Eigen::Vector
   const double radius_m = nominal.head<2>().norm();
   // A link that follows the last axis on a slant has no such simple form.
   const bool along_axis = chain.convention == Convention::modified_dh || (last.a_m == 0.0 && last.alpha_rad == 0.0);
-  if (!is_revolute(last) || !along_axis || radius_m < 4.0 * kTurnedTool_m) return std::nullopt;
+  if (!is_revolute(last) || !along_axis || !chain.flange.matrix().isIdentity(0.0) || radius_m < 4.0 * kTurnedTool_m)
+    return std::nullopt;
   for (const double turn_deg : {90.0, -90.0, 180.0}) {
     const Eigen::Vector3d turned = rotation_of(Eigen::Vector3d(0, 0, radians(turn_deg))) * nominal;
     if ((turned - found).norm() < kTurnedTool_m) return turn_deg;

@@ -94,10 +94,11 @@ std::vector<LinearizedPose> DistalIndex::linearized(const CorrectedRobot& robot)
     const MeasuredPose& pose = data_.poses[poses_[i]];
     const JointVector corrected = robot.corrected_joints(pose.joints);
     const Eigen::Isometry3d predicted_pose = predicted(robot, i);
-    const auto motion = bare.predict_with_jacobian(Stop(pose).with_joints(corrected), pose.target).jacobian;
+    const Jacobian motion =
+        by_drives(robot.chain, bare.predict_with_jacobian(Stop(pose).with_joints(corrected), pose.target).jacobian);
     const Eigen::MatrixXd slope = measurement_jacobian(placed, predicted_pose, data_, pose) * motion;
-    LinearizedPose linearized_pose{corrected - pose.joints, weigh(pose, residual(placed, predicted_pose, data_, pose)),
-                                   slope};
+    LinearizedPose linearized_pose{driven_joints(robot.chain, corrected - pose.joints),
+                                   weigh(pose, residual(placed, predicted_pose, data_, pose)), slope};
     for (Eigen::Index joint = 0; joint < slope.cols(); ++joint) {
       linearized_pose.jacobian_mm.col(joint) = weigh(pose, slope.col(joint));
     }

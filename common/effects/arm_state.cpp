@@ -12,17 +12,17 @@ namespace {
 
 /// Sets places and links: the frames met on the way from base to flange.
 void set_frames(const Chain& chain, ArmState& state) {
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d frame = chain.base;
   for (int i = 0; i < chain.size(); ++i) {
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
     for (const Elementary& transform : elementary_transforms(chain.convention)) {
       // In either convention the axis of the joint is that of its first transform about z.
       if (transform.parameter == LinkParameter::theta) state.places.push_back(frame);
-      advance(frame, transform, elementary_value(joint, transform.parameter, state.joints()[i]));
+      advance(frame, transform, elementary_value(joint, transform.parameter, state.driven[i]));
     }
     state.links.push_back(frame);
   }
-  state.places.push_back(frame);
+  state.places.push_back(frame * chain.flange);
 }
 
 /// Sets loads, from the payload inwards: a place bears what the next one bears, and its own link.
@@ -68,6 +68,7 @@ ArmState arm_state(const Robot& robot, const Stop& stop) {
   DEMECAL_CHECK(stop.joints.size() == robot.chain.size(), stop.joints.size() << " of " << robot.chain.size());
   DEMECAL_CHECK(robot.masses.empty() || std::ssize(robot.masses) == robot.chain.size(), robot.masses.size());
   ArmState state{.stop = stop,
+                 .driven = driven_joints(robot.chain, stop.joints),
                  .places = {},
                  .links = {},
                  .loads = {},

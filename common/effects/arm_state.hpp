@@ -45,6 +45,7 @@ struct PlaceLoad {
 /// Everything an effect may depend on, at the commanded joints of the nominal arm.
 struct ArmState {
   Stop stop;
+  JointVector driven;                     ///< where the drives then turn the joints
   std::vector<Eigen::Isometry3d> places;  ///< n + 1, in the base frame
   std::vector<Eigen::Isometry3d> links;   ///< n: the frame fixed in each link, in the base frame
   std::vector<PlaceLoad> loads;           ///< n: of all links and the payload beyond; known masses only

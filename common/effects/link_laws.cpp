@@ -27,7 +27,9 @@ SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter 
   SymbolicFrame frame(writer.state.algebra());
   for (const Elementary& transform : elementary_transforms(chain.convention)) {
     if (transform.parameter == parameter) break;
-    advance(frame, transform, elementary_value(link, transform.parameter, writer.own_joint()));
+    advance(frame, transform,
+            elementary_value(link, transform.parameter,
+                             writer.state.driven[static_cast<std::size_t>(writer.effect.joint)]));
   }
   return frame;
 }
@@ -79,7 +81,7 @@ class GeometryLaw final : public EffectLaw {
                     std::vector<UnitMotion>& motions) const override {
     int coefficient = 0;
     for (const FreeParameter& free : free_parameters_of(robot, effect.joint)) {
-      append_link_motion(robot.chain, effect.joint, state.joints()[effect.joint], free.parameter, coefficient++, 1.0,
+      append_link_motion(robot.chain, effect.joint, state.driven[effect.joint], free.parameter, coefficient++, 1.0,
                          motions);
     }
   }

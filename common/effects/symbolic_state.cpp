@@ -121,6 +121,15 @@ SymbolicFrame seen_from(const SymbolicFrame& from, const SymbolicFrame& frame) {
   return result;
 }
 
+std::vector<Expression> driven_joints(const Chain& chain, std::vector<Expression> commanded) {
+  std::vector<Expression> driven = commanded;
+  for (const auto& [joint, from, factor] : chain.couplings) {
+    Expression& turned = driven[static_cast<std::size_t>(joint)];
+    turned = turned + factor * commanded[static_cast<std::size_t>(from)];
+  }
+  return driven;
+}
+
 Expression elementary_value(const Joint& joint, LinkParameter parameter, Expression q) {
   const Expression fixed = q.algebra().constant(joint.parameter(parameter));
   return parameter == moving_parameter(joint) ? q + fixed : fixed;
@@ -146,17 +155,18 @@ SymbolicFrame moved(const SymbolicFrame& frame, const SymbolicMotion& motion) {
 }
 
 SymbolicState symbolic_state(Algebra& algebra, const Robot& robot, const std::vector<Expression>& joints) {
-  SymbolicState state{&robot, joints, {}, {}, constant_vector(algebra, Eigen::Vector3d::Zero())};
-  SymbolicFrame frame(algebra);
+  SymbolicState state{&robot, joints, driven_joints(robot.chain, joints),
+                      {},     {},     constant_vector(algebra, Eigen::Vector3d::Zero())};
+  SymbolicFrame frame(algebra, robot.chain.base);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& link = robot.chain.joints[i];
     for (const Elementary& transform : elementary_transforms(robot.chain.convention)) {
       if (transform.parameter == LinkParameter::theta) state.places.push_back(frame);
-      advance(frame, transform, elementary_value(link, transform.parameter, joints[i]));
+      advance(frame, transform, elementary_value(link, transform.parameter, state.driven[i]));
     }
     state.links.push_back(frame);
   }
-  state.places.push_back(frame);
+  state.places.push_back(frame * SymbolicFrame(algebra, robot.chain.flange));
   return state;
 }
 

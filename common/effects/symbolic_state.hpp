@@ -49,6 +49,8 @@ SymbolicFrame operator*(const SymbolicFrame& frame, const SymbolicFrame& next);
 /// `frame` seen from `from`; both stand in the same frame.
 SymbolicFrame seen_from(const SymbolicFrame& from, const SymbolicFrame& frame);
 
+/// As driven_joints() of numbers.
+std::vector<Expression> driven_joints(const Chain& chain, std::vector<Expression> commanded);
 /// As elementary_value() of numbers.
 Expression elementary_value(const Joint& joint, LinkParameter parameter, Expression q);
 /// `frame` moved by an elementary transform of the given value; an angle of exactly 0 or a right angle is exact.
@@ -62,6 +64,7 @@ SymbolicFrame moved(const SymbolicFrame& frame, const SymbolicMotion& motion);
 struct SymbolicState {
   const Robot* robot;
   std::vector<Expression> joints;     ///< where an effect is taken: where the arm is, or within what was measured
+  std::vector<Expression> driven;     ///< where the drives turn the joints of the arm as it is
   std::vector<SymbolicFrame> places;  ///< n + 1, base frame; of where the arm is
   std::vector<SymbolicFrame> links;   ///< n, base frame
   SymbolicVector tool_in_sensor;

@@ -32,7 +32,7 @@ class ThermalLengthLaw final : public EffectLaw {
                     std::vector<UnitMotion>& motions) const override {
     const double warming = warming_kelvin(effect, state.stop);
     const Joint& link = link_of(robot, effect);
-    const double q = state.joints()[effect.joint];
+    const double q = state.driven[effect.joint];
     append_link_motion(robot.chain, effect.joint, q, LinkParameter::d, 0, warming * link.d_m, motions);
     append_link_motion(robot.chain, effect.joint, q, LinkParameter::a, 0, warming * link.a_m, motions);
   }

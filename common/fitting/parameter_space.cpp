@@ -152,7 +152,7 @@ class EffectTwists {
     }
     const auto place = static_cast<std::size_t>(unit.place);
     const Twist twist = is_joint_motion(chain_, unit)
-                            ? Twist(arm_.kinematics.joints.col(unit.place))
+                            ? Twist(arm_.kinematics.drives.col(unit.place))
                             : unit_twist(arm_.places[place], displaced_.places.col(unit.place), unit.axis, in_base_m_);
     Twist turned;
     turned << base_.linear() * twist.head<3>(), base_.linear() * twist.tail<3>();

@@ -48,7 +48,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior,
       motion.twists * posterior.factor.topRows(static_cast<Eigen::Index>(posterior.ids.size()));
   if (posterior.terms.empty()) return spread;
   const Eigen::Vector3d& tool_m = robot.tool(target).translation();
-  Jacobian joints = joint_jacobian(robot.chain, robot.actual_joints(stop), tool_m);
+  Jacobian joints = differential_kinematics(robot.chain, robot.actual_joints(stop), tool_m).drives;
   const Eigen::Matrix3d& base = robot.sensor_from_base.linear();
   joints.topRows<3>() = (base * joints.topRows<3>()).eval();
   joints.bottomRows<3>() = (base * joints.bottomRows<3>()).eval();

@@ -42,6 +42,21 @@ double Joint::parameter(LinkParameter which) const {
   return const_cast<Joint*>(this)->parameter(which);
 }
 
+JointVector driven_joints(const Chain& chain, JointVector commanded) {
+  if (chain.couplings.empty()) return commanded;
+  JointVector driven = commanded;
+  for (const CommandCoupling& coupling : chain.couplings)
+    driven[coupling.joint] += coupling.factor * commanded[coupling.from];
+  return driven;
+}
+
+JointVector commanded_joints(const Chain& chain, JointVector driven) {
+  // By joint, so that those that a coupling comes from are commands already.
+  for (const CommandCoupling& coupling : chain.couplings)
+    driven[coupling.joint] -= coupling.factor * driven[coupling.from];
+  return driven;
+}
+
 JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> values) {
   DEMECAL_CHECK(std::ssize(values) == chain.size(), values.size() << " values, " << chain.size() << " joints");
   JointVector joints(chain.size());

@@ -34,11 +34,22 @@ struct Joint {
   double a_m = 0.0;
   double alpha_rad = 0.0;
   double beta_rad = 0.0;
-  double lower = 0.0;  ///< limit, rad or m
-  double upper = 0.0;  ///< limit, rad or m
+  double lower = 0.0;    ///< limit, rad or m
+  double upper = 0.0;    ///< limit, rad or m
+  bool endless = false;  ///< turns on and on: its limits are a whole turn either way and nobody is held to them
 
   double& parameter(LinkParameter which);
   double parameter(LinkParameter which) const;
+};
+
+/// A joint whose drive its controller also turns by `factor` times the command of another, nearer to the base: `from`
+/// < `joint`.
+struct CommandCoupling {
+  int joint;
+  int from;
+  double factor;
+
+  bool operator==(const CommandCoupling&) const = default;
 };
 
 /// A serial arm from base to flange, with the tool point in the flange frame.
@@ -46,6 +57,9 @@ struct Chain {
   Convention convention = Convention::standard_dh;
   std::vector<Joint> joints;
   Eigen::Vector3d tool_m = Eigen::Vector3d::Zero();
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();    ///< where the first link's transforms begin, base frame
+  Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();  ///< the flange in the last link's frame
+  std::vector<CommandCoupling> couplings{};                  ///< by joint
 
   int size() const { return static_cast<int>(joints.size()); }
 };
@@ -60,6 +74,13 @@ inline bool is_revolute(const Chain& chain, int joint) {
 inline LinkParameter moving_parameter(const Joint& joint) {
   return is_revolute(joint) ? LinkParameter::theta : LinkParameter::d;
 }
+
+/// Where the drives turn the joints, about their own axes, when the controller is commanded to `commanded`: the same
+/// but for couplings. Linear, so that it also takes changes to changes.
+JointVector driven_joints(const Chain& chain, JointVector commanded);
+/// Its inverse. Errors of drives do not pass through couplings: a command that is off by `commanded_joints(errors)`
+/// comes to the same.
+JointVector commanded_joints(const Chain& chain, JointVector driven);
 
 /// Joints stated in deg, mm where one slides: one value per joint.
 JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> values);

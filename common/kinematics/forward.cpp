@@ -50,6 +50,13 @@ LinkJacobian link_jacobian(const Chain& chain, const JointVector& q, const Eigen
   return differential_kinematics(chain, q, point_m).links;
 }
 
+Jacobian by_drives(const Chain& chain, Jacobian by_commands) {
+  // From the last joint on: what a coupling leads to is then by its drive already.
+  for (auto coupling = chain.couplings.rbegin(); coupling != chain.couplings.rend(); ++coupling)
+    by_commands.col(coupling->from) -= coupling->factor * by_commands.col(coupling->joint);
+  return by_commands;
+}
+
 Eigen::Isometry3d moved(const Eigen::Isometry3d& frame, const SmallMotion& motion) {
   Eigen::Isometry3d result = frame;
   result.translation() += frame.linear() * motion.head<3>();
@@ -96,10 +103,13 @@ Kinematics ScrewList::kinematics(const Chain& chain, const Eigen::Isometry3d& fl
   for (int column = 0; column < result.links.cols(); ++column) {
     result.links.col(column) = twist_at(screws_[static_cast<std::size_t>(column)], point);
   }
-  result.joints.resize(6, chain.size());
+  result.drives.resize(6, chain.size());
   for (int joint = 0; joint < chain.size(); ++joint) {
-    result.joints.col(joint) = result.links.col(moving_column(chain, joint));
+    result.drives.col(joint) = result.links.col(moving_column(chain, joint));
   }
+  result.joints = result.drives;
+  for (const CommandCoupling& coupling : chain.couplings)
+    result.joints.col(coupling.from) += coupling.factor * result.drives.col(coupling.joint);
   return result;
 }
 

@@ -35,9 +35,12 @@ LinkJacobian link_jacobian(const Chain& chain, const JointVector& q, const Eigen
 /// Everything at once, for solvers: the flange pose, and both Jacobians for one point.
 struct Kinematics {
   Eigen::Isometry3d flange;
-  Jacobian joints;
+  Jacobian joints;  ///< by the commanded joints
+  Jacobian drives;  ///< by the turns of the drives: the same where the arm has no couplings
   LinkJacobian links;
 };
+/// What a Jacobian by commanded joints is by the turns of the drives.
+Jacobian by_drives(const Chain& chain, Jacobian by_commands);
 Kinematics differential_kinematics(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m);
 
 /// A small rigid motion in the axes of the frame it moves: a shift (m) by the first three, after a turn by the rotation
@@ -88,7 +91,8 @@ inline Eigen::Matrix<double, 6, 1> twist_at(const Screw& screw, const Eigen::Vec
 template <typename Visit, typename Displace>
 Eigen::Isometry3d walk(const Chain& chain, const JointVector& q, const Visit& visit, const Displace& displace) {
   DEMECAL_CHECK(q.size() == chain.size(), q.size() << " joint values for " << chain.size() << " joints");
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  const JointVector driven = driven_joints(chain, q);
+  Eigen::Isometry3d frame = chain.base;
   const auto& transforms = elementary_transforms(chain.convention);
   for (int joint = 0; joint < chain.size(); ++joint) {
     const Joint& link = chain.joints[static_cast<std::size_t>(joint)];
@@ -96,9 +100,10 @@ Eigen::Isometry3d walk(const Chain& chain, const JointVector& q, const Visit& vi
       if (transform.parameter == LinkParameter::theta) displace(joint, frame);
       visit(joint, transform.parameter,
             Screw{transform.rotates, frame.linear().col(transform.axis), frame.translation()});
-      advance(frame, transform, elementary_value(link, transform.parameter, q[joint]));
+      advance(frame, transform, elementary_value(link, transform.parameter, driven[joint]));
     }
   }
+  frame = frame * chain.flange;
   displace(chain.size(), frame);
   return frame;
 }

@@ -74,8 +74,8 @@ std::string entry(const DescribedOption& option) {
   return ".TP\n" + names + "\n" + roff(option.description + value_facts(option)) + "\n";
 }
 
-std::string synopsis(const CLI::App& command, const std::string& words) {
-  std::string text = ".SH SYNOPSIS\n\\fB" + roff(words) + "\\fR";
+std::string usage(const CLI::App& command, const std::string& words) {
+  std::string text = "\\fB" + roff(words) + "\\fR";
   bool more = false;
   for (const DescribedOption& option : described_options(command)) {
     if (option.positional || option.required) {
@@ -86,6 +86,21 @@ std::string synopsis(const CLI::App& command, const std::string& words) {
   }
   if (!command_names(command).empty()) text += " \\fICOMMAND\\fR";
   return text + (more ? " [\\fIOPTION\\fR]...\n" : "\n");
+}
+
+std::string synopsis(const CLI::App& command, const std::string& words) {
+  return ".SH SYNOPSIS\n" + usage(command, words);
+}
+
+/// The commands of a command, which have no pages of their own.
+std::string inner_commands(const CLI::App& outer, const std::string& words) {
+  std::string text;
+  for (const CLI::App* command : outer.get_subcommands({})) {
+    text += ".SS " + roff(words + " " + command->get_name()) + "\n" + roff(command->get_description()) + ".\n.PP\n" +
+            usage(*command, words + " " + command->get_name());
+    for (const DescribedOption& option : described_options(*command)) text += entry(option);
+  }
+  return text.empty() ? text : ".SH COMMANDS\n" + text;
 }
 
 std::string commands_section(const CLI::App& program) {
@@ -115,7 +130,9 @@ std::string manual_page(const CLI::App& program, const std::string& command, con
   const std::string words = command.empty() ? name : program.get_name() + " " + command;
   std::string page = ".TH " + roff(upper_case(name)) + " 1 \"\" \"demecal " DEMECAL_VERSION "\" \"User commands\"\n";
   page += ".SH NAME\n" + roff(name) + " \\- " + roff(without_name(described->get_description(), name)) + "\n";
-  page += synopsis(*described, words) + commands_section(*described) + ".SH OPTIONS\n";
+  page += synopsis(*described, words);
+  page += command.empty() ? commands_section(program) : inner_commands(*described, words);
+  page += ".SH OPTIONS\n";
   for (const DescribedOption& option : described_options(*described)) page += entry(option);
   page += ".SH EXIT STATUS\n" + roff(exit_status) + "\n.SH SEE ALSO\n";
   if (command.empty()) {

@@ -45,19 +45,19 @@ std::vector<Expression> symbols(Algebra& algebra, int joints, std::string (*name
   return all;
 }
 
-Expression actual_of(const JointCorrection& correction, Expression commanded, int joint) {
-  if (correction.is_neutral()) return commanded;
+/// Where the drive turns the joint, and its correction by where it was commanded.
+Expression actual_of(const JointCorrection& correction, Expression commanded, Expression driven, int joint) {
+  if (correction.is_neutral()) return driven;
   const AngleBranch& branch = correction.branch();
   const Expression on_branch = branch.wraps ? wrapped_near(commanded, branch.centre_rad) : commanded;
   const Expression theta = held_within(on_branch, correction.range_rad());
-  return commanded +
-         commanded.algebra().formula('g' + std::to_string(joint), simplified(correction.formula()), {theta});
+  return driven + commanded.algebra().formula('g' + std::to_string(joint), simplified(correction.formula()), {theta});
 }
 
 /// From the base to the flange, without base and tool.
 SymbolicFrame flange(Algebra& algebra, const Chain& chain, const std::vector<Expression>& joints,
                      const std::vector<SymbolicMotion>& places) {
-  SymbolicFrame frame(algebra);
+  SymbolicFrame frame(algebra, chain.base);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& link = chain.joints[i];
     for (const Elementary& transform : elementary_transforms(chain.convention)) {
@@ -65,7 +65,7 @@ SymbolicFrame flange(Algebra& algebra, const Chain& chain, const std::vector<Exp
       advance(frame, transform, elementary_value(link, transform.parameter, joints[i]));
     }
   }
-  return moved(frame, places.back());
+  return moved(frame * SymbolicFrame(algebra, chain.flange), places.back());
 }
 
 SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
@@ -112,10 +112,11 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
   const int n = robot.chain.size();
   const std::vector<Expression> commanded = symbols(algebra, n, commanded_joint);
   const std::vector<Expression> actual = symbols(algebra, n, actual_joint);
+  const std::vector<Expression> driven = driven_joints(robot.chain, commanded);
   CorrectedArm arm;
   for (int i = 0; i < n; ++i) {
     const auto joint = static_cast<std::size_t>(i);
-    arm.actual.push_back(actual_of(robot.corrections[joint], commanded[joint], i + 1));
+    arm.actual.push_back(actual_of(robot.corrections[joint], commanded[joint], driven[joint], i + 1));
   }
   SymbolicDisplacement by(algebra, static_cast<std::size_t>(n));
   const SymbolicFrame without = tool_pose(algebra, robot, target, actual, by);

@@ -87,6 +87,7 @@ Displacement displacement(const Chain& chain, const std::vector<Effect>& effects
       sum.places(unit.axis, unit.place) += size;
     }
   }
+  sum.joints = commanded_joints(chain, sum.joints);
   return sum;
 }
 
@@ -99,11 +100,11 @@ const Eigen::Isometry3d& CorrectedRobot::tool(const std::string& target) const {
 JointVector CorrectedRobot::corrected_joints(const JointVector& commanded) const {
   DEMECAL_CHECK(commanded.size() == static_cast<Eigen::Index>(corrections.size()),
                 commanded.size() << " joint values for " << corrections.size() << " corrections");
-  JointVector corrected = commanded;
+  JointVector corrected = driven_joints(chain, commanded);
   for (Eigen::Index i = 0; i < corrected.size(); ++i) {
     corrected[i] += corrections[static_cast<std::size_t>(i)](commanded[i]);
   }
-  return corrected;
+  return commanded_joints(chain, corrected);
 }
 
 JointVector CorrectedRobot::actual_joints(const Stop& stop) const {
@@ -134,12 +135,17 @@ Eigen::Isometry3d CorrectedRobot::predict(const JointVector& corrected, const st
 PoseAndJacobian CorrectedRobot::predict_with_jacobian(const Stop& stop, const std::string& target) const {
   const Eigen::Isometry3d& flange_from_tool = tool(target);
   const auto [kinematics, base] = kinematics_at(*this, stop, target);
-  PoseAndJacobian result{base * kinematics.flange * flange_from_tool, kinematics.joints};
+  PoseAndJacobian result{base * kinematics.flange * flange_from_tool, kinematics.drives};
   const Eigen::Matrix3d rotation = base.linear();
   for (Eigen::Index i = 0; i < result.jacobian.cols(); ++i) {
     const double gain = 1.0 + corrections[static_cast<std::size_t>(i)].slope(stop.joints[i]);
-    result.jacobian.col(i).head<3>() = gain * rotation * kinematics.joints.col(i).head<3>();
-    result.jacobian.col(i).tail<3>() = gain * rotation * kinematics.joints.col(i).tail<3>();
+    result.jacobian.col(i).head<3>() = gain * rotation * kinematics.drives.col(i).head<3>();
+    result.jacobian.col(i).tail<3>() = gain * rotation * kinematics.drives.col(i).tail<3>();
+  }
+  for (const CommandCoupling& coupling : chain.couplings) {
+    const auto driven = kinematics.drives.col(coupling.joint);
+    result.jacobian.col(coupling.from).head<3>() += coupling.factor * (rotation * driven.head<3>());
+    result.jacobian.col(coupling.from).tail<3>() += coupling.factor * (rotation * driven.tail<3>());
   }
   return result;
 }

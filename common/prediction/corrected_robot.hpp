@@ -59,7 +59,7 @@ std::vector<EffectMotion> effect_motions(const std::vector<Effect>& effects, con
 
 /// Motions of all kinds, added up over the effects.
 struct Displacement {
-  JointVector joints;   ///< along (m) or about (rad) the joints' own axes: they add to the joints' values
+  JointVector joints;   ///< what moves (m, rad) along or about the joints' own axes, as a change of the command
   PlaceMotions places;  ///< the rest, by place
   SmallMotion sensor;   ///< of the whole arm, in the measurements' frame about its origin; it comes last
 };
@@ -84,7 +84,8 @@ struct CorrectedRobot {
 
   /// flange_from_tool of a target; the robot must have it.
   const Eigen::Isometry3d& tool(const std::string& target) const;
-  /// q + g(q).
+  /// q + g(q): the command that, without corrections, would turn the joints to where they are. g does not pass through
+  /// couplings.
   JointVector corrected_joints(const JointVector& commanded) const;
   /// The same, and what the effects add about or along the joints' axes.
   JointVector actual_joints(const Stop& stop) const;

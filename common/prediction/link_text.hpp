@@ -17,7 +17,8 @@ enum class LinkNumbers {
 /// "theta2": a link parameter's name; joints count from 0.
 std::string parameter_name(LinkParameter parameter, int joint);
 
-/// The matrices whose product is the flange's pose at joints q1 .. qn, in their order: one a link, and where a link has
+/// The matrices whose product is the flange's pose at joints q1 .. qn, in their order, without what stands before
+/// and behind the links (Chain::base, Chain::flange): one a link, and where a link has
 /// (given) or may have (named) Hayati's beta, its parts. Rows as in thesis table 5-4.
 std::vector<MatrixText> link_texts(const Chain& chain, LinkNumbers numbers);
 

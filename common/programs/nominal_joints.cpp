@@ -26,7 +26,7 @@ double radical_inverse(int index, int base) {
 }
 
 bool limited(const Joint& joint) {
-  return joint.lower < joint.upper;
+  return !joint.endless && joint.lower < joint.upper;
 }
 
 /// About where the hint has the joint; elsewhere, where the reference has it.

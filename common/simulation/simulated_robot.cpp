@@ -114,13 +114,13 @@ Situation SimulatedRobot::situation(const Visit& visit) const {
 }
 
 JointVector SimulatedRobot::joints_in(const Situation& circumstances) const {
-  JointVector joints = circumstances.commanded;
+  JointVector joints = driven_joints(true_chain_, circumstances.commanded);
   visit_joint_errors(scenario_, [&](const char* /*key*/, const auto& errors) {
     if constexpr (requires { deviation(errors.front(), circumstances); }) {
       for (const auto& error : errors) joints[error.joint] += deviation(error, circumstances);
     }
   });
-  return joints;
+  return commanded_joints(true_chain_, joints);
 }
 
 std::vector<Eigen::Vector3d> SimulatedRobot::axis_tilts(const Situation& circumstances) const {
@@ -145,7 +145,7 @@ Eigen::Isometry3d SimulatedRobot::true_pose(const Visit& visit) const {
       for (const auto& error : errors) deform(chain, error, circumstances);
     }
   });
-  Eigen::Isometry3d pose = stand(chain, joints_in(circumstances), axis_tilts(circumstances)).links.back();
+  Eigen::Isometry3d pose = stand(chain, joints_in(circumstances), axis_tilts(circumstances)).flange;
   pose.translate(chain.tool_m);
   return drifted(scenario_.sensor_from_base * pose, scenario_.drift, visit.time_s);
 }

@@ -27,7 +27,7 @@ std::vector<Weight> weights(const Robot& robot, const Stance& stance, double pay
     const LinkMass link = robot.masses.empty() ? LinkMass{} : robot.masses[i];
     all.push_back({stance.links[i] * link.centre_m, link.mass_kg * robot.gravity_mps2});
   }
-  all.push_back({stance.links.back() * robot.chain.tool_m, payload_kg * robot.gravity_mps2});
+  all.push_back({stance.flange * robot.chain.tool_m, payload_kg * robot.gravity_mps2});
   return all;
 }
 
@@ -43,7 +43,8 @@ Stance stand(const Chain& chain, const JointVector& q, std::span<const Eigen::Ve
   DEMECAL_CHECK(q.size() == chain.size(), q.size() << " joint values for " << chain.size() << " joints");
   DEMECAL_CHECK(tilts.empty() || std::ssize(tilts) == chain.size(), tilts.size() << " tilts");
   Stance stance;
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d frame = chain.base;
+  const JointVector driven = driven_joints(chain, q);
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const Joint& joint = chain.joints[i];
     for (const Elementary& transform : elementary_transforms(chain.convention)) {
@@ -52,11 +53,12 @@ Stance stand(const Chain& chain, const JointVector& q, std::span<const Eigen::Ve
         stance.axes.push_back(frame);
       }
       const bool moves = transform.parameter == moving_parameter(joint);
-      const double variable = moves ? q[static_cast<Eigen::Index>(i)] : 0.0;
+      const double variable = moves ? driven[static_cast<Eigen::Index>(i)] : 0.0;
       advance(frame, transform, joint.parameter(transform.parameter) + variable);
     }
     stance.links.push_back(frame);
   }
+  stance.flange = frame * chain.flange;
   return stance;
 }
 

@@ -15,7 +15,8 @@ namespace demecal::inline simulation {
 /// Frames of a standing arm in the base frame.
 struct Stance {
   std::vector<Eigen::Isometry3d> axes;   ///< per joint: z is its axis, before the joint's own motion
-  std::vector<Eigen::Isometry3d> links;  ///< per link: its own frame; the last one is the flange
+  std::vector<Eigen::Isometry3d> links;  ///< per link: its own frame
+  Eigen::Isometry3d flange;
 };
 
 /// Frames of `chain` at joint values `q` (rad or m). `tilts` are rotation vectors (rad), one per joint in its axis

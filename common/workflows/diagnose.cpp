@@ -58,6 +58,11 @@ bool same_link(const Joint& one, const Joint& other) {
   return same;
 }
 
+bool same_place(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
+  constexpr double kRounding = 1e-9;  // m or rad
+  return (one.matrix() - other.matrix()).cwiseAbs().maxCoeff() < kRounding;
+}
+
 }  // namespace
 
 void require_same_arm(const CalibratedModel& model, const DataSet& data) {
@@ -79,6 +84,12 @@ void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data)
     if (one.convention == other.convention && same_link(one.joints[i], other.joints[i])) continue;
     throw InputError({data.file, 0}, data.robot.name,
                      fmt::format("is not the arm that the model corrects: joint {} differs", i + 1));
+  }
+  const bool ends = same_place(one.base, other.base) && same_place(one.flange, other.flange);
+  if (!ends || one.couplings != other.couplings) {
+    throw InputError({data.file, 0}, data.robot.name,
+                     fmt::format("is not the arm that the model corrects: {}",
+                                 ends ? "its couplings differ" : "where its base or flange stands differs"));
   }
 }
 

@@ -66,6 +66,11 @@ void read_matrices(const std::filesystem::path& path) {
   load_matrices(algebra, path);
 }
 
+void read_urdf(const std::filesystem::path& path) {
+  const ImportedRobot imported = import_urdf({path, std::nullopt, std::nullopt, folder().path() / "imported.yaml"});
+  load_robot(folder().write("imported.yaml", imported.text));
+}
+
 void read_model(const std::filesystem::path& path) {
   const CalibratedModel model = load_model(path);
   load_model(folder().write("again.yaml", model_text(model)));
@@ -95,6 +100,7 @@ std::vector<Target> file_targets() {
           {"preparation", {shipped_preparation()}, read_preparation},
           {"matrices", {shipped("configs/matrices/puma761.yaml")}, reader("matrices.yaml", read_matrices)},
           {"grid", {shipped("configs/grids/search.yaml")}, reader("grid.yaml", load_grid)},
+          {"urdf", {shipped("tests/fuzz/seeds/arm.urdf")}, reader("arm.urdf", read_urdf)},
           {"model",
            {shipped("tests/fuzz/seeds/model.yaml"), shipped("tests/fuzz/seeds/sharing-model.yaml")},
            reader("model.yaml", read_model)}};

@@ -19,7 +19,7 @@ struct Target {
 std::vector<Target> wire_targets();
 /// Formulas, tables, lines of events, journals.
 std::vector<Target> text_targets();
-/// Robots, jobs, data sets, scenarios, preparations, matrices, grids, models.
+/// Robots, URDFs, jobs, data sets, scenarios, preparations, matrices, grids, models.
 std::vector<Target> file_targets();
 /// Robot programs of every language.
 std::vector<Target> program_targets();

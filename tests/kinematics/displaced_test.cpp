@@ -55,7 +55,7 @@ TEST(Displaced, ArmsAreTheProductOfLinksAndMotions) {
 
 TEST(Displaced, ArmsThatDoNotMoveStandAsEverToTheBit) {
   RandomStream stream{142};
-  const Chain chain = random_arm(stream, 7, Convention::standard_dh, 0.3);
+  const Chain chain = mounted_arm(stream, 7, Convention::standard_dh, 0.3);
   const JointVector q = random_joints(stream, chain);
   const PlaceMotions none = PlaceMotions::Zero(6, 8);
   EXPECT_EQ(forward(chain, q, none).matrix(), forward(chain, q).matrix());
@@ -69,7 +69,7 @@ TEST(Displaced, ArmsHaveTheJacobiansThatDifferencesShow) {
   constexpr double kStep = 1e-6;
   const Eigen::Vector3d point_m{0.1, 0.2, -0.1};
   for (const Convention convention : {Convention::standard_dh, Convention::modified_dh}) {
-    const Chain chain = random_arm(stream, 6, convention, 0.3);
+    const Chain chain = mounted_arm(stream, 6, convention, 0.3);
     const JointVector q = random_joints(stream, chain);
     const PlaceMotions motions = random_motions(stream, chain, 0.3);
     const auto pose = [&](const JointVector& joints, const PlaceMotions& places) {

@@ -46,7 +46,7 @@ void on_random_arms(std::uint64_t seed, Check check) {
   for (const Convention convention : kConventions) {
     for (int joints = 3; joints <= kMaxJoints; ++joints) {
       for (int trial = 0; trial < 5; ++trial) {
-        const Chain chain = random_arm(stream, joints, convention, 0.3);
+        const Chain chain = mounted_arm(stream, joints, convention, 0.3);
         check(chain, random_joints(stream, chain), chain.tool_m);
       }
     }

@@ -43,6 +43,28 @@ inline Chain random_arm(RandomStream& stream, int joints, Convention convention,
   return chain;
 }
 
+inline Eigen::Isometry3d random_place(RandomStream& stream) {
+  const Eigen::Quaterniond turn(stream.normal(), stream.normal(), stream.normal(), stream.normal());
+  Eigen::Isometry3d place(turn.normalized());
+  for (double& coordinate : place.translation()) coordinate = stream.real(-0.3, 0.3);
+  return place;
+}
+
+/// A random arm that stands on something and carries something, and whose joints 2 and 3, where they are of one type,
+/// are also turned by the commands of those before.
+inline Chain mounted_arm(RandomStream& stream, int joints, Convention convention, double prismatic = 0.0) {
+  Chain chain = random_arm(stream, joints, convention, prismatic);
+  chain.base = random_place(stream);
+  chain.flange = random_place(stream);
+  for (int joint = 1; joint < std::min(joints, 3); ++joint) {
+    for (int from = 0; from < joint; ++from) {
+      if (is_revolute(chain, from) == is_revolute(chain, joint))
+        chain.couplings.push_back({joint, from, stream.real(-0.5, 0.5)});
+    }
+  }
+  return chain;
+}
+
 /// Uniform between the joints' limits.
 inline JointVector random_joints(RandomStream& stream, const Chain& chain) {
   JointVector q(chain.size());

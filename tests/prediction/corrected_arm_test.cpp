@@ -39,7 +39,7 @@ TEST(CorrectedArm, FollowsCorrectionsOfEveryPrimitiveOnTheirBranchAndBeyondTheir
   RandomStream stream{631};
   for (int which = 0; which < 10; ++which) {
     const auto convention = which % 2 == 0 ? Convention::standard_dh : Convention::modified_dh;
-    const Chain nominal = random_arm(stream, 5, convention, 0.2);
+    const Chain nominal = mounted_arm(stream, 5, convention, 0.2);
     CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
     const Tree tree =
         parse("0.001 * SQRTp(theta - 0.3) - 0.002 % (theta - -1.5) * SIGN(theta) + 0.001 * ABS(COS(theta))");
@@ -54,7 +54,7 @@ TEST(CorrectedArm, FollowsEveryEffectOfTheCatalogueAsTheModelPredictsIt) {
   RandomStream stream{632};
   for (int which = 0; which < 4; ++which) {
     const auto convention = which % 2 == 0 ? Convention::standard_dh : Convention::modified_dh;
-    const Chain nominal = random_arm(stream, 5, convention, which == 3 ? 0.3 : 0.0);
+    const Chain nominal = mounted_arm(stream, 5, convention, which == 3 ? 0.3 : 0.0);
     for (const EffectLaw* law : catalogue()) {
       CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
       robot.described = heavy(stream, nominal);
@@ -70,7 +70,7 @@ TEST(CorrectedArm, FollowsEveryEffectOfTheCatalogueAsTheModelPredictsIt) {
 TEST(CorrectedArm, HoldsAndFadesEffectsBeyondTheirRangesAsTheModelDoes) {
   RandomStream stream{633};
   for (int which = 0; which < 30; ++which) {
-    const Chain nominal = random_arm(stream, 4, Convention::standard_dh);
+    const Chain nominal = mounted_arm(stream, 4, Convention::standard_dh);
     CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
     robot.described = heavy(stream, nominal);
     for (Effect effect : random_effects(robot.described, stream, 2e-3, 1)) {
@@ -88,7 +88,7 @@ TEST(CorrectedArm, HoldsAndFadesEffectsBeyondTheirRangesAsTheModelDoes) {
 
 TEST(CorrectedArm, DifferentiatesByEveryJointAsDifferencesDo) {
   RandomStream stream{635};
-  const Chain nominal = random_arm(stream, 4, Convention::standard_dh, 0.2);
+  const Chain nominal = mounted_arm(stream, 4, Convention::standard_dh, 0.2);
   CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-2);
   robot.described = heavy(stream, nominal);
   robot.effects = random_effects(robot.described, stream, 2e-3, 1);
@@ -110,7 +110,7 @@ TEST(CorrectedArm, DifferentiatesByEveryJointAsDifferencesDo) {
 
 TEST(CorrectedArm, NotesWhatDependsOnMoreThanTheJoints) {
   RandomStream stream{634};
-  const Chain nominal = random_arm(stream, 3, Convention::standard_dh);
+  const Chain nominal = mounted_arm(stream, 3, Convention::standard_dh);
   CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
   robot.described = heavy(stream, nominal);
   Algebra algebra;

@@ -42,7 +42,7 @@ TEST(CorrectedRobot, HasTheJacobianOfItsPredictionsSlopesIncluded) {
   const double step = 1e-6;
   for (int joints = 3; joints <= kMaxJoints; ++joints) {
     const CorrectedRobot robot =
-        random_robot(stream, random_arm(stream, joints, Convention::modified_dh, 0.2), 0.01, 0.2);
+        random_robot(stream, mounted_arm(stream, joints, Convention::modified_dh, 0.2), 0.01, 0.2);
     const JointVector q = random_joints(stream, robot.chain);
     const PoseAndJacobian at = robot.predict_with_jacobian(q, "B");
     EXPECT_LT((at.pose.matrix() - robot.predict(q, "B").matrix()).norm(), 1e-13);
@@ -146,7 +146,7 @@ TEST(CorrectedCommand, OfFewerThanSixJointsPutsThePositionFirst) {
   for (const int joints : {4, 5}) {
     int regular = 0;
     for (int trial = 0; trial < 200; ++trial) {
-      const Chain nominal = random_arm(stream, joints, Convention::standard_dh);
+      const Chain nominal = mounted_arm(stream, joints, Convention::standard_dh);
       const CorrectedRobot robot = random_robot(stream, nominal, 2e-3, 0.01);
       const JointVector desired = random_joints(stream, nominal);
       const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, desired) * robot.tool("");

@@ -56,7 +56,7 @@ TEST(EffectsOfARobot, MoveTheToolAsTheSumOfTheirMotionsAtFirstOrder) {
   RandomStream stream{661};
   for (const Convention convention : {Convention::standard_dh, Convention::modified_dh}) {
     for (int trial = 0; trial < 10; ++trial) {
-      const CorrectedRobot robot = erring_robot(stream, random_arm(stream, 6, convention, 0.2), 1e-6, 3);
+      const CorrectedRobot robot = erring_robot(stream, mounted_arm(stream, 6, convention, 0.2), 1e-6, 3);
       const Stop stop = random_stop(stream, robot.chain);
       const PoseError moved = pose_error(without_effects(robot).predict(stop, "B"), robot.predict(stop, "B"));
       const PoseError expected = first_order(robot, stop, "B");
@@ -69,7 +69,7 @@ TEST(EffectsOfARobot, MoveTheToolAsTheSumOfTheirMotionsAtFirstOrder) {
 TEST(EffectsOfARobot, AboutAJointsAxisAddToItsValue) {
   RandomStream stream{662};
   for (int trial = 0; trial < 10; ++trial) {
-    CorrectedRobot robot = random_robot(stream, random_arm(stream, 6, Convention::standard_dh, 0.3), 0.01, 0.0);
+    CorrectedRobot robot = random_robot(stream, mounted_arm(stream, 6, Convention::standard_dh, 0.3), 0.01, 0.0);
     robot.described = heavy(stream, robot.chain);
     const JointVector q = random_joints(stream, robot.chain);
     JointVector shifted = q;
@@ -128,7 +128,7 @@ TEST(EffectsOfARobot, CountInResidualsAndToolErrorsAtThePosesOwnCircumstances) {
 TEST(EffectsOfARobot, LeaveTheJacobianOfTheArmAsTheyMoveIt) {
   RandomStream stream{666};
   constexpr double kStep = 1e-6;
-  CorrectedRobot robot = random_robot(stream, random_arm(stream, 6, Convention::modified_dh, 0.2), 0.01, 0.1);
+  CorrectedRobot robot = random_robot(stream, mounted_arm(stream, 6, Convention::modified_dh, 0.2), 0.01, 0.1);
   robot.described = heavy(stream, robot.chain);
   for (const char* kind : {"backlash", "joint_offset", "registration", "drift", "geometry"}) {
     for (const EffectLaw* law : {find_law(kind)}) {

@@ -1,0 +1,146 @@
+#include "config/model_export.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <system_error>
+
+#include "data/text.hpp"
+#include "errors/input_error.hpp"
+#include "kinematics/drawn_arm.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/units.hpp"
+#include "programs/command_model.hpp"
+#include "random/random_stream.hpp"
+#include "urdf/rewrite.hpp"
+#include "urdf/urdf_arm.hpp"
+#include "urdf/urdf_file.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal::inline config {
+namespace {
+
+constexpr int kSampledPoses = 500;
+
+/// The arm in its own base frame: what a registration cannot tell from the base's place is as it was drawn.
+CorrectedRobot in_own_base(const CalibratedModel& model) {
+  const CorrectedRobot robot =
+      model.declared.registration ? without_base(model.robot, model.nominal.chain) : model.robot;
+  return command_model(model.nominal, robot, std::vector<double>(robot.chain.joints.size(), 0.0)).robot;
+}
+
+JointVector sampled_joints(const CalibratedModel& model, RandomStream& random) {
+  JointVector q(model.nominal.chain.size());
+  for (int i = 0; i < q.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(i);
+    const Joint& row = model.nominal.chain.joints[joint];
+    const Interval range = model.measured.empty() ? Interval{row.lower, row.upper} : model.measured[joint];
+    q[i] = random.real(range.lower, range.upper);
+  }
+  return q;
+}
+
+std::string mm_text(double length_m) {
+  return number_text(std::round(1e6 * length_m) / 1e3) + " mm";
+}
+
+/// What links alone leave out.
+void note_lacks(const CalibratedModel& model, const CorrectedRobot& robot, std::vector<std::string>& notes) {
+  const bool corrected = std::ranges::any_of(
+      robot.corrections, [](const JointCorrection& correction) { return !correction.is_neutral(); });
+  const Eigen::Vector3d tool_m = robot.tool("").translation();
+  if (corrected || !robot.effects.empty()) {
+    RandomStream random{1};
+    double sum_m = 0.0, most_m = 0.0;
+    for (int i = 0; i < kSampledPoses; ++i) {
+      const JointVector q = sampled_joints(model, random);
+      const double lack_m = (robot.predict(Stop(q), "").translation() - forward(robot.chain, q) * tool_m).norm();
+      sum_m += lack_m;
+      most_m = std::max(most_m, lack_m);
+    }
+    notes.push_back("joint corrections and effects are left out, for links cannot hold them: at " +
+                    std::to_string(kSampledPoses) + " random poses of the measured ranges they move the tool by " +
+                    mm_text(sum_m / kSampledPoses) + " on average and " + mm_text(most_m) +
+                    " at most; `apply` and `export --format c` hold them");
+  }
+  if ((tool_m - model.nominal.chain.tool_m).norm() > 1e-6)
+    notes.push_back("the tool point is left out: identified at " + mm_text(tool_m.x()) + ", " + mm_text(tool_m.y()) +
+                    ", " + mm_text(tool_m.z()) + " in the flange's frame");
+}
+
+bool same_place(const Origin& one, const Origin& other) {
+  constexpr double kRounding = 1e-9;
+  return (pose_of(one).matrix() - pose_of(other).matrix()).cwiseAbs().maxCoeff() < kRounding;
+}
+
+/// The joints of the file are those that the robot was imported from.
+void check_source(const UrdfArm& arm, const DrawnArm& drawing, const std::string& file) {
+  const bool count = arm.drawing.joints.size() == drawing.joints.size();
+  for (std::size_t i = 0; count && i < drawing.joints.size(); ++i) {
+    const DrawnJoint &one = arm.drawing.joints[i], &other = drawing.joints[i];
+    const bool same_axis = (one.axis.normalized() - other.axis.normalized()).norm() < 1e-9;
+    if (same_axis && same_place(one.origin, other.origin)) continue;
+    throw InputError({file, arm.joints[i]->line}, one.name,
+                     "is not the joint " + std::to_string(i + 1) +
+                         " that the robot was imported with: its origin or axis differs; export into that file, or "
+                         "import this one and calibrate again");
+  }
+  if (!count) {
+    throw InputError({file, 0}, std::to_string(arm.drawing.joints.size()),
+                     "is not the number of joints that the robot was imported with");
+  }
+}
+
+std::string source_of(const CalibratedModel& model, const std::string& file) {
+  if (!file.empty()) return file;
+  std::error_code ignored;
+  if (std::filesystem::exists(model.nominal.urdf->file, ignored)) return model.nominal.urdf->file;
+  throw InputError({model.nominal.urdf->file, 0}, "",
+                   "is the URDF that the robot was imported from, and is no longer there; say --urdf FILE");
+}
+
+ExportedArm rewritten(const CalibratedModel& model, const CorrectedRobot& robot, const std::string& source) {
+  const std::string text = read_file(source);
+  const UrdfFile urdf = parse_urdf(text, source);
+  const UrdfArm arm = arm_between(urdf, model.nominal.urdf->base, model.nominal.urdf->tip);
+  const DrawnArm& drawing = *model.nominal.drawing;
+  check_source(arm, drawing, source);
+  const std::vector<Origin> origins = origins_of(drawing, robot.chain);
+  std::vector<NewOrigin> changes;
+  double most_m = 0.0, most_rad = 0.0;
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    const Eigen::Isometry3d own = arm.before[i].inverse() * pose_of(origins[i]);
+    changes.push_back({arm.joints[i], origin_of(own, arm.joints[i]->origin)});
+    const Eigen::Isometry3d change = pose_of(arm.joints[i]->origin).inverse() * own;
+    most_m = std::max(most_m, change.translation().norm());
+    most_rad = std::max(most_rad, vector_of(change.linear()).norm());
+  }
+  return {with_origins(text, changes),
+          {"origins of " + std::to_string(origins.size()) + " joints moved by " + mm_text(most_m) + " and " +
+           number_text(std::round(degrees(most_rad) * 1e4) / 1e4) + " deg at most"}};
+}
+
+}  // namespace
+
+ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& file) {
+  const CorrectedRobot robot = in_own_base(model);
+  ExportedArm exported;
+  if (model.nominal.urdf && model.nominal.drawing && model.nominal.drawing->by_axes) {
+    exported = rewritten(model, robot, source_of(model, file));
+  } else {
+    if (!file.empty()) {
+      throw InputError({file, 0}, model.nominal.name,
+                       "is a robot that was not imported from a URDF; without --urdf a new one is written");
+    }
+    exported = {plain_urdf(model.nominal, robot.chain),
+                {"the robot was not imported from a URDF; a new one of links without bodies is written"}};
+  }
+  if (!robot.chain.couplings.empty())
+    exported.notes.emplace_back("couplings between joints are left out: joint values are those of the drives");
+  note_lacks(model, robot, exported.notes);
+  return exported;
+}
+
+}  // namespace demecal::inline config

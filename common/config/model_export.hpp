@@ -1,0 +1,21 @@
+// A calibrated arm as other programs read it: as a URDF, and as the calibration of Universal Robots' driver.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "closed_calibration/calibrated_model.hpp"
+
+namespace demecal::inline config {
+
+struct ExportedArm {
+  std::string text;
+  std::vector<std::string> notes;  ///< sentences: what the format cannot hold, in mm
+};
+
+/// The URDF that the robot was imported from, with the origins of its moving joints as they were identified and nothing
+/// else changed; `file`, where it is not empty, is where it stands now. A new one where the robot was not imported.
+/// Throws InputError where the file is not the one that was imported.
+ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& file);
+
+}  // namespace demecal::inline config

@@ -1,0 +1,53 @@
+// A URDF: its links and joints, read strictly, each with where it stands in the file.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "kinematics/drawn_arm.hpp"
+#include "urdf/xml.hpp"
+
+namespace demecal::inline urdf {
+
+enum class UrdfType { revolute, continuous, prismatic, fixed, floating, planar };
+
+struct UrdfJoint {
+  std::string name, parent, child;
+  UrdfType type = UrdfType::fixed;
+  Origin origin;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  double lower = 0.0, upper = 0.0;  ///< rad or m; equal: not stated
+  std::optional<std::string> mimics;
+  std::size_t line = 0;
+  XmlElement element;
+};
+
+struct UrdfLink {
+  std::string name;
+  std::optional<LinkMass> mass;  ///< in the link's own frame
+  std::size_t line = 0;
+};
+
+struct UrdfFile {
+  std::string file, robot;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+
+  /// The joint that leads to a link; null for the root.
+  const UrdfJoint* joint_to(const std::string& link) const;
+  std::vector<const UrdfJoint*> joints_from(const std::string& link) const;
+  const UrdfLink& link(const std::string& name) const;
+};
+
+inline bool moves(const UrdfJoint& joint) {
+  return joint.type != UrdfType::fixed;
+}
+
+/// Throws InputError with file, line, value and rule where the text is no URDF, or its links and joints make no tree.
+UrdfFile parse_urdf(const std::string& text, const std::string& file);
+
+}  // namespace demecal::inline urdf

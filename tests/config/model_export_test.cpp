@@ -1,0 +1,163 @@
+// The URDF of a calibrated arm moves as the model does, and differs from the user's own in the origins of joints alone.
+#include "config/model_export.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "config/input_files.hpp"
+#include "kinematics/random_arm.hpp"
+#include "temporary_folder.hpp"
+#include "urdf/urdf_arm.hpp"
+#include "urdf/urdf_file.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+const std::string kUrdf = R"xml(<?xml version="1.0"?>
+<!-- a comment with <origin xyz="1 2 3"/> -->
+<robot name="small &amp; made up">
+  <link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename="package://a.stl"/></geometry></visual></link>
+  <joint name="stand" type="fixed"><parent link="base"/><child link="s"/><origin xyz="0.1 0 0.2" rpy="0 0 3.1415926"/></joint>
+  <link name="s"/><link name="a"/><link name="b"/><link name="c"/><link name='tip' />
+  <joint name="j1" type="revolute">
+    <axis xyz="0 0 1"/><limit lower="-2" upper="2"/>
+    <parent link="s"/><child link="a"/>
+  </joint>
+  <joint type='revolute' name='j2'><origin   xyz = '0.1  0  0.4'/><axis xyz="0 1 0"/><limit lower="-2" upper="2"/>
+    <parent link="a"/><child link="b"/></joint>
+  <joint name="j3" type="revolute"><origin rpy="0 0 0" xyz="0 0 0.5"></origin><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2"/><parent link="b"/><child link="c"/></joint>
+  <joint name="end" type="fixed"><parent link="c"/><child link="tip"/><origin xyz="0 0 0.1" rpy="1.5707963 0 0"/></joint>
+  <gazebo reference="a"><origin xyz="7 7 7"/></gazebo>
+</robot>
+)xml";
+
+std::string without_joint_origins(const std::string& text) {
+  static const std::regex origin("<origin[^>]*/?>(</origin>)?");
+  return std::regex_replace(text, origin, "");
+}
+
+std::vector<std::string> origins_of_text(const std::string& text) {
+  static const std::regex origin("<origin[^>]*>");
+  return {std::sregex_token_iterator(text.begin(), text.end(), origin, 0), std::sregex_token_iterator()};
+}
+
+CalibratedModel model_of(const Robot& robot) {
+  CalibratedModel model;
+  model.nominal = robot;
+  DataSet none;
+  none.robot = robot;
+  model.robot = nominal_robot(none);
+  return model;
+}
+
+void disturb(CalibratedModel& model, RandomStream& stream, double size) {
+  for (Joint& row : model.robot.chain.joints) {
+    for (int i = 0; i < kLinkParameters; ++i) row.parameter(static_cast<LinkParameter>(i)) += stream.real(-size, size);
+  }
+}
+
+Chain chain_in(const std::string& text, const std::string& tip) {
+  const UrdfFile urdf = parse_urdf(text, "exported");
+  return equivalent_chain(arm_between(urdf, std::nullopt, tip).drawing).chain;
+}
+
+void expect_same_motion(const Chain& one, const Chain& other, RandomStream& stream) {
+  for (int i = 0; i < 50; ++i) {
+    const JointVector q = random_change(stream, one.size(), 2.0);
+    EXPECT_LT((forward(one, q).matrix() - forward(other, q).matrix()).cwiseAbs().maxCoeff(), 1e-10);
+  }
+}
+
+Robot imported(const TemporaryFolder& folder, const std::string& text) {
+  const std::string urdf = folder.write("arm.urdf", text);
+  const std::string out = folder.path() / "robot.yaml";
+  folder.write("robot.yaml", import_urdf({.file = urdf, .base = {}, .tip = {}, .beside = out}).text);
+  return load_robot(out);
+}
+
+TEST(ExportedUrdf, MovesAsTheModelAndKeepsEveryOtherByte) {
+  RandomStream stream{1841};
+  const TemporaryFolder folder;
+  CalibratedModel model = model_of(imported(folder, kUrdf));
+  EXPECT_EQ(calibrated_urdf(model, "").text, kUrdf);
+  disturb(model, stream, 1e-3);
+  const ExportedArm exported = calibrated_urdf(model, "");
+  EXPECT_EQ(without_joint_origins(exported.text), without_joint_origins(kUrdf));
+  expect_same_motion(chain_in(exported.text, "tip"), model.robot.chain, stream);
+  const std::vector<std::string> before = origins_of_text(kUrdf), after = origins_of_text(exported.text);
+  ASSERT_EQ(after.size(), before.size() + 1);  // joint 1 had none
+  for (const std::string& kept : {before[0], before[1], before[2], before[5], before[6]})
+    EXPECT_THAT(after, Contains(kept));
+}
+
+TEST(ExportedUrdf, LeavesTheFirstJointWhereARegistrationCannotTellItFromTheBase) {
+  RandomStream stream{1842};
+  const TemporaryFolder folder;
+  CalibratedModel model = model_of(imported(folder, kUrdf));
+  model.declared.registration = true;
+  model.robot.chain.joints[0].d_m += 0.01;
+  EXPECT_EQ(calibrated_urdf(model, "").text, kUrdf);
+}
+
+TEST(ExportedUrdf, IsRefusedWhereTheFileIsNotTheOneThatWasImported) {
+  const TemporaryFolder folder;
+  const CalibratedModel model = model_of(imported(folder, kUrdf));
+  std::string other = kUrdf;
+  other.replace(other.find("0.1  0  0.4"), 11, "0.1  0  0.5");
+  const std::string changed = folder.write("changed.urdf", other);
+  EXPECT_THAT(complaint([&] { calibrated_urdf(model, changed); }), HasSubstr("'j2': is not the joint 2"));
+  std::filesystem::remove(folder.path() / "arm.urdf");
+  EXPECT_THAT(complaint([&] { calibrated_urdf(model, ""); }), HasSubstr("say --urdf"));
+  EXPECT_EQ(calibrated_urdf(model, folder.write("moved.urdf", kUrdf)).text, kUrdf);
+}
+
+TEST(ExportedUrdf, IsANewOneOfArmsThatWereNotImported) {
+  RandomStream stream{1843};
+  for (const Convention convention : kConventions) {
+    Robot robot;
+    robot.name = "rows";
+    robot.chain = random_arm(stream, 5, convention, 0.2);
+    robot.chain.base = random_place(stream);
+    robot.chain.flange = random_place(stream);
+    CalibratedModel model = model_of(robot);
+    disturb(model, stream, 1e-3);
+    expect_same_motion(chain_in(calibrated_urdf(model, "").text, "flange"), model.robot.chain, stream);
+  }
+}
+
+TEST(ExportedUrdf, OfEveryPublicFileIsThatFileAgainAndMovesAsItsModel) {
+  const std::filesystem::path public_files = std::filesystem::path(DEMECAL_SOURCE_DIR) / "../shared/data/urdf";
+  if (!std::filesystem::exists(public_files)) GTEST_SKIP() << "needs " << public_files;
+  RandomStream stream{1844};
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(public_files)) {
+    if (entry.path().extension() != ".urdf") continue;
+    SCOPED_TRACE(entry.path().filename());
+    const TemporaryFolder folder;
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    Robot robot;
+    try {
+      robot = imported(folder, text.str());
+    } catch (const InputError&) {
+      continue;  // its tip has to be named
+    }
+    CalibratedModel model = model_of(robot);
+    EXPECT_EQ(calibrated_urdf(model, "").text, text.str());
+    disturb(model, stream, 1e-4);
+    expect_same_motion(chain_in(calibrated_urdf(model, "").text, robot.urdf->tip), model.robot.chain, stream);
+    ++files;
+  }
+  EXPECT_GE(files, 19);
+}
+
+}  // namespace
+}  // namespace demecal

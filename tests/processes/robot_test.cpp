@@ -1,0 +1,71 @@
+// demecal robot: arms from URDFs, and where they stand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Json = nlohmann::json;
+
+const std::string kSeed = std::string(DEMECAL_SOURCE_DIR) + "/tests/fuzz/seeds/arm.urdf";
+
+TEST(Robot, IsImportedAndShownWhereItsUrdfHasIt) {
+  SmallJob job;
+  const std::string robot = job.path("robot.yaml");
+  const Ended imported = run("demecal", {"robot", "import", kSeed, "--out", robot});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  EXPECT_THAT(imported.out, AllOf(HasSubstr("2 joints"), HasSubstr("from link base to link tool0")));
+  const Ended shown = run("demecal", {"robot", "show", robot, "--at", "-90,90", "--json"});
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.err, IsEmpty());
+  const Json pose = Json::parse(shown.out);
+  // 400 up, 300 along x (90 deg by the origin, -90 deg by the joint), and then 100 along what was z and is x now.
+  const double expected[] = {400.0, 0.0, 400.0};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(pose["position_mm"][i].get<double>(), expected[i], 1e-4);
+    EXPECT_EQ(pose["tool_position_mm"][i], pose["position_mm"][i]);
+  }
+  EXPECT_THAT(run("demecal", {"robot", "show", robot}).out,
+              AllOf(HasSubstr("turns on and on"), HasSubstr("KUKA, A B C deg")));
+  EXPECT_EQ(run("demecal", {"robot", "import", kSeed, "--out", robot}).code, 0);
+}
+
+TEST(Robot, BeyondItsLimitsIsShownWithAWarning) {
+  SmallJob job;
+  const std::string robot = job.path("robot.yaml");
+  ASSERT_EQ(run("demecal", {"robot", "import", kSeed, "--out", robot}).code, 0);
+  const Ended shown = run("demecal", {"robot", "show", robot, "--at", "170,1000", "--json"});
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_THAT(shown.err, HasSubstr("joint 1 at 170 deg is beyond its limits"));
+  EXPECT_EQ(Json::parse(shown.out)["warnings"].size(), 1u);
+  EXPECT_EQ(run("demecal", {"robot", "show", robot, "--at", "1,2,3"}).code, 10);
+  EXPECT_EQ(run("demecal", {"robot", "show", robot, "--at", "1,x"}).code, 10);
+  EXPECT_EQ(run("demecal", {"robot", "import", robot, "--out", job.path("two.yaml")}).code, 11);
+  EXPECT_EQ(run("demecal", {"robot", "import", kSeed, "--tip", "c", "--out", job.path("two.yaml")}).code, 11);
+  EXPECT_FALSE(std::filesystem::exists(job.path("two.yaml")));
+}
+
+TEST(Robot, ComesBackAsItsUrdf) {
+  SmallJob job;
+  const std::string robot = job.path("robot.yaml");
+  ASSERT_EQ(run("demecal", {"robot", "import", kSeed, "--out", robot}).code, 0);
+  const Ended exported = run("demecal", {"export", robot, "--format", "urdf", "--out", job.path("again.urdf")});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  std::ostringstream seed;
+  seed << std::ifstream(kSeed).rdbuf();
+  EXPECT_EQ(job.text("again.urdf"), seed.str());
+}
+
+}  // namespace
+}  // namespace demecal
