@@ -95,7 +95,8 @@ class OtherDds : public ::testing::Test {
   OtherDds() { set_up_cyclone(); }
 
   static std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, int which) {
-    return {"calibrate", job.job(), "--out", job.path(out), "--workers", "2", "--domain", other_domain(which), "--quiet"};
+    return {"calibrate", job.job(),           "--out",  job.path(out), "--workers", "2",
+            "--domain",  other_domain(which), "--quiet"};
   }
 };
 
