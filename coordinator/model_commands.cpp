@@ -106,15 +106,16 @@ CalibratedModel model_asked(const ExportRequest& request) {
   return model;
 }
 
-ExitCode run_urdf(const ExportRequest& request) {
-  const ExportedArm exported = calibrated_urdf(model_asked(request), request.urdf);
+ExitCode run_links(const ExportRequest& request) {
+  const CalibratedModel model = model_asked(request);
+  const ExportedArm exported = request.format == "urdf" ? calibrated_urdf(model, request.urdf) : ur_calibration(model);
   for (const std::string& note : exported.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
   write_or_print(request, exported.text);
   return ExitCode::done;
 }
 
 ExitCode run(const ExportRequest& request) {
-  if (request.format == "urdf") return run_urdf(request);
+  if (!code_languages().contains(request.format)) return run_links(request);
   Algebra algebra;
   Listing listing = listing_asked(algebra, request);
   if (request.derivative > static_cast<int>(listing.actual.size())) {
@@ -168,10 +169,10 @@ ExitCode run(const EvaluateRequest& request) {
 void add_export(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<ExportRequest>();
   CLI::App* command =
-      app.add_subcommand("export", "the corrected forward model as formulas or code, or the arm as a URDF");
+      app.add_subcommand("export", "the corrected forward model as formulas or code, or the arm for ROS");
   command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
-  command->add_option("--format", request->format, "text, c, python, matlab or urdf")
-      ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf"}))
+  command->add_option("--format", request->format, "text, c, python, matlab, urdf or ur-calibration")
+      ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf", "ur-calibration"}))
       ->capture_default_str();
   command->add_option("--out", request->out, "file to write; without it, standard output");
   command->add_option("--target", request->target, "the tool point, where the model has several");

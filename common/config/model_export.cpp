@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <system_error>
+#include <utility>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
@@ -24,13 +25,6 @@ namespace {
 
 constexpr int kSampledPoses = 500;
 
-/// The arm in its own base frame: what a registration cannot tell from the base's place is as it was drawn.
-CorrectedRobot in_own_base(const CalibratedModel& model) {
-  const CorrectedRobot robot =
-      model.declared.registration ? without_base(model.robot, model.nominal.chain) : model.robot;
-  return command_model(model.nominal, robot, std::vector<double>(robot.chain.joints.size(), 0.0)).robot;
-}
-
 JointVector sampled_joints(const CalibratedModel& model, RandomStream& random) {
   JointVector q(model.nominal.chain.size());
   for (int i = 0; i < q.size(); ++i) {
@@ -44,30 +38,6 @@ JointVector sampled_joints(const CalibratedModel& model, RandomStream& random) {
 
 std::string mm_text(double length_m) {
   return number_text(std::round(1e6 * length_m) / 1e3) + " mm";
-}
-
-/// What links alone leave out.
-void note_lacks(const CalibratedModel& model, const CorrectedRobot& robot, std::vector<std::string>& notes) {
-  const bool corrected = std::ranges::any_of(
-      robot.corrections, [](const JointCorrection& correction) { return !correction.is_neutral(); });
-  const Eigen::Vector3d tool_m = robot.tool("").translation();
-  if (corrected || !robot.effects.empty()) {
-    RandomStream random{1};
-    double sum_m = 0.0, most_m = 0.0;
-    for (int i = 0; i < kSampledPoses; ++i) {
-      const JointVector q = sampled_joints(model, random);
-      const double lack_m = (robot.predict(Stop(q), "").translation() - forward(robot.chain, q) * tool_m).norm();
-      sum_m += lack_m;
-      most_m = std::max(most_m, lack_m);
-    }
-    notes.push_back("joint corrections and effects are left out, for links cannot hold them: at " +
-                    std::to_string(kSampledPoses) + " random poses of the measured ranges they move the tool by " +
-                    mm_text(sum_m / kSampledPoses) + " on average and " + mm_text(most_m) +
-                    " at most; `apply` and `export --format c` hold them");
-  }
-  if ((tool_m - model.nominal.chain.tool_m).norm() > 1e-6)
-    notes.push_back("the tool point is left out: identified at " + mm_text(tool_m.x()) + ", " + mm_text(tool_m.y()) +
-                    ", " + mm_text(tool_m.z()) + " in the flange's frame");
 }
 
 bool same_place(const Origin& one, const Origin& other) {
@@ -124,6 +94,38 @@ ExportedArm rewritten(const CalibratedModel& model, const CorrectedRobot& robot,
 
 }  // namespace
 
+CorrectedRobot in_own_base(const CalibratedModel& model) {
+  const CorrectedRobot robot =
+      model.declared.registration ? without_base(model.robot, model.nominal.chain) : model.robot;
+  return command_model(model.nominal, robot, std::vector<double>(robot.chain.joints.size(), 0.0)).robot;
+}
+
+std::vector<std::string> lacks_of_links(const CalibratedModel& model) {
+  const CorrectedRobot robot = in_own_base(model);
+  std::vector<std::string> notes;
+  const bool corrected = std::ranges::any_of(
+      robot.corrections, [](const JointCorrection& correction) { return !correction.is_neutral(); });
+  const Eigen::Vector3d tool_m = robot.tool("").translation();
+  if (corrected || !robot.effects.empty()) {
+    RandomStream random{1};
+    double sum_m = 0.0, most_m = 0.0;
+    for (int i = 0; i < kSampledPoses; ++i) {
+      const JointVector q = sampled_joints(model, random);
+      const double lack_m = (robot.predict(Stop(q), "").translation() - forward(robot.chain, q) * tool_m).norm();
+      sum_m += lack_m;
+      most_m = std::max(most_m, lack_m);
+    }
+    notes.push_back("joint corrections and effects are left out, for links cannot hold them: at " +
+                    std::to_string(kSampledPoses) + " random poses of the measured ranges they move the tool by " +
+                    mm_text(sum_m / kSampledPoses) + " on average and " + mm_text(most_m) +
+                    " at most; `apply` and `export --format c` hold them");
+  }
+  if ((tool_m - model.nominal.chain.tool_m).norm() > 1e-6)
+    notes.push_back("the tool point is left out: identified at " + mm_text(tool_m.x()) + ", " + mm_text(tool_m.y()) +
+                    ", " + mm_text(tool_m.z()) + " in the flange's frame");
+  return notes;
+}
+
 ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& file) {
   const CorrectedRobot robot = in_own_base(model);
   ExportedArm exported;
@@ -139,7 +141,7 @@ ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& fil
   }
   if (!robot.chain.couplings.empty())
     exported.notes.emplace_back("couplings between joints are left out: joint values are those of the drives");
-  note_lacks(model, robot, exported.notes);
+  for (std::string& lack : lacks_of_links(model)) exported.notes.push_back(std::move(lack));
   return exported;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline config {
 
@@ -17,5 +18,14 @@ struct ExportedArm {
 /// else changed; `file`, where it is not empty, is where it stands now. A new one where the robot was not imported.
 /// Throws InputError where the file is not the one that was imported.
 ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& file);
+
+/// The calibration file of Universal Robots' ROS 2 driver: six links' places, by its names. Throws InputError where the
+/// robot is not of their kind.
+ExportedArm ur_calibration(const CalibratedModel& model);
+
+/// The arm in its own base frame: what a registration cannot tell from the base's place is as it was drawn.
+CorrectedRobot in_own_base(const CalibratedModel& model);
+/// Sentences on what links alone leave out of a model, in mm.
+std::vector<std::string> lacks_of_links(const CalibratedModel& model);
 
 }  // namespace demecal::inline config

@@ -13,6 +13,7 @@
 #include "temporary_folder.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -157,6 +158,58 @@ TEST(ExportedUrdf, OfEveryPublicFileIsThatFileAgainAndMovesAsItsModel) {
     ++files;
   }
   EXPECT_GE(files, 19);
+}
+
+/// The pose of wrist_3 by a calibration file, joints turned about z.
+Eigen::Isometry3d pose_by_driver(const std::string& text, const JointVector& q) {
+  const YamlNode file = parse_yaml(text, "calibration.yaml");
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  int joint = 0;
+  for (const char* link : {"shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"}) {
+    const YamlNode& place = file.at("kinematics").at(link);
+    const auto number = [&](const char* key) { return place.at(key).number(); };
+    EXPECT_LT(std::abs(number("x")) + std::abs(number("y")) + std::abs(number("z")), 1.0);
+    pose = pose *
+           pose_of(Origin{{number("x"), number("y"), number("z")}, {number("roll"), number("pitch"), number("yaw")}}) *
+           Eigen::AngleAxisd(q[joint++], Eigen::Vector3d::UnitZ());
+  }
+  return pose;
+}
+
+TEST(UrCalibration, MovesAsTheModelWhateverTheArmIsDrawnLike) {
+  RandomStream stream{1845};
+  for (const char* file : {"ur3", "ur3e", "ur5", "ur5e", "ur10", "ur10e", "ur16e"}) {
+    SCOPED_TRACE(file);
+    CalibratedModel model = model_of(load_robot(std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/" + file + ".yaml"));
+    disturb(model, stream, 1e-4);
+    const std::string text = ur_calibration(model).text;
+    const auto flange_on_wrist = [&](const JointVector& q) {
+      const Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
+      return Eigen::Isometry3d((base * pose_by_driver(text, q)).inverse() * forward(model.robot.chain, q));
+    };
+    const auto turned_on_wrist = [&](const JointVector& q) {
+      const Eigen::Isometry3d half(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+      return Eigen::Isometry3d((half * pose_by_driver(text, q)).inverse() * forward(model.robot.chain, q));
+    };
+    const JointVector zero = JointVector::Zero(6);
+    double straight = 0.0, turned = 0.0;
+    for (int i = 0; i < 50; ++i) {
+      const JointVector q = random_change(stream, 6, 3.0);
+      straight =
+          std::max(straight, (flange_on_wrist(q).matrix() - flange_on_wrist(zero).matrix()).cwiseAbs().maxCoeff());
+      turned = std::max(turned, (turned_on_wrist(q).matrix() - turned_on_wrist(zero).matrix()).cwiseAbs().maxCoeff());
+    }
+    EXPECT_LT(std::min(straight, turned), 1e-10);
+  }
+}
+
+TEST(UrCalibration, IsRefusedOfOtherArms) {
+  const auto of = [](const char* file) {
+    return complaint(
+        [&] { ur_calibration(model_of(load_robot(std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/" + file))); });
+  };
+  EXPECT_THAT(of("abb-irb120.yaml"), HasSubstr("is no arm of Universal Robots"));
+  EXPECT_THAT(of("kuka-iiwa7.yaml"), HasSubstr("is no arm of Universal Robots"));
 }
 
 }  // namespace
