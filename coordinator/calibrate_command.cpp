@@ -248,7 +248,7 @@ ExitCode run(CalibrateRequest request) {
   }
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
              effort(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
-             request.out, has_islands(job.method) ? ", history.csv" : "");
+             request.out, has_islands(job.method) ? ", history.csv, fronts.csv" : "");
   if (end == RunEnd::interrupted) {
     fmt::print("  {}\n", resuming(request));
     return ExitCode::interrupted;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "calibration/calibration.hpp"
+#include "calibration/evolved_corrections.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/loop_passes.hpp"
 #include "config/model_file.hpp"
@@ -62,8 +63,8 @@ std::string witness_of(const std::string& name) {
   const auto is_its = [&name](const Mark& mark) { return mark.name == name; };
   if (std::ranges::any_of(kMarks, is_its)) return name;
   if (name == "study.csv") return "study.json";
-  const bool result =
-      name == "history.csv" || name == "distal.csv" || name == "proposed.csv" || name == "pose-errors.csv";
+  const bool result = name == "history.csv" || name == "fronts.csv" || name == "distal.csv" || name == "proposed.csv" ||
+                      name == "pose-errors.csv";
   return result ? "report.json" : "dataset.yaml";
 }
 
@@ -86,6 +87,7 @@ std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
 std::vector<std::string> result_files(Method method) {
   std::vector<std::string> files{"model.yaml", "model-best.yaml", "report.json", "report.html", "pose-errors.csv"};
   if (has_islands(method)) files.emplace_back("history.csv");
+  if (has_islands(method)) files.emplace_back("fronts.csv");
   if (method == Method::distal) files.emplace_back("distal.csv");
   return files;
 }
@@ -148,6 +150,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
                                      .preparation = result.preparation,
                                      .calibration = result.calibration,
                                      .check = check,
+                                     .candidates = result.candidates,
                                      .distal = result.distal,
                                      .structure = result.structure,
                                      .runtime = result.facts});
@@ -157,6 +160,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
   const std::vector<HistoryRow> history = evolves ? history_rows(result.history) : std::vector<HistoryRow>{};
   if (report.distal) write_result(folder, "distal.csv", distal_csv(*report.distal));
   if (evolves) write_result(folder, "history.csv", history_csv(history));
+  if (evolves) write_result(folder, "fronts.csv", fronts_csv(evolved_fronts(result.candidates)));
   write_result(folder, "report.html", report_html(report, fitness_of(history)));
   return report;
 }

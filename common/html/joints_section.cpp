@@ -132,8 +132,11 @@ std::string formula_line(const JointEntry& joint) {
   const std::string folded = joint.with_functions.empty()
                                  ? ""
                                  : "\n<span>         = </span><code>" + escaped(joint.with_functions) + "</code>";
-  return "<pre class=\"formula\"><span>g(theta) = </span><code>" + escaped(joint.expression) + "</code>" + folded +
-         "</pre>\n";
+  const std::string brief = joint.short_form.empty() ? ""
+                                                     : "<p class=\"note\">Within 5 % of the error, in short: <code>" +
+                                                           escaped(joint.short_form) + "</code></p>\n";
+  return brief + "<pre class=\"formula\"><span>g(theta) = </span><code>" + escaped(joint.expression) + "</code>" +
+         folded + "</pre>\n";
 }
 
 /// The joint's error, its correction as plot and formula or why it has none, and the course of its evolution.
@@ -141,8 +144,12 @@ std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
   const std::string note =
       joint.note.empty() ? "" : "<p class=\"note\">Left neutral: " + escaped(joint.note) + ".</p>\n";
   const std::string curve = plot(joint), evolution = evolution_figure(joint, history);
+  const std::string evolved = joint.as_evolved.empty()
+                                  ? ""
+                                  : fmt::format("<p class=\"note\">As evolved, {} mrad left: <code>{}</code></p>\n",
+                                                mrad(joint.as_evolved_error_rad), escaped(joint.as_evolved));
   return "<article class=\"joint\">\n" + joint_head(joint) + note +
-         (curve.empty() ? "" : "<div class=\"pair\">\n" + curve + "</div>\n") + formula_line(joint) +
+         (curve.empty() ? "" : "<div class=\"pair\">\n" + curve + "</div>\n") + formula_line(joint) + evolved +
          (evolution.empty()
               ? ""
               : "<details><summary class=\"soft\">how it evolved</summary>\n" + evolution + "</details>\n") +

@@ -114,6 +114,19 @@ std::string distal_csv(const std::vector<DistalEntry>& steps) {
   return csv_of(table);
 }
 
+std::string fronts_csv(const std::vector<EvolvedCorrection>& fronts) {
+  CsvTable table{.file = {}, .header_line = 0, .columns = {}, .rows = {}};
+  table.columns = {"joint", "nodes", "mean_abs_error_rad", "bound_rad", "jumps", "expression"};
+  for (const EvolvedCorrection& one : fronts) {
+    const Tree& formula = one.correction.formula();
+    table.rows.push_back(
+        {0,
+         {std::to_string(one.joint + 1), std::to_string(formula.size()), fmt::format("{}", one.mean_abs_error_rad),
+          fmt::format("{}", one.bound_rad), std::to_string(one.jumps), to_string(formula)}});
+  }
+  return csv_of(table);
+}
+
 FitnessHistory fitness_of(const std::vector<HistoryRow>& rows) {
   FitnessHistory history;
   for (const HistoryRow& row : rows) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/evolved_corrections.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "report/report.hpp"
@@ -28,6 +29,9 @@ std::string history_csv(const std::vector<HistoryRow>& rows);
 /// CSV with header joint,generation,expression,index_mm2 (thesis Table 4-1); joints count from 1, the expression is
 /// g(theta) in rad.
 std::string distal_csv(const std::vector<DistalEntry>& steps);
+
+/// CSV with header joint,nodes,mean_abs_error_rad,bound_rad,jumps,expression; joints count from 1.
+std::string fronts_csv(const std::vector<EvolvedCorrection>& fronts);
 
 struct FitnessPoint {
   double generation = 0.0;

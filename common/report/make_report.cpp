@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "calibration/calibration.hpp"
+#include "calibration/evolved_corrections.hpp"
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
@@ -19,6 +20,7 @@
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
+#include "report/short_forms.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline report {
@@ -80,11 +82,37 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
                    .bound_rad = if_finite(summary.bound_rad),
                    .discontinuities_rad = summary.discontinuities_rad,
                    .with_functions = {},
-                   .note = summary.note};
+                   .note = summary.note,
+                   .short_form = {},
+                   .as_evolved = {},
+                   .as_evolved_error_rad = {}};
   if (std::isfinite(range.lower) && std::isfinite(range.upper)) entry.range_rad = range;
   const FoldedFormula calling = folded_correction(correction, model.functions);
   if (!calling.calls.empty()) entry.with_functions = to_string(calling);
   return entry;
+}
+
+/// What joints evolved beside what they kept, where each learnt from its own targets: the corrections of distal
+/// learning stand in its steps.
+void add_as_evolved(const Conclusions& run, Report& report) {
+  if (run.model.method != Method::direct) return;
+  CorrectedRobot robot = run.preparation.declared.robot;
+  const std::vector<EvolvedCorrection> fittest = as_evolved(run.candidates);
+  for (const EvolvedCorrection& one : fittest) {
+    const auto joint = static_cast<std::size_t>(one.joint);
+    robot.corrections[joint] = one.correction;
+    if (joint >= report.joints.size()) continue;
+    report.joints[joint].as_evolved = to_string(one.correction.formula());
+    report.joints[joint].as_evolved_error_rad = if_finite(one.mean_abs_error_rad);
+  }
+  if (!fittest.empty()) report.as_evolved = errors_by_set(robot, run.data);
+}
+
+void add_short_forms(const Conclusions& run, std::vector<JointEntry>& joints) {
+  if (joints.empty()) return;
+  const std::vector<std::optional<ShortForm>> forms = short_forms(run.data, run.model.robot);
+  for (std::size_t joint = 0; joint < joints.size(); ++joint)
+    if (forms[joint]) joints[joint].short_form = forms[joint]->text;
 }
 
 std::optional<std::vector<SharedFunctionEntry>> function_entries(const CalibratedModel& model) {
@@ -195,6 +223,8 @@ Report make_report(const Conclusions& run) {
                                   if_finite(run.calibration.index_after_mm2)};
   if (has_joints(model))
     for (const JointSummary& summary : model.joints) report.joints.push_back(joint_entry(summary, model));
+  add_as_evolved(run, report);
+  add_short_forms(run, report.joints);
   report.shared_functions = function_entries(model);
   if (model.method == Method::distal) report.distal = distal_entries(run.distal);
   report.parameters = parameter_entries(run);

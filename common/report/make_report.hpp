@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/calibration.hpp"
+#include "calibration/selection.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
@@ -48,6 +49,7 @@ struct Conclusions {
   const Preparation& preparation;
   const Calibration& calibration;
   const DataCheck& check;
+  const std::vector<JointCandidates>& candidates;  ///< that joint corrections were chosen from
   const std::vector<DistalStep>& distal;
   const std::vector<FoundTransform>& structure;
   const RunFacts& runtime;

@@ -212,9 +212,12 @@ struct JointEntry {
   BeforeAfter mean_abs_error_rad;
   std::optional<Interval> range_rad;
   std::optional<double> bound_rad;
-  std::vector<double> discontinuities_rad;  ///< ascending
-  std::string with_functions;               ///< the expression with calls of functions that joints share
-  std::string note;                         ///< why it is not corrected
+  std::vector<double> discontinuities_rad;     ///< ascending
+  std::string with_functions;                  ///< the expression with calls of functions that joints share
+  std::string note;                            ///< why it is not corrected
+  std::string short_form;                      ///< "0.31 mrad sin(q2 + 14 deg)", where such a formula does as well
+  std::string as_evolved;                      ///< what fits the joint's targets best; empty where nothing evolved
+  std::optional<double> as_evolved_error_rad;  ///< mean absolute, that it leaves of them
 };
 
 struct SharedFunctionEntry {
@@ -263,6 +266,7 @@ struct Report {
   ErrorBySet nominal;                                    ///< the uncalibrated robot in the frame the data came in
   ErrorBySet registered;                                 ///< after the best-fit base, and tool where declared
   ErrorBySet declared;                                   ///< after everything declared but the joint corrections
+  ErrorBySet as_evolved;                                 ///< the declared model with what every joint evolved
   ErrorBySet before;                                     ///< after everything declared
   ErrorBySet after;                                      ///< with the effects that the closed loop added
   std::vector<std::string> fitted_sets;                  ///< `last_fit.poses`

@@ -141,6 +141,9 @@ void fields(Visit& visit, Like<JointEntry> auto& joint) {
         joint.discontinuities_rad);
   visit.when(!joint.with_functions.empty(), "with_functions", joint.with_functions);
   visit.when(!joint.note.empty(), "note", joint.note);
+  visit.when(!joint.short_form.empty(), "short_form", joint.short_form);
+  visit.when(!joint.as_evolved.empty(), "as_evolved", joint.as_evolved);
+  visit.when(!joint.as_evolved.empty(), "as_evolved_error_rad", joint.as_evolved_error_rad);
   if constexpr (kReads<Visit>) {
     if (!visit.has("kept")) joint.kept = !joint.expression.empty();
   }
@@ -188,6 +191,10 @@ void fields(auto& visit, Like<ContactEntry> auto& contact) {
         contact.after_rms_mm);
 }
 
+bool has_figures(const ErrorBySet& errors) {
+  return errors.calibration.mean_mm || errors.validation.mean_mm || errors.accept.mean_mm;
+}
+
 void loop_fields(auto& visit, Like<Report> auto& report) {
   visit("causes", report.causes, "front", report.front, "rounds", report.rounds, "dropped", report.dropped, "not_found",
         report.not_found, "unseen", report.untestable, "decoys", report.decoys, "stopped", report.stopped,
@@ -208,6 +215,7 @@ void fields(auto& visit, Like<Report> auto& report) {
   visit.within("error_mm", [&](auto& stage) {
     stage("nominal", report.nominal, "registered", report.registered, "declared", report.declared, "before",
           report.before, "after", report.after);
+    stage.when(has_figures(report.as_evolved), "as_evolved", report.as_evolved);
   });
   visit.within("last_fit", [&](auto& fit) {
     fit("poses", report.fitted_sets);

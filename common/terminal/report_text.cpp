@@ -93,6 +93,26 @@ std::string contacts(const Report& report) {
   return text;
 }
 
+/// The correction as people read it, or that it is too long for that.
+std::string correction_words(const JointEntry& joint) {
+  return joint.short_form.empty() ? "corrected by a formula too long to show: see model.yaml" : joint.short_form;
+}
+
+/// What came of evolution before the choice.
+std::string as_evolved(const Report& report) {
+  const auto& [calibration, validation, accept] = report.as_evolved;
+  const std::optional<double>& all = accept.mean_mm ? accept.mean_mm : validation.mean_mm;
+  const auto kept = std::ranges::count_if(report.joints, &JointEntry::kept);
+  const auto evolved =
+      std::ranges::count_if(report.joints, [](const JointEntry& joint) { return !joint.as_evolved.empty(); });
+  if (!all || evolved == 0) return {};
+  return wrapped(" ",
+                 fmt::format("{} of {} evolved corrections are kept; with all as they evolved the mean error of {} "
+                             "poses would be {:.3f} mm. fronts.csv has the formulas to choose from.",
+                             kept, evolved, accept.mean_mm ? "accept" : "validation", *all),
+                 2);
+}
+
 std::string joints(const Report& report) {
   std::string text =
       fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
@@ -101,9 +121,9 @@ std::string joints(const Report& report) {
     const std::string figures = "  " + left_aligned(std::to_string(joint.joint), 8) +
                                 right_aligned(rad(joint.mean_abs_error_rad.before), 16) +
                                 right_aligned(rad(joint.mean_abs_error_rad.after), 16) + "  ";
-    text += wrapped(figures, joint.kept ? "corrected" : "neutral: " + joint.note, figures.size() + 1);
+    text += wrapped(figures, joint.kept ? correction_words(joint) : "neutral: " + joint.note, figures.size() + 1);
   }
-  return text;
+  return text + as_evolved(report);
 }
 
 /// The functions, and the corrections that call them.

@@ -190,10 +190,10 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& 
                         {options.patience, options.asynchronous, &observer, options.journal});
   if (evolves_on_islands(job)) islands.start_fleet();
   result.preparation = prepare(data, job);
-  const std::vector<JointCandidates> candidates = learn(data, job, islands, observer, result);
+  result.candidates = learn(data, job, islands, observer, result);
   result.end = islands.end();
   result.fronts = islands.take_fronts();
-  result.calibration = conclude(data, job, result.preparation, candidates);
+  result.calibration = conclude(data, job, result.preparation, result.candidates);
   result.before = result.calibration.robot;
   if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0) {
     close_the_loop(data, job, islands, interrupt, observer, result);

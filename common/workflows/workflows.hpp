@@ -15,6 +15,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
+#include "calibration/selection.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closing.hpp"
 #include "data/data_set.hpp"
@@ -67,10 +68,11 @@ struct CalibrateResult {
   CorrectedRobot before;  ///< what the closed loop started from
   LoopOutcome loop;
   std::vector<Progress> history;
-  std::vector<DistalStep> distal;          ///< of distal learning, before the loop
-  KnownFunctions functions;                ///< that joints share; nothing where the job does not ask for any
-  std::vector<FoundTransform> structure;   ///< of the structural method
-  std::map<IslandKey, Population> fronts;  ///< that islands ended with before the loop: best of each length
+  std::vector<DistalStep> distal;           ///< of distal learning, before the loop
+  KnownFunctions functions;                 ///< that joints share; nothing where the job does not ask for any
+  std::vector<FoundTransform> structure;    ///< of the structural method
+  std::vector<JointCandidates> candidates;  ///< that corrections were chosen from, before the loop
+  std::map<IslandKey, Population> fronts;   ///< that islands ended with before the loop: best of each length
   RunFacts facts;
   DataCheck check;                   ///< of the data, before anything was fitted
   std::vector<std::string> remarks;  ///< sentences on how the result came about

@@ -159,6 +159,7 @@ TEST(WrittenFormats, PosesHaveTheColumnsOfThePage) {
 
 TEST(WrittenFormats, HistoriesHaveTheColumnsOfThePage) {
   expect_columns("history.csv", {history_csv(made_up_history(1, 1, 1))});
+  expect_columns("fronts.csv", {fronts_csv({EvolvedCorrection{}})});
   expect_columns("distal.csv", {distal_csv(*full_report().distal)});
 }
 

@@ -159,6 +159,8 @@ TEST(ReportPage, ShowsEveryFormulaNoteNameAndFact) {
   const std::string words = words_of(page_of(report));
   for (const JointEntry& joint : report.joints) {
     EXPECT_THAT(words, HasSubstr(joint.kept ? "g(theta) = " + joint.expression : joint.note));
+    EXPECT_THAT(words, HasSubstr(joint.short_form));
+    EXPECT_THAT(words, HasSubstr(joint.as_evolved));
   }
   for (const std::string& sentence : report.unidentified) EXPECT_THAT(words, HasSubstr(sentence));
   for (const std::string& pose : report.poses.outliers) EXPECT_THAT(words, HasSubstr(pose));

@@ -118,6 +118,12 @@ inline Report made_up_report() {
   report.fitted_sets = {"calibration"};
   report.performance_index_mm2 = {81.27, 39.91};
   report.joints = made_up_joints();
+  report.joints[2].short_form = "0.61 mrad sin(q3 + 80 deg)";
+  for (JointEntry& joint : report.joints) {
+    joint.as_evolved = "0.0003 * SIN(theta)";
+    joint.as_evolved_error_rad = 3.1e-4;
+  }
+  report.as_evolved = report.before;
   for (const ParameterEstimate& estimate : made_up_estimates(random))
     report.parameters.push_back(parameter_entry(estimate));
   report.unidentified = {"joint 1 d_mm and base_z_mm cannot be told apart by these poses (1 : -1 by effect)"};

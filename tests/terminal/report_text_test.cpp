@@ -35,9 +35,11 @@ TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
   const std::string text = to_terminal(report);
   for (const JointEntry& joint : report.joints) {
     EXPECT_THAT(text, HasSubstr("\n  " + std::to_string(joint.joint) + "  "));
+    EXPECT_THAT(text, HasSubstr(joint.short_form));
   }
   for (const std::string& pose : report.poses.outliers) EXPECT_THAT(text, HasSubstr(pose));
   for (const std::string& pose : report.poses.near_singular) EXPECT_THAT(text, HasSubstr(pose));
+  EXPECT_THAT(text, HasSubstr("4 of 6 evolved corrections are kept"));
   EXPECT_THAT(text, HasSubstr("noise floor from repeats: 0.051 mm per axis"));
 }
 

@@ -1,0 +1,218 @@
+#include "report/short_forms.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <iterator>
+#include <utility>
+
+#include "calibration/calibration.hpp"
+#include "calibration/selection.hpp"
+#include "expression/tree.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/units.hpp"
+#include "primitives/primitive.hpp"
+
+namespace demecal::inline report {
+namespace {
+
+constexpr double kMostIncrease = 0.05;  ///< of the error, by the short forms of all joints together
+constexpr std::size_t kMostNodes = 20;
+constexpr int kHighestWave = 5, kFewestDigits = 2, kMostDigits = 4;
+constexpr double kNear = 0.5;  ///< of the correction's size: a form that differs by more is not tried
+constexpr std::size_t kMostPoses = 300;
+
+/// Waves by their cycles a turn, and whether there are a slope and an offset.
+struct Shape {
+  std::vector<int> waves{};
+  bool slope = false, offset = false;
+
+  std::size_t nodes() const {
+    std::size_t count = offset ? 1 : 0, parts = offset ? 1 : 0;
+    for (const int wave : waves) count += wave == 1 ? 6 : 8, ++parts;
+    if (slope) count += 5, ++parts;
+    return count + parts - 1;
+  }
+};
+
+std::vector<Shape> shapes() {
+  std::vector<std::vector<int>> sets{{}};
+  for (int first = 1; first <= kHighestWave; ++first) {
+    sets.push_back({first});
+    for (int second = first + 1; second <= kHighestWave; ++second) sets.push_back({first, second});
+  }
+  std::vector<Shape> all;
+  for (const std::vector<int>& waves : sets) {
+    for (const auto& [slope, offset] : {std::pair{false, false}, std::pair{false, true}, std::pair{true, false}}) {
+      const Shape shape{waves, slope, offset};
+      if (waves.empty() && !slope && !offset) continue;
+      if (shape.nodes() <= kMostNodes) all.push_back(shape);
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Shape::nodes);
+  return all;
+}
+
+/// A number with so many significant digits.
+double with_digits(double value, int digits) {
+  if (value == 0.0) return value;
+  const double power = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * power) / power;
+}
+
+/// An angle in degrees as finely as a size with so many digits asks for.
+double degrees_with_digits(double angle_rad, int digits) {
+  const double steps = std::pow(10.0, digits - 2);
+  return std::round(degrees(angle_rad) * steps) / steps;
+}
+
+std::string plus(const std::string& sum, double sign, const std::string& term) {
+  if (sum.empty()) return (sign < 0 ? "-" : "") + term;
+  return sum + (sign < 0 ? " - " : " + ") + term;
+}
+
+/// `name + 14 deg`, or the name alone.
+std::string shifted_name(const std::string& name, double shift_deg) {
+  if (shift_deg == 0.0) return name;
+  return fmt::format("{} {} {} deg", name, shift_deg < 0 ? '-' : '+', std::abs(shift_deg));
+}
+
+Tree sum_of(const Tree& sum, const Tree& term) {
+  return sum.empty() ? term : apply(Primitive::add, sum, term);
+}
+
+/// A formula and its text, term by term.
+struct Sum {
+  Tree formula{};
+  std::string text{};
+  std::string angle;  ///< what the text calls the joint's angle
+
+  void add_wave(int cycles, double cosine, double sine, int digits) {
+    const double size_mrad = with_digits(1e3 * std::hypot(cosine, sine), digits);
+    double phase_deg = degrees_with_digits(std::atan2(cosine, sine), digits);
+    const double sign = std::abs(phase_deg) > 90.0 ? -1.0 : 1.0;
+    if (sign < 0) phase_deg -= std::copysign(180.0, phase_deg);
+    Tree turned = variable_tree(0);
+    if (cycles > 1) turned = apply(Primitive::multiply, constant_tree(cycles), turned);
+    turned = apply(Primitive::add, turned, constant_tree(radians(phase_deg)));
+    formula = sum_of(
+        formula, apply(Primitive::multiply, constant_tree(1e-3 * sign * size_mrad), apply(Primitive::sine, turned)));
+    const std::string argument = (cycles > 1 ? std::to_string(cycles) + " " : "") + angle;
+    text = plus(text, sign, fmt::format("{} mrad sin({})", size_mrad, shifted_name(argument, phase_deg)));
+  }
+  /// `slope` is in mrad per rad, zero at `zero_rad`.
+  void add_slope(double slope, double zero_rad, int digits) {
+    const double zero_deg = degrees_with_digits(zero_rad, digits), rounded_slope = with_digits(1e3 * slope, digits);
+    formula = sum_of(formula, apply(Primitive::multiply, constant_tree(1e-3 * rounded_slope),
+                                    apply(Primitive::subtract, variable_tree(0), constant_tree(radians(zero_deg)))));
+    const std::string from_zero = zero_deg == 0.0 ? angle : "(" + shifted_name(angle, -zero_deg) + ")";
+    text = plus(text, rounded_slope, fmt::format("{} mrad/rad {}", std::abs(rounded_slope), from_zero));
+  }
+  void add_offset(double offset_rad, int digits) {
+    const double offset_mrad = with_digits(1e3 * offset_rad, digits);
+    formula = sum_of(formula, constant_tree(1e-3 * offset_mrad));
+    text = plus(text, offset_mrad, fmt::format("{} mrad", std::abs(offset_mrad)));
+  }
+};
+
+/// Coefficients of a shape: cosine and sine of every wave, then slope, then offset.
+Eigen::VectorXd fitted(const Shape& shape, const Eigen::VectorXd& angles, const Eigen::VectorXd& values) {
+  const auto waves = static_cast<Eigen::Index>(shape.waves.size());
+  const bool constant = shape.slope || shape.offset;
+  Eigen::MatrixXd columns(angles.size(), 2 * waves + (shape.slope ? 1 : 0) + (constant ? 1 : 0));
+  for (Eigen::Index i = 0; i < waves; ++i) {
+    const Eigen::ArrayXd turned = shape.waves[static_cast<std::size_t>(i)] * angles.array();
+    columns.col(2 * i) = turned.cos().matrix();
+    columns.col(2 * i + 1) = turned.sin().matrix();
+  }
+  if (shape.slope) columns.col(2 * waves) = angles;
+  if (constant) columns.rightCols(1).setOnes();
+  const Eigen::VectorXd coefficients = columns.colPivHouseholderQr().solve(values);
+  const double left = (values - columns * coefficients).norm();
+  return left < kNear * values.norm() ? coefficients : Eigen::VectorXd();
+}
+
+Sum written(const Shape& shape, const Eigen::VectorXd& coefficients, const std::string& angle, int digits) {
+  Sum sum{.angle = angle};
+  Eigen::Index at = 0;
+  for (const int cycles : shape.waves) {
+    sum.add_wave(cycles, coefficients[at], coefficients[at + 1], digits);
+    at += 2;
+  }
+  if (shape.slope) sum.add_slope(coefficients[at], -coefficients[at + 1] / coefficients[at], digits);
+  if (shape.offset) sum.add_offset(coefficients[at], digits);
+  return sum;
+}
+
+/// The poses that tell, evenly out of many.
+std::vector<std::size_t> judging_poses(const DataSet& data, const CorrectedRobot& robot) {
+  std::vector<std::size_t> all = selection_poses(data, robot), some;
+  const std::size_t count = std::min(all.size(), kMostPoses);
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+class Shortening {
+ public:
+  Shortening(const DataSet& data, const CorrectedRobot& robot)
+      : data_(data), robot_(robot), judging_(data, judging_poses(data, robot), robot), square_(left(robot)) {}
+
+  std::vector<std::optional<ShortForm>> run();
+
+ private:
+  double left(const CorrectedRobot& robot) const { return sum(judging_.squared_errors(robot)); }
+  std::optional<ShortForm> shortest(std::size_t joint, double most);
+
+  const DataSet& data_;
+  CorrectedRobot robot_;  ///< with the short forms so far
+  PoseEvaluator judging_;
+  double square_;
+};
+
+std::optional<ShortForm> Shortening::shortest(std::size_t joint, double most) {
+  const JointCorrection present = robot_.corrections[joint];
+  const std::vector<std::size_t> poses = poses_of(data_, PoseSet::calibration);
+  Eigen::VectorXd angles(std::ssize(poses)), values(std::ssize(poses));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double theta = data_.poses[poses[i]].joints[static_cast<Eigen::Index>(joint)];
+    angles[static_cast<Eigen::Index>(i)] = present.branch()(theta);
+    values[static_cast<Eigen::Index>(i)] = present(theta);
+  }
+  const std::string angle = "q" + std::to_string(joint + 1);
+  for (const Shape& shape : shapes()) {
+    const Eigen::VectorXd coefficients = fitted(shape, angles, values);
+    if (coefficients.size() == 0 || !coefficients.allFinite()) continue;
+    for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {
+      const Sum sum = written(shape, coefficients, angle, digits);
+      robot_.corrections[joint] = JointCorrection(sum.formula, present.branch(), present.range_rad());
+      if (left(robot_) <= most) return ShortForm{sum.text, sum.formula.size(), robot_.corrections[joint]};
+    }
+  }
+  robot_.corrections[joint] = present;
+  return std::nullopt;
+}
+
+std::vector<std::optional<ShortForm>> Shortening::run() {
+  std::vector<std::optional<ShortForm>> forms(robot_.corrections.size());
+  const auto corrected = std::ranges::count_if(
+      robot_.corrections, [](const JointCorrection& correction) { return !correction.is_neutral(); });
+  double done = 0.0;
+  for (std::size_t joint = 0; joint < forms.size(); ++joint) {
+    if (robot_.corrections[joint].is_neutral() || !is_revolute(robot_.chain, static_cast<int>(joint))) continue;
+    // Of what all may add, the first joints take no more than their share.
+    const double increase = 1.0 + kMostIncrease * ++done / static_cast<double>(corrected);
+    forms[joint] = shortest(joint, increase * increase * square_);
+  }
+  return forms;
+}
+
+}  // namespace
+
+std::vector<std::optional<ShortForm>> short_forms(const DataSet& data, const CorrectedRobot& robot) {
+  return Shortening(data, robot).run();
+}
+
+}  // namespace demecal::inline report
