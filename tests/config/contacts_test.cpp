@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "../errors/complaint.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "prediction/measurement.hpp"
 #include "sample_files.hpp"
-#include "simulation/simulated_robot.hpp"
 #include "temporary_folder.hpp"
 
 namespace demecal {
@@ -31,9 +31,9 @@ P3,accept,plate,-40,100
 P4,accept,ball,-45,100
 )csv";
 
-class Contacts : public ::testing::Test {
+class ContactFiles : public ::testing::Test {
  protected:
-  Contacts() { folder_.write("robot.yaml", kRobotText); }
+  ContactFiles() { folder_.write("robot.yaml", kRobotText); }
 
   DataSet load(const std::string& more, const std::string& poses = kTouches) {
     folder_.write("poses.csv", poses);
@@ -43,7 +43,7 @@ class Contacts : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Contacts, AreReadAndWrittenBack) {
+TEST_F(ContactFiles, AreReadAndWrittenBack) {
   const DataSet data = load(R"yaml(contacts:
   kinds: {plate: plane, ball: sphere}
   radii_mm: {ball: 12.7}
@@ -66,13 +66,13 @@ TEST_F(Contacts, AreReadAndWrittenBack) {
   EXPECT_EQ(back.contacts.distances[0].second, "ball");
 }
 
-TEST_F(Contacts, ThatNoPoseTouchesAreRefused) {
+TEST_F(ContactFiles, ThatNoPoseTouchesAreRefused) {
   EXPECT_THAT(complaint([&] { load("contacts: {distances: [{between: [a, balls], mm: 50, sigma_mm: 1}]}\n"); }),
               AllOf(HasSubstr("balls"), HasSubstr("is no contact of the poses; the nearest is 'ball'")));
   EXPECT_THAT(complaint([&] { load("contacts: {kinds: {c: plane}}\n"); }), HasSubstr("is no contact of the poses"));
 }
 
-TEST_F(Contacts, HaveOnlyWhatTheirKindHas) {
+TEST_F(ContactFiles, HaveOnlyWhatTheirKindHas) {
   EXPECT_THAT(complaint([&] { load("contacts: {radii_mm: {a: 5}}\n"); }), HasSubstr("only spheres have a radius"));
   EXPECT_THAT(complaint([&] {
                 load("contacts: {kinds: {plate: plane}, distances: [{between: [a, plate], mm: 5, sigma_mm: 1}]}\n");
@@ -82,21 +82,9 @@ TEST_F(Contacts, HaveOnlyWhatTheirKindHas) {
               HasSubstr("only planes and lines have a direction"));
 }
 
-TEST_F(Contacts, OfARowThatMeasuresNothingElseMustBeNamed) {
+TEST_F(ContactFiles, OfARowThatMeasuresNothingElseMustBeNamed) {
   EXPECT_THAT(complaint([&] { load("", "pose_id,set,contact,q1_deg,q2_mm\nP1,calibration,,10,20\n"); }),
               HasSubstr("every row names what the tool touches"));
-}
-
-TEST(ShippedContacts, AreWhatTheScenarioGives) {
-  const std::string configs = DEMECAL_SOURCE_DIR "/configs/";
-  const DataSet shipped = load_data_set(configs + "data/puma761-sockets/dataset.yaml");
-  const DataSet made = simulate(load_scenario(configs + "scenarios/sockets.yaml"));
-  ASSERT_EQ(shipped.poses.size(), made.poses.size());
-  for (std::size_t i = 0; i < made.poses.size(); ++i) {
-    EXPECT_LT((shipped.poses[i].joints - made.poses[i].joints).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_EQ(shipped.poses[i].contact, made.poses[i].contact);
-    EXPECT_EQ(shipped.poses[i].set, made.poses[i].set);
-  }
 }
 
 TEST(RealContacts, LoadAsTheyAre) {
