@@ -77,6 +77,13 @@ Finding contradiction(const DataSet& data, double as_given_m) {
               distance_text(as_given_m))};
 }
 
+/// A pose far from the contact that it names, at another one.
+struct WrongPose {
+  std::size_t pose = 0;
+  std::string fits;
+  double error_m = 0.0, elsewhere_m = 0.0;
+};
+
 /// The poses that say what they touch, and where the robot predicts them.
 class ContactSearch {
  public:
@@ -109,12 +116,6 @@ class ContactSearch {
   }
 
  private:
-  struct WrongPose {
-    std::size_t pose = 0;
-    std::string fits;
-    double error_m = 0.0, elsewhere_m = 0.0;
-  };
-
   /// Where the group's poses but one have the contact; of points the median along each axis, which few cannot move.
   ContactPlace place_without(const ContactGroup& group, std::optional<std::size_t> without) const {
     std::vector<Eigen::Vector3d> points;

@@ -44,7 +44,7 @@ ResidualField unseen_field(const DataSet& data, std::span<const std::size_t> pos
   field.declared = std::move(columns);
   RowMatrix residual = field.residual;
   leave_out_places(field, residual);
-  field.residual = residual;
+  field.residual = residual.col(0);
   return field;
 }
 
