@@ -3,6 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DEMECAL_SYSTEMD_UNITS lib/systemd/system CACHE STRING "Folder of systemd units, below the prefix or absolute")
+set(DEMECAL_FISH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 set(DEMECAL_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Folder of zsh's completions")
 
 # Programs, and what each says of itself.
@@ -20,7 +21,9 @@ foreach(program demecal demecal-worker)
   demecal_printed(${program} ${program}.1 --manual ${program})
   demecal_printed(${program} ${program}.bash --completion bash)
   demecal_printed(${program} _${program} --completion zsh)
+  demecal_printed(${program} ${program}.fish --completion fish)
   install(FILES ${manual}/${program}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program} COMPONENT programs)
+  install(FILES ${manual}/${program}.fish DESTINATION ${DEMECAL_FISH_COMPLETIONS} COMPONENT programs)
   install(FILES ${manual}/_${program} DESTINATION ${DEMECAL_ZSH_COMPLETIONS} COMPONENT programs)
   install(FILES ${manual}/${program}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
 endforeach()

@@ -43,7 +43,7 @@ constexpr std::array<GroupWords, 8> kGroups{{
      "elsewhere."},
 }};
 
-const GroupWords& words_of(CauseGroup group) {
+const GroupWords& row_of(CauseGroup group) {
   const auto found = std::ranges::find(kGroups, group, &GroupWords::group);
   DEMECAL_CHECK(found != kGroups.end(), "cause group " << static_cast<int>(group));
   return *found;
@@ -73,17 +73,17 @@ std::vector<ErrorCause> causes_of(const CorrectedRobot& robot) {
 }
 
 std::string_view to_string(CauseGroup group) {
-  return words_of(group).word;
+  return row_of(group).word;
 }
 
 std::string to_string(const ErrorCause& cause) {
-  const GroupWords& words = words_of(cause.group);
+  const GroupWords& words = row_of(cause.group);
   if (cause.joint < 0) return std::string(words.of_arm.empty() ? words.of_joint : words.of_arm);
   return std::string(words.of_joint) + " of joint " + std::to_string(cause.joint + 1);
 }
 
 std::string advice_on(const ErrorCause& cause) {
-  return std::string(words_of(cause.group).advice);
+  return std::string(row_of(cause.group).advice);
 }
 
 }  // namespace demecal::inline explanations

@@ -176,9 +176,9 @@ FormulaSearch FormulaSearcher::run(double family_error, RandomStream random) {
   const NullNoise noise(linearization_.fitted, linearization_.projection);
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.null_nats.size() + 1 < searches) {
-    const PricedFormulas permuted = evolve_formulas(noise.residual(random), Purpose::null_distribution);
-    if (!permuted) return {};
-    const double gain_nats = permuted->empty() ? 0.0 : std::max(0.0, permuted->front().gain_nats);
+    const PricedFormulas of_noise = evolve_formulas(noise.residual(random), Purpose::null_distribution);
+    if (!of_noise) return {};
+    const double gain_nats = of_noise->empty() ? 0.0 : std::max(0.0, of_noise->front().gain_nats);
     if (gain_nats >= found->front().gain_nats) return {};
     result.null_nats.insert(std::ranges::upper_bound(result.null_nats, gain_nats), gain_nats);
   }

@@ -164,7 +164,7 @@ std::string figure(const std::string& picture, const std::string& caption) {
   return "<figure>" + picture + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
-std::string fall_figure(const Report& report) {
+std::string decrease_figure(const Report& report) {
   const std::optional<double> noise_mm = noise_mean_mm(report);
   const std::string noise = noise_mm ? " Dashed: what measurement noise alone would make." : "";
   return figure(loop_chart(report, noise_mm),
@@ -190,7 +190,7 @@ std::string harmonics_figures(const Report& report) {
 }
 
 std::string pictures(const Report& report) {
-  const std::string figures = fall_figure(report) + harmonics_figures(report);
+  const std::string figures = decrease_figure(report) + harmonics_figures(report);
   return figures.empty() ? "" : "<div class=\"panel\"><div class=\"pair\">\n" + figures + "</div></div>\n";
 }
 

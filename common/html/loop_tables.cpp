@@ -172,7 +172,7 @@ std::string next_measurements_list(const Report& report) {
   return "<h3>What to measure next</h3>\n<p class=\"note\">These poses cannot distinguish the named effects from "
          "their rivals. "
          "The measurements below would, nine times out of ten with so many poses.</p>\n<ul class=\"plain\" "
-         "id=\"further\">\n" +
+         "id=\"next-measurements\">\n" +
          items + "</ul>\n";
 }
 

@@ -115,12 +115,18 @@ std::string data_check(const Report& report) {
          "\n<ul class=\"plain\">\n" + lines + "</ul></div>\n";
 }
 
+/// What the closed loop's own controls object to, where they do.
+std::string doubt(const Report& report) {
+  const std::string sentence = doubt_sentence(report);
+  return sentence.empty() ? sentence : "<p class=\"banner\" id=\"doubt\">" + escaped(sentence) + "</p>\n";
+}
+
 /// What was calibrated, the error before and after in one sentence, and the figures to judge by.
 std::string opening(const Report& report) {
   const std::optional<Improvement> judged = improvement(error_stages(report));
   return "<p class=\"soft\">Robot calibration</p>\n<h1>" +
          (report.robot.empty() ? "Unnamed robot" : escaped(report.robot)) + "</h1>\n" + subject(report) +
-         banner(report) + data_check(report) + headline(report, judged) + tiles(report, judged);
+         banner(report) + data_check(report) + doubt(report) + headline(report, judged) + tiles(report, judged);
 }
 
 std::string head(const Report& report) {

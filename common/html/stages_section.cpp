@@ -87,6 +87,11 @@ std::string last_fit_line(const Report& report) {
       fixed(before, 3), fixed(after, 3));
 }
 
+std::string outliers_line(const Report& report) {
+  const std::string sentence = outliers_sentence(report);
+  return sentence.empty() ? sentence : "<p class=\"note\" id=\"without-outliers\">" + escaped(sentence) + "</p>\n";
+}
+
 std::string index_line(const Report& report) {
   const auto& [before, after] = report.performance_index_mm2;
   if (!before || !after) return {};
@@ -191,7 +196,8 @@ std::string stages_section(const Report& report) {
   const std::optional<double> noise_mm = noise_mean_mm(report);
   return section("stages", "Tool error, stage by stage, mm",
                  stage_table(report, stages) + "<div class=\"panel\">\n" + legend(stages, noise_mm.has_value()) +
-                     stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + index_line(report));
+                     stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + outliers_line(report) +
+                     index_line(report));
 }
 
 }  // namespace demecal::inline html

@@ -30,6 +30,8 @@
 #include "programs/correct_program.hpp"
 #include "programs/summary.hpp"
 #include "programs/target_correction.hpp"
+#include "report/evaluation.hpp"
+#include "report/report.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 
@@ -114,6 +116,20 @@ PositionErrors CalibratedArm::errors(const Measurements& measured, PoseUse use) 
   require_same_arm(model, data);
   const ErrorFigures figures = error_figures(model.robot, data, poses_of(data, to_pose_set(use)));
   return {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm};
+}
+
+std::vector<PoseError> CalibratedArm::pose_errors(const Measurements& measured) const {
+  const CalibratedModel& model = implementation_->model;
+  const DataSet& data = measured.implementation().data;
+  require_same_arm(model, data);
+  const std::vector<PoseErrorEntry> entries = demecal::pose_errors(data, model, model.robot, nullptr);
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<PoseError> errors;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    errors.push_back({entries[i].id, to_pose_use(data.poses[i].set), entries[i].after_mm.value_or(kUnknown),
+                      entries[i].interval95_mm.value_or(kUnknown)});
+  }
+  return errors;
 }
 
 std::vector<AddedEffect> CalibratedArm::effects() const {

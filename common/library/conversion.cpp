@@ -58,6 +58,18 @@ ToolPose to_tool_pose(const Eigen::Isometry3d& pose) {
           {turn.w(), turn.x(), turn.y(), turn.z()}};
 }
 
+PoseUse to_pose_use(PoseSet set) {
+  switch (set) {
+    case PoseSet::calibration:
+      return PoseUse::calibration;
+    case PoseSet::validation:
+      return PoseUse::validation;
+    case PoseSet::accept:
+      break;
+  }
+  return PoseUse::accept;
+}
+
 PoseSet to_pose_set(PoseUse use) {
   switch (use) {
     case PoseUse::calibration:

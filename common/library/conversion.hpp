@@ -40,6 +40,7 @@ Stop to_stop(const JointCommand& command, const Chain& chain);
 std::vector<double> to_deg_or_mm(const JointVector& joints, const Chain& chain);
 ToolPose to_tool_pose(const Eigen::Isometry3d& pose);
 PoseSet to_pose_set(PoseUse use);
+PoseUse to_pose_use(PoseSet set);
 
 /// The model as commands are corrected by it, with all that it states of how sure it is. `other_tool_m`: see
 /// command_model().

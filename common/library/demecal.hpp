@@ -140,6 +140,14 @@ struct PositionErrors {
   double mean_mm, rms_mm, p95_mm, max_mm;
 };
 
+/// How far a pose was measured from where the model predicts it, and how far that was to be expected.
+struct PoseError {
+  std::string id;
+  PoseUse use = PoseUse::calibration;
+  double error_mm = 0.0;       ///< between predicted and measured tool points
+  double interval95_mm = 0.0;  ///< radius that holds 95 % of such errors; NaN where the model does not state it
+};
+
 /// An effect that was added to what was declared.
 struct AddedEffect {
   std::string kind;      ///< "backlash", "gear_harmonic", ...
@@ -170,6 +178,8 @@ class CalibratedArm {
 
   /// Over the poses of one use; `measured` must be of the same arm.
   PositionErrors errors(const Measurements& measured, PoseUse use) const;
+  /// One by one, in the order of measuring.
+  std::vector<PoseError> pose_errors(const Measurements& measured) const;
   std::vector<AddedEffect> effects() const;
   /// Of a joint, from 1: what is added to its commanded angle theta (rad), as a formula; "0" where nothing is.
   std::string correction(int joint) const;

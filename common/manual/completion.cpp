@@ -74,6 +74,32 @@ std::string zsh_arguments(const CLI::App& command) {
   return lines + "    && return 0\n";
 }
 
+/// In single quotes of fish, in which a backslash escapes.
+std::string quoted_for_fish(const std::string& text) {
+  std::string safe = "'";
+  for (const char letter : text) {
+    if (letter == '\'' || letter == '\\') safe += '\\';
+    safe += letter;
+  }
+  return safe + "'";
+}
+
+/// Lines of fish that complete the command's options where `condition` holds.
+std::string fish_options(const CLI::App& command, const std::string& beginning) {
+  std::string lines;
+  for (const DescribedOption& option : described_options(command)) {
+    if (option.positional && option.choices.empty()) continue;  // names of files, as everywhere
+    lines += beginning;
+    for (const std::string& name : option.names) {
+      if (!option.positional) lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+    }
+    if (!option.positional && !option.value.empty()) lines += " -r";
+    if (!option.choices.empty()) lines += " -f -a " + quoted_for_fish(spaced(option.choices));
+    lines += " -d " + quoted_for_fish(option.description) + "\n";
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string bash_completion(const CLI::App& program) {
@@ -131,6 +157,25 @@ std::string zsh_completion(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands({}))
     script += "  " + command->get_name() + ")\n    " + zsh_arguments(*command) + "    ;;\n";
   return script + "esac\n";
+}
+
+std::string fish_completion(const CLI::App& program) {
+  const std::string name = program.get_name(), complete = "complete -c " + name;
+  std::string script = "# fish completion of " + name + "\n";
+  if (command_names(program).empty()) return script + fish_options(program, complete);
+  const std::string function = "_" + function_name(program) + "_command_is";
+  script += "function " + function +
+            "\n"
+            "  set -l words (commandline -opc)\n"
+            "  test \"$words[2]\" = \"$argv[1]\"\n"
+            "end\n";
+  const std::string first = complete + " -n '" + function + " \"\"'";
+  script += fish_options(program, first);
+  for (const CLI::App* command : program.get_subcommands({})) {
+    script += first + " -f -a " + command->get_name() + " -d " + quoted_for_fish(command->get_description()) + "\n";
+    script += fish_options(*command, complete + " -n '" + function + " " + command->get_name() + "'");
+  }
+  return script;
 }
 
 }  // namespace demecal::inline manual

@@ -19,6 +19,7 @@ std::string manual_page(const CLI::App& program, const std::string& command, con
 /// files.
 std::string bash_completion(const CLI::App& program);
 std::string zsh_completion(const CLI::App& program);
+std::string fish_completion(const CLI::App& program);
 
 /// Adds --manual [COMMAND] and --completion SHELL, which --help does not list: each gives its text to `print`, and
 /// parsing ends as it does after --help. The program's name must be set.

@@ -153,14 +153,14 @@ void add_manual(CLI::App& program, const std::string& exit_status,
     throw CLI::Success();
   };
   const auto completion = [app, print](const std::string& shell) {
-    print(shell == "bash" ? bash_completion(*app) : zsh_completion(*app));
+    print(shell == "bash" ? bash_completion(*app) : shell == "zsh" ? zsh_completion(*app) : fish_completion(*app));
     throw CLI::Success();
   };
   program.add_option_function<std::string>("--manual", manual, "print the manual page of a command")
       ->group("")
       ->trigger_on_parse();
   program.add_option_function<std::string>("--completion", completion, "print a script that completes commands")
-      ->check(CLI::IsMember({"bash", "zsh"}))
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
       ->group("")
       ->trigger_on_parse();
 }

@@ -57,13 +57,13 @@ class RivalComparison {
   /// The named effect's separation by an experiment from each rival; see poses_needed().
   Separation separation(const Experiment& experiment) {
     const DataSet data = posterior_.predicted(experiment.stops);
-    const ResidualField further = posterior_.field(data);
+    const ResidualField next = posterior_.field(data);
     const SmoothCorrections beyond = terms_beyond(data, experiment.widened);
     const RowMatrix all_at_hand = beside(asked_at_hand_, beyond.columns(posterior_.present()));
     const Products at_hand = products(model_at_hand_, all_at_hand, posterior_.weight());
     const double share = static_cast<double>(experiment.stops_per_pose) / static_cast<double>(data.poses.size());
     const Products per_pose =
-        products(posterior_.model_columns(further), beside(asked(further), beyond.columns(further)), share);
+        products(posterior_.model_columns(next), beside(asked(next), beyond.columns(next)), share);
     sums_ += (at_hand.asked + per_pose.asked).topLeftCorner(signal_ + 1, signal_ + 1);
     Eigen::VectorXd precision = Eigen::VectorXd::Zero(at_hand.asked.cols());
     precision.tail(precision.size() - signal_ - 1).setConstant(1.0 / (kOwnBelief_rad * kOwnBelief_rad));

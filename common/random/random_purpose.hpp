@@ -16,7 +16,7 @@ enum class RandomPurpose : std::uint64_t {
   structure_test = 6,        ///< draws of the noise behind the test for structure
   group_gain = 7,            ///< bootstrap bound of what a group's effects gain together
   next_measurement = 8,      ///< poses that would tell rivals apart
-  formula_null = 31,         ///< permuted poses in which formulas are sought as in the measured ones
+  formula_null = 31,         ///< draws of the noise, searched for formulas as the measured poses are
   proposed_poses = 32,       ///< poses worth measuring next
   cause_cost = 33,           ///< bootstrap interval of what a cause costs
   explanation_search = 34,   ///< variations of sets of effects

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -75,21 +74,6 @@ std::string with_digits(double value, const std::string& unit, int significant) 
   if (unit.starts_with("rad") || unit == "m" || unit.starts_with("m/")) return small_part(value, unit, significant);
   if (unit == "1" || unit.starts_with("1/")) return digits(1e6 * value, significant) + " ppm" + per(unit);
   return digits(value, significant) + (unit.empty() ? "" : " " + unit);
-}
-
-std::string kind_words(const std::string& kind) {
-  return rarity(kind) < causes().size() ? std::string(cause_of(kind).words) : kind;
-}
-
-/// " of joints 2, 3 and 4".
-std::string joints_words(const std::vector<std::uint64_t>& joints) {
-  if (joints.empty()) return {};
-  std::string text = joints.size() == 1 ? " of joint " : " of joints ";
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const bool last = i + 1 == joints.size();
-    text += (i == 0 ? "" : last ? " and " : ", ") + std::to_string(joints[i]);
-  }
-  return text;
 }
 
 }  // namespace
@@ -195,103 +179,6 @@ std::string limit_amount(double value, const std::string& unit) {
 
 std::string probability(std::optional<double> p) {
   return p && std::isfinite(*p) ? fmt::format("{:.2g}", *p) : "–";
-}
-
-std::string class_text(const std::vector<ClassMember>& members) {
-  std::string text;
-  const auto elsewhere = [&members](const ClassMember& member) { return member.joint != members.front().joint; };
-  if (!members.empty() && members.front().joint && std::ranges::none_of(members, elsewhere)) {
-    for (const ClassMember& member : members) text += (text.empty() ? "" : " or ") + kind_words(member.kind);
-    return text + joints_words({*members.front().joint});
-  }
-  for (std::size_t i = 0; i < members.size();) {
-    std::vector<std::uint64_t> joints;
-    const std::string& kind = members[i].kind;
-    for (; i < members.size() && members[i].kind == kind; ++i) {
-      if (members[i].joint) joints.push_back(*members[i].joint);
-    }
-    text += (text.empty() ? "" : " or ") + kind_words(kind) + joints_words(joints);
-  }
-  return text;
-}
-
-std::string class_sentence(const std::vector<ClassMember>& members) {
-  if (members.empty()) return {};
-  std::string text = class_text(members) + ": these poses cannot tell.";
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
-std::string stop_sentence(const std::string& stopped) {
-  if (stopped.empty() || stopped == "not_run") return {};
-  if (stopped == "no_structure") return "The loop stopped because the error that is left shows no more structure.";
-  if (stopped == "no_gain") return "The loop stopped because no further effect improved the validation poses.";
-  if (stopped == "max_effects") return "The loop stopped at the largest number of effects it was allowed to add.";
-  if (stopped == "decoy") {
-    return "The loop stopped because a control, which cannot be true, explained the error better than every effect.";
-  }
-  return "The loop stopped: " + stopped + ".";
-}
-
-std::string statistics_sentences(const Report& report) {
-  std::string text;
-  const auto add = [&text](const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; };
-  if (report.lack_of_fit_p) {
-    add(fmt::format("Before the loop the error's excess over the repeats' own scatter had p = {}.",
-                    probability(report.lack_of_fit_p)));
-  }
-  if (report.explained_share) {
-    add(fmt::format("Of the mean square error beyond that scatter the effects explain {:.1f} %.",
-                    100.0 * *report.explained_share));
-  }
-  if (report.structure_left_p) {
-    constexpr double kDetected = 0.05;
-    const char* const sentence =
-        *report.structure_left_p > kDetected
-            ? "No remaining dependence on joints, load, approach, temperature or time was detected (p = {})."
-            : "What is left still depends on joints, load, approach, temperature or time (p = {}).";
-    add(fmt::format(fmt::runtime(sentence), probability(report.structure_left_p)));
-  }
-  return text;
-}
-
-std::string noise_sentence(const NoiseEntry& noise) {
-  const std::string independent = fmt::format("{:.3f} mm an axis", noise.independent_mm.value_or(0.0));
-  if (!noise.estimated)
-    return independent + ", taken to be independent from pose to pose: what poses share was not estimated";
-  std::vector<std::string> parts;
-  if (noise.joint_repeatability_mrad > 0.0)
-    parts.push_back(fmt::format("joints repeat to {:.3f} mrad", *noise.joint_repeatability_mrad));
-  if (noise.shared_by_repeats_mm > 0.0)
-    parts.push_back(fmt::format("repeats of a pose share {:.3f} mm", *noise.shared_by_repeats_mm));
-  if (noise.shared_in_order_mm > 0.0) {
-    parts.push_back(
-        fmt::format("poses measured one after another share {:.3f} mm (correlation {:.2f}): errors of "
-                    "poses measured between others look smaller than they are",
-                    *noise.shared_in_order_mm, noise.correlation_in_order.value_or(0.0)));
-  }
-  if (parts.empty()) return independent + ", independent from pose to pose";
-  return fmt::format("{}, independent; {}", independent, fmt::join(parts, "; "));
-}
-
-std::string decoys_sentence(const std::vector<DecoyEntry>& decoys) {
-  constexpr double kRare = 0.05;
-  if (decoys.empty()) return {};
-  std::string winners;
-  for (const DecoyEntry& decoy : decoys) {
-    if (decoy.won) winners += (winners.empty() ? "" : "; ") + decoy.name;
-  }
-  if (!winners.empty()) return "WON by what cannot be true: " + winners;
-  const DecoyEntry& rarest =
-      *std::ranges::min_element(decoys, {}, [](const DecoyEntry& decoy) { return decoy.p_left.value_or(1.0); });
-  if (rarest.p_left.value_or(1.0) <= kRare) {
-    return fmt::format(
-        "{}, which cannot exist, explains more than noise should (p = {:.3f}): the noise is not what it "
-        "was taken for, and none of the effects is sure",
-        rarest.name, *rarest.p_left);
-  }
-  const DecoyEntry& best = *std::ranges::max_element(decoys, {}, &DecoyEntry::best_gain_nats);
-  return fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name);
 }
 
 }  // namespace demecal::inline report

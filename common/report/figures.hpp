@@ -99,6 +99,11 @@ std::string noise_sentence(const NoiseEntry& noise);
 
 /// Whether a decoy won, or explains more than noise should; empty without decoys.
 std::string decoys_sentence(const std::vector<DecoyEntry>& decoys);
+/// That no effect is sure, since a decoy fared as none should; empty where none did, or no effect was added.
+std::string doubt_sentence(const Report& report);
+
+/// What the model's rms error of each set is without suspected outliers, and with them; empty where there are none.
+std::string outliers_sentence(const Report& report);
 
 /// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
 std::string statistics_sentences(const Report& report);

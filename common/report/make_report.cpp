@@ -43,11 +43,27 @@ Report::Poses counts_of(const DataSet& data) {
   return poses;
 }
 
+/// Those that the fit found, and those of every set that are far out by the model.
+std::vector<std::size_t> outliers_of(const Conclusions& run) {
+  constexpr double kSmallest_m = 1e-6;  ///< exact data have rounding errors alone
+  const DataSet& data = run.data;
+  const bool looped = run.loop.stopped != StopReason::not_run;
+  std::vector<std::size_t> outliers = looped ? run.loop.outliers : run.preparation.declared.outliers;
+  for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
+    const std::vector<std::size_t> poses = poses_of(data, set);
+    std::vector<double> errors_m;
+    for (const std::size_t pose : poses) errors_m.push_back(tool_error_m(run.model.robot, data, data.poses[pose]));
+    const double limit_m = std::max(kSmallest_m, gross_error_limit(errors_m));
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      if (errors_m[i] > limit_m) outliers.push_back(poses[i]);
+  }
+  return outliers;
+}
+
 Report::Poses named_poses(const Conclusions& run) {
   const DataSet& data = run.data;
   Report::Poses poses = counts_of(data);
-  const bool looped = run.loop.stopped != StopReason::not_run;
-  poses.outliers = ids(data, looped ? run.loop.outliers : run.preparation.declared.outliers);
+  poses.outliers = ids(data, outliers_of(run));
   const CorrectedRobot placed = with_own_contacts(run.model.robot, data);
   for (const MeasuredPose& pose : data.excluded) {
     poses.excluded.push_back(

@@ -54,7 +54,7 @@ void RunJournal::begin_anew() {
 void RunJournal::take_up() {
   RecordedJob job = read_journal(file_.read());
   if (!job.identity) {
-    found_ = fmt::format("{} tells of no run: this one begins at its start", file_.path());
+    found_ = fmt::format("{} holds no run: this one begins at its start", file_.path());
     return;
   }
   if (const auto other = difference(*job.identity, identity_)) {

@@ -87,7 +87,7 @@ std::string rivals_line(const RoundEntry& round) {
   return wrapped(std::string(kIndent, ' ') + "cannot be distinguished with these poses from:", names, kIndent + 2);
 }
 
-std::string further_line(const RoundEntry& round) {
+std::string next_measurement_line(const RoundEntry& round) {
   if (!round.next_measurement) return {};
   return wrapped(std::string(kIndent, ' ') + "measure next:", round.next_measurement->sentence, kIndent + 2);
 }
@@ -107,7 +107,7 @@ std::string effect_lines(const RoundEntry& round, bool diagnosed) {
   }
   if (diagnosed && !round.diagnosis.empty())
     text += wrapped(margin, (round.members.empty() ? "" : "If that is right: ") + round.diagnosis, kIndent);
-  return text + rivals_line(round) + further_line(round);
+  return text + rivals_line(round) + next_measurement_line(round);
 }
 
 std::string harmonics_lines(const Rounds& rounds) {
@@ -203,8 +203,10 @@ std::string causes_lines(const Report& report) {
 std::string loop_to_terminal(const Report& report) {
   if (!report.loop_ran()) return {};
   const std::string closing = stop_sentence(report.stopped) + " " + statistics_sentences(report);
-  return causes_lines(report) + added_lines(added_rounds(report)) + refused_lines(report) + dropped_line(report) +
-         last_candidate(report) + wrapped(" ", closing, 4) + limits_to_terminal(report);
+  const std::string doubt = doubt_sentence(report);
+  return (doubt.empty() ? "" : wrapped(" ", doubt, 4) + "\n") + causes_lines(report) +
+         added_lines(added_rounds(report)) + refused_lines(report) + dropped_line(report) + last_candidate(report) +
+         wrapped(" ", closing, 4) + limits_to_terminal(report);
 }
 
 }  // namespace demecal::inline terminal

@@ -60,7 +60,9 @@ std::string stages(const Report& report) {
     text += heading(fmt::format("{} poses, tool error in mm", set.name), kStageColumns);
     for (const Stage& stage : all) text += figures_line("  " + stage.title, kStageColumns, stage.on(set));
   }
-  return text + last_fit(report) + intervals(report.pose_errors, report.prediction_interval);
+  const std::string outliers = outliers_sentence(report);
+  return text + last_fit(report) + (outliers.empty() ? "" : wrapped(" ", outliers, 2)) +
+         intervals(report.pose_errors, report.prediction_interval);
 }
 
 std::string length_line(const LengthErrorEntry& length) {

@@ -52,7 +52,7 @@ TEST(LoopPasses, TheLastOneSaysWhyItStoppedAndTheFirstWhatItFound) {
   EXPECT_NEAR(*both.explained_share, 0.75, 1e-15);
 }
 
-TEST(LoopPasses, ADecoyKeepsItsBestFallAndItsVictory) {
+TEST(LoopPasses, ADecoyKeepsItsBestGainAndItsVictory) {
   LoopOutcome first, second;
   first.decoys = {{"a", 3.0, true}, {"b", 1.0, false}};
   second.decoys = {{"a", 2.0, false}, {"b", 4.0, false}};

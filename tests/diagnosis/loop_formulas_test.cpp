@@ -52,7 +52,7 @@ TEST(ClosedLoop, FindsThePhaseOfAWave) {
   EXPECT_NEAR(found.value(1), -4e-4 * std::sin(0.7), 5e-5);
 }
 
-TEST(ClosedLoop, HoldsEvolvedFormulasAgainstWhatTheSameSearchFindsByLuck) {
+TEST(ClosedLoop, HoldsEvolvedFormulasAgainstWhatTheSameSearchFindsInNoise) {
   Scenario scenario = perfect_scenario(parallel_arm(), 27);
   const Tree formula = parse("q1*q4*q2", symbolic_variables(6));
   scenario.symbolic = {{.joint = 1, .formula = apply(Primitive::multiply, constant_tree(3e-4), formula)}};

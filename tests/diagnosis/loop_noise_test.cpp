@@ -104,6 +104,30 @@ TEST(ClosedLoopNoise, DriftInTheOrderOfMeasuringIsNotTakenForEffects) {
   EXPECT_GT(found.noise.order / kArms, 2.0);
 }
 
+/// Chosen by the calibration poses, confirmed by the validation poses: these have no part in what is tried.
+TEST(ClosedLoopNoise, ValidationPosesChooseNothing) {
+  Scenario loose = waving_scenario(76);
+  loose.backlash = {{1, 4e-4}};
+  const DataSet data = simulate(loose);
+  DataSet other = data, contradicting = data;
+  const DataSet tight = simulate(waving_scenario(76));
+  RandomStream random{76, 98};
+  for (const std::size_t pose : poses_of(data, PoseSet::validation)) {
+    *other.poses[pose].position_m += 3e-5 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    contradicting.poses[pose] = tight.poses[pose];
+  }
+  const LoopOutcome first = run_loop(data, kCorrected, quick()).outcome;
+  for (const DataSet& set : {other, contradicting}) {
+    const LoopOutcome again = run_loop(set, kCorrected, quick()).outcome;
+    ASSERT_FALSE(again.rounds.empty());
+    EXPECT_TRUE(again.rounds.front().effect.same_law_as(first.rounds.front().effect));
+    EXPECT_EQ(again.rounds.front().gain_nats, first.rounds.front().gain_nats);
+    EXPECT_EQ(again.rounds.front().p_family, first.rounds.front().p_family);
+  }
+  EXPECT_EQ(added(first).size(), 1u);
+  EXPECT_TRUE(added(run_loop(contradicting, kCorrected, quick()).outcome).empty());
+}
+
 TEST(ClosedLoopNoise, TwoExchangedPosesOrATypingErrorHardlyChangeTheModel) {
   for (std::uint64_t seed = 71; seed < 74; ++seed) {
     const DataSet right = simulate(waving_scenario(seed));

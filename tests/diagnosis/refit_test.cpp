@@ -133,6 +133,29 @@ TEST(FinalFit, LowersTheErrorOnAcceptPosesOnTheWhole) {
   EXPECT_LT(after, before);
 }
 
+/// Root mean square of the tool errors of all poses that a last fit has.
+double own_error_m(const DiagnosedModel& model, const DataSet& data) {
+  double squares = 0.0;
+  const std::vector<std::size_t> poses = poses_of_last_fit(data);
+  for (const std::size_t pose : poses) squares += std::pow(tool_error_m(model.robot, data, data.poses[pose]), 2);
+  return std::sqrt(squares / static_cast<double>(poses.size()));
+}
+
+/// Noise believed to be a thousand times as large as it is leaves no correction relevant: that fit is not taken.
+TEST(FinalFit, NeverMakesItsOwnPosesMoreThanATwentiethWorse) {
+  for (std::uint64_t seed = 43; seed < 47; ++seed) {
+    const DataSet data = waving_arm(seed);
+    const DiagnosedModel model = fitted(data);
+    DiagnosedModel doubting = model;
+    doubting.noise_estimated = true;
+    for (double& scale : doubting.scales) scale *= 1e3;
+    const DiagnosisProblem all{data, kDeclared, poses_of_last_fit(data), {}};
+    EXPECT_GT(own_error_m(refined(all, doubting, 12), data), 2.0 * own_error_m(model, data)) << seed;
+    EXPECT_LE(own_error_m(final_fit(data, kDeclared, doubting), data), 1.05 * own_error_m(model, data)) << seed;
+    EXPECT_LE(own_error_m(final_fit(data, kDeclared, model), data), 1.05 * own_error_m(model, data)) << seed;
+  }
+}
+
 TEST(FinalFit, DoesNotSeeAcceptPoses) {
   DataSet data = waving_arm(41);
   const DiagnosedModel model = fitted(data);

@@ -149,7 +149,7 @@ PValues p_values_of_noise(ScannedArm& tested, RandomStream& stream, const std::f
   return found;
 }
 
-TEST(Scan, FindsLuckAsOftenAsItsPValuesSay) {
+TEST(Scan, ExplainsNoiseAsOftenAsItsPValuesSay) {
   RandomStream stream{84, 5};
   ScannedArm tested = scanned_arm(stream, 40);
   const PValues found = p_values_of_noise(

@@ -205,6 +205,8 @@ TEST(LoopPage, SaysHowMeasurementsScatterAndWhatControlsMean) {
   const std::string page = loop_page_of(report);
   EXPECT_THAT(page, HasSubstr("poses measured one after another share 0.031 mm"));
   EXPECT_THAT(page, HasSubstr("none of the effects is sure"));
+  EXPECT_THAT(all_between(page, "id=\"doubt\">", "</p>"), ElementsAre(HasSubstr("None of the effects is sure")));
+  EXPECT_THAT(loop_page_of(made_up_looped_report(5)), Not(HasSubstr("id=\"doubt\"")));
 }
 
 TEST(LoopWords, HaveASentenceForEveryReason) {

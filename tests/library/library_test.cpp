@@ -108,6 +108,25 @@ TEST(LibraryCalibration, FindsAJointOffset) {
   EXPECT_NEAR(sent[1] - 20, -0.5e-3 * 57.29577951308232, 3e-3);
 }
 
+TEST(LibraryCalibration, SaysOfEveryPoseHowFarItIsOffAndHowFarThatWasToBeExpected) {
+  const Measurements measured(Arm(short_arm()), measured_short_arm());
+  const CalibratedArm arm = calibrate(measured, fitted_only());
+  const std::vector<PoseError> errors = arm.pose_errors(measured);
+  ASSERT_EQ(errors.size(), measured.size());
+  double squares_mm2 = 0.0;
+  std::size_t validated = 0, within = 0;
+  for (const PoseError& pose : errors) {
+    within += pose.error_mm <= pose.interval95_mm ? 1 : 0;
+    if (pose.use != PoseUse::validation) continue;
+    squares_mm2 += pose.error_mm * pose.error_mm;
+    ++validated;
+  }
+  EXPECT_EQ(validated, measured.count(PoseUse::validation));
+  EXPECT_NEAR(std::sqrt(squares_mm2 / static_cast<double>(validated)), arm.errors(measured, PoseUse::validation).rms_mm,
+              1e-12);
+  EXPECT_GE(within, 34U);
+}
+
 TEST(LibraryCalibration, PredictsWhereTheToolReallyIs) {
   const std::vector<PoseMeasurement> poses = measured_short_arm();
   const CalibratedArm arm = calibrate(Measurements(Arm(short_arm()), poses), fitted_only());

@@ -6,14 +6,21 @@
 
 #include <array>
 #include <cstdio>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace demecal {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 struct MadeUpProgram {
   CLI::App app{"weigh: tells what things weigh", "weigh"};
@@ -94,6 +101,22 @@ TEST(Completion, OfZshHasEveryCommandAndOption) {
   EXPECT_THAT(script, AllOf(HasSubstr("#compdef weigh"), HasSubstr("'scale:put a thing on the scale; it'\\''s exact'"),
                             HasSubstr("'--unit[of the answer]:TEXT:(kg g)'"),
                             HasSubstr("'--quiet[say nothing \\[at all\\]]'")));
+}
+
+TEST(Completion, OfFishCompletesCommandsOptionsAndValues) {
+  MadeUpProgram program;
+  const auto completed = [&](const std::string& line) {
+    const std::string told = output_of("fish --no-config", fish_completion(program.app) + "complete -C '" + line +
+                                                               "' | string replace -r '\\t.*' ''\n");
+    std::istringstream stream(told);
+    return std::vector<std::string>{std::istream_iterator<std::string>(stream), {}};
+  };
+  EXPECT_THAT(completed("weigh "), IsSupersetOf({"scale", "tare"}));
+  EXPECT_THAT(completed("weigh scale --u"), ElementsAre("--unit"));
+  EXPECT_THAT(completed("weigh scale --unit "), UnorderedElementsAre("g", "kg"));
+  EXPECT_THAT(completed("weigh scale --"), UnorderedElementsAre("--hands", "--help", "--quiet", "--times", "--unit"));
+  EXPECT_THAT(completed("weigh tare --"), ElementsAre("--help"));
+  EXPECT_THAT(completed("weigh scale ta"), Not(Contains("tare")));
 }
 
 TEST(Commands, AreInTheOrderOfHelp) {

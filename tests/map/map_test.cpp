@@ -79,11 +79,19 @@ TEST(SourceTree, HasNamesThatSaySomething) {
   EXPECT_THAT(over_the_tree(check_names), IsEmpty());
 }
 
-TEST(SourceTree, DefinesNoTypeTwice) {
+std::vector<Source> without_tests() {
   std::vector<Source> programs = the_tree();
   std::erase_if(programs, [](const Source& source) { return source.path.starts_with("tests/"); });
   EXPECT_GE(programs.size(), 100u);
-  EXPECT_THAT(check_types_once(programs), IsEmpty());
+  return programs;
+}
+
+TEST(SourceTree, DefinesNoTypeTwice) {
+  EXPECT_THAT(check_types_once(without_tests()), IsEmpty());
+}
+
+TEST(SourceTree, SaysNothingTwice) {
+  EXPECT_THAT(check_passages_once(without_tests()), IsEmpty());
 }
 
 }  // namespace

@@ -57,4 +57,8 @@ Violations check_names(const Source& source);
 /// ones too: a reader who looks a name up finds one thing, and the linker never takes one of two.
 Violations check_types_once(const std::vector<Source>& sources);
 
+/// No passage of more than 12 lines of code stands twice in the sources. White space, comments, includes and lines
+/// without a word do not count.
+Violations check_passages_once(const std::vector<Source>& sources);
+
 }  // namespace demecal::map

@@ -176,5 +176,24 @@ TEST(TypeRule, LeavesApartWhatNoLinkerMixesUp) {
   }
 }
 
+std::string lines_from(int first, int count) {
+  std::string text;
+  for (int i = first; i < first + count; ++i) text += "  total += weight[" + std::to_string(i) + "];\n";
+  return text;
+}
+
+TEST(PassageRule, FindsThirteenLinesThatStandTwiceHoweverTheyAreSpaced) {
+  std::string spaced = "#include <vector>\n" + lines_from(0, 6) + "\n  // why\n}\n" + lines_from(6, 7);
+  EXPECT_THAT(check_passages_once({{"common/a/a.cpp", lines_from(0, 13)}, {"worker/b.cpp", spaced}}), SizeIs(1));
+  EXPECT_THAT(check_passages_once({{"common/a/a.cpp", lines_from(0, 13) + "int between;\n" + lines_from(0, 13)}}),
+              SizeIs(1));
+}
+
+TEST(PassageRule, LetsTwelveLinesStandTwice) {
+  EXPECT_THAT(check_passages_once({{"common/a/a.cpp", lines_from(0, 12) + "int one;\n"},
+                                   {"worker/b.cpp", lines_from(0, 12) + "int other;\n"}}),
+              IsEmpty());
+}
+
 }  // namespace
 }  // namespace demecal::map

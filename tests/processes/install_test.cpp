@@ -37,11 +37,11 @@ TEST_F(Installed, HasProgramsPagesCompletionsConfigurationsAndTheProtocol) {
   for (const std::string file :
        {"bin/demecal", "bin/demecal-worker", "share/man/man1/demecal.1", "share/man/man1/demecal-calibrate.1",
         "share/man/man1/demecal-worker.1", "share/bash-completion/completions/demecal",
-        "share/zsh/site-functions/_demecal", "share/demecal/jobs/demo.yaml",
-        "share/demecal/data/puma761-demo/dataset.yaml", "share/demecal/idl/calibration.idl",
-        "share/demecal/scripts/security", "share/doc/demecal/README.md", "share/doc/demecal/docs/GUIDE.md",
-        "share/doc/demecal/configs/dds/README.md", "lib/systemd/system/demecal-worker.service",
-        "include/demecal/demecal.hpp"}) {
+        "share/zsh/site-functions/_demecal", "share/fish/vendor_completions.d/demecal.fish",
+        "share/demecal/jobs/demo.yaml", "share/demecal/data/puma761-demo/dataset.yaml",
+        "share/demecal/idl/calibration.idl", "share/demecal/scripts/security", "share/doc/demecal/README.md",
+        "share/doc/demecal/docs/GUIDE.md", "share/doc/demecal/configs/dds/README.md",
+        "lib/systemd/system/demecal-worker.service", "include/demecal/demecal.hpp"}) {
     EXPECT_TRUE(std::filesystem::exists(prefix() + "/" + file)) << file;
   }
 }

@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
+#include <tuple>
 
+#include "fitting/known_arm.hpp"
+#include "prediction/measurement.hpp"
 #include "random/random_stream.hpp"
+#include "report/figures.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal {
@@ -26,6 +32,58 @@ DataSet repeated(int poses, int repeats, double sigma_m) {
     }
   }
   return data;
+}
+
+/// What a run leaves that fits the true arm to poses of all sets with 0.05 mm of noise.
+struct PerfectRun {
+  KnownArm arm = perfect_arm(parallel_arm(), Frame::base);
+  CalibratedModel model;
+  Preparation preparation;
+  LoopOutcome loop;
+  Calibration calibration;
+  DataCheck check;
+  std::vector<DistalStep> distal;
+  std::vector<FoundTransform> structure;
+  RunFacts facts;
+
+  PerfectRun() {
+    RandomStream random{462};
+    measure(arm, random, {.noise_m = 5e-5}, 90);
+    for (std::size_t i = 0; i < 90; ++i) {
+      arm.data.poses[i].set = static_cast<PoseSet>(i % 3);
+      arm.data.poses[i].pose_id = "P" + std::to_string(i);
+    }
+    model.nominal = arm.data.robot;
+    model.robot = preparation.nominal = preparation.registered.robot = preparation.declared.robot = arm.truth;
+    model.joints.clear();
+  }
+  Report report() const {
+    return make_report({arm.data, model, arm.truth, loop, preparation, calibration, check, distal, structure, facts});
+  }
+};
+
+TEST(Outliers, AreNamedInEverySetAndErrorsAreToldWithAndWithoutThem) {
+  PerfectRun run;
+  EXPECT_TRUE(run.report().poses.outliers.empty());
+  EXPECT_EQ(outliers_sentence(run.report()), "");
+  for (const std::size_t pose : {30U, 31U, 32U, 35U})
+    *run.arm.data.poses[pose].position_m += Eigen::Vector3d(0, 2e-3, 0);
+  const Report report = run.report();
+  EXPECT_EQ(report.poses.outliers, (std::vector<std::string>{"P30", "P31", "P32", "P35"}));
+  const std::string sentence = outliers_sentence(report);
+  for (const auto& [set, name, left_out] :
+       {std::tuple{PoseSet::calibration, "calibration", 1}, std::tuple{PoseSet::validation, "validation", 1},
+        std::tuple{PoseSet::accept, "accept", 2}}) {
+    std::vector<std::size_t> poses = poses_of(run.arm.data, set);
+    const double with_mm = error_figures(run.arm.truth, run.arm.data, poses).rms_mm;
+    std::erase_if(poses, [](std::size_t pose) { return pose >= 30 && pose <= 35 && pose != 33 && pose != 34; });
+    const double without_mm = error_figures(run.arm.truth, run.arm.data, poses).rms_mm;
+    EXPECT_LT(without_mm, 0.3 * with_mm);
+    char expected[100];
+    std::snprintf(expected, sizeof expected, "%.3f mm instead of %.3f mm on %s poses (%d left out)", without_mm,
+                  with_mm, name, left_out);
+    EXPECT_NE(sentence.find(expected), std::string::npos) << expected << "\n" << sentence;
+  }
 }
 
 TEST(NoiseFloor, IsTheStandardDeviationOfRepeatsPerAxis) {

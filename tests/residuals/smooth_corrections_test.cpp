@@ -192,6 +192,45 @@ TEST(SmoothCorrections, RecoverSmoothErrorsAtAnglesThatWereNotMeasured) {
   EXPECT_NEAR(model.scales[kPosition], 2e-5, 4e-6);
 }
 
+/// The largest difference between corrections of a joint, rad, over the values that were measured.
+double largest_difference_rad(const DiagnosedModel& one, const DiagnosedModel& other, int joint, const DataSet& data) {
+  const auto at = static_cast<std::size_t>(joint);
+  double largest = 0.0;
+  for (const MeasuredPose& pose : data.poses) {
+    const double theta = pose.joints[joint];
+    largest = std::max(largest, std::abs(one.robot.corrections[at](theta) - other.robot.corrections[at](theta)));
+  }
+  return largest;
+}
+
+TEST(SmoothCorrections, OnePoseBesideLockedJointsBendsNone) {
+  RandomStream stream{85, 12};
+  KnownArm arm = perfect_arm(parallel_arm(), Frame::base);
+  measure(arm, stream, {.noise_m = 5e-5}, 40);
+  for (MeasuredPose& pose : arm.data.poses) {
+    const double first = pose.joints[0], second = pose.joints[1];
+    pose.joints = JointVector::Constant(6, 0.7);
+    pose.joints[0] = first;
+    pose.joints[1] = second;
+    pose.position_m = arm.truth.predict(pose.joints, "").translation() +
+                      5e-5 * Eigen::Vector3d(stream.normal(), stream.normal(), stream.normal());
+  }
+  const auto fitted = [&](const KnownArm& measured) {
+    const DiagnosisProblem problem{
+        measured.data, {.registration = true, .joint_corrections = true}, all_poses(measured.data), {}};
+    return refined(problem,
+                   {nominal_robot(measured.data),
+                    smooth_corrections(measured.data, problem.fitted, nominal_robot(measured.data), true),
+                    {1e-4, 0.0, 0.0}},
+                   12);
+  };
+  KnownArm beside = arm;
+  for (int joint = 2; joint < 6; ++joint) beside.data.poses[0].joints[joint] += 1.2e-3 + 2e-4 * joint;  // not reached
+  const DiagnosedModel without = fitted(arm), with = fitted(beside);
+  for (int joint = 0; joint < 2; ++joint) EXPECT_LT(largest_difference_rad(with, without, joint, arm.data), 3e-5);
+  for (std::size_t joint = 2; joint < 6; ++joint) EXPECT_TRUE(with.robot.corrections[joint].is_neutral()) << joint;
+}
+
 TEST(SmoothCorrections, OfAPerfectArmStaySmall) {
   RandomStream stream{85, 6};
   KnownArm arm = perfect_arm(parallel_arm(), Frame::base);

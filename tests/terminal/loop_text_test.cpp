@@ -161,6 +161,23 @@ TEST(LoopTerminal, SaysWhatTheDataCannotShowAndHowTheControlsFared) {
   EXPECT_THAT(unbroken(shown(loop)), HasSubstr("WON by what cannot be true: a gear ratio no gear has"));
 }
 
+TEST(LoopTerminal, SaysFirstThatNoEffectIsSureWhereAControlFaredAsNoneShould) {
+  const auto begins_with_doubt = [](const LoopOutcome& loop) {
+    return unbroken(shown(loop))
+        .starts_with("None of the effects is sure: a gear ratio no gear has, which cannot exist");
+  };
+  LoopOutcome right = made_up_loop(5);
+  right.decoys[1].p_left = 0.051;
+  EXPECT_FALSE(begins_with_doubt(right));
+  LoopOutcome rare = right, won = right;
+  rare.decoys[1].p_left = 0.05;
+  won.decoys[1].won = true;
+  EXPECT_TRUE(begins_with_doubt(rare));
+  EXPECT_TRUE(begins_with_doubt(won));
+  std::erase_if(rare.rounds, [](const Round& round) { return round.verdict == Verdict::added; });
+  EXPECT_FALSE(begins_with_doubt(rare));
+}
+
 TEST(LoopTerminal, SaysWhereNoiseIsTakenToBeIndependent) {
   LoopOutcome loop = made_up_loop(5);
   EXPECT_THAT(unbroken(shown(loop)), Not(HasSubstr("taken to be independent")));

@@ -43,6 +43,14 @@ TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
   EXPECT_THAT(text, HasSubstr("noise floor from repeats: 0.051 mm per axis"));
 }
 
+TEST(Terminal, ShowsTheErrorWithoutSuspectedOutliers) {
+  Report report = made_up_report();
+  EXPECT_THAT(to_terminal(report), Not(HasSubstr("Without suspected outliers")));
+  report.pose_errors = {{"P1", "", "validation", {}, 0.3, {}, {}}, {"P2", "", "validation", {}, 4.0, {}, {"outlier"}}};
+  EXPECT_THAT(to_terminal(report),
+              HasSubstr("Without suspected outliers the rms error is 0.300 mm instead of 2.836 mm"));
+}
+
 TEST(Terminal, DefinesSharedFunctionsAndShowsWhoCallsThem) {
   EXPECT_THAT(to_terminal(made_up_report()), Not(HasSubstr("share")));
   Report report = made_up_sharing_report();
