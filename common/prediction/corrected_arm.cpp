@@ -45,13 +45,13 @@ std::vector<Expression> symbols(Algebra& algebra, int joints, std::string (*name
   return all;
 }
 
-/// Where the drive turns the joint, and its correction by where it was commanded.
-Expression actual_of(const JointCorrection& correction, Expression commanded, Expression driven, int joint) {
-  if (correction.is_neutral()) return driven;
+Expression actual_of(const JointCorrection& correction, Expression commanded, int joint) {
+  if (correction.is_neutral()) return commanded;
   const AngleBranch& branch = correction.branch();
   const Expression on_branch = branch.wraps ? wrapped_near(commanded, branch.centre_rad) : commanded;
   const Expression theta = held_within(on_branch, correction.range_rad());
-  return driven + commanded.algebra().formula('g' + std::to_string(joint), simplified(correction.formula()), {theta});
+  return commanded +
+         commanded.algebra().formula('g' + std::to_string(joint), simplified(correction.formula()), {theta});
 }
 
 /// From the base to the flange, without base and tool.
@@ -72,6 +72,10 @@ SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std
                         const std::vector<Expression>& actual, const SymbolicDisplacement& by) {
   std::vector<Expression> joints = actual;
   for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = joints[i] + by.joints[i];
+  for (const auto& [joint, from, factor] : robot.chain.couplings) {  // by commands alone: errors do not pass through
+    Expression& turned = joints[static_cast<std::size_t>(joint)];
+    turned = turned + factor * algebra.symbol(commanded_joint(from + 1));
+  }
   const SymbolicFrame base = moved(SymbolicFrame(algebra), by.sensor) * SymbolicFrame(algebra, robot.sensor_from_base);
   return base * (flange(algebra, robot.chain, joints, by.places) * SymbolicFrame(algebra, robot.tool(target)));
 }
@@ -112,11 +116,10 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
   const int n = robot.chain.size();
   const std::vector<Expression> commanded = symbols(algebra, n, commanded_joint);
   const std::vector<Expression> actual = symbols(algebra, n, actual_joint);
-  const std::vector<Expression> driven = driven_joints(robot.chain, commanded);
   CorrectedArm arm;
   for (int i = 0; i < n; ++i) {
     const auto joint = static_cast<std::size_t>(i);
-    arm.actual.push_back(actual_of(robot.corrections[joint], commanded[joint], driven[joint], i + 1));
+    arm.actual.push_back(actual_of(robot.corrections[joint], commanded[joint], i + 1));
   }
   SymbolicDisplacement by(algebra, static_cast<std::size_t>(n));
   const SymbolicFrame without = tool_pose(algebra, robot, target, actual, by);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSame = 1e-12;  // m or rad, far below what any arm repeats
 
-struct Replacement {
+struct ByteChange {
   std::size_t begin, end;
   std::string text;
 };
@@ -34,7 +34,7 @@ std::string attribute_text(const char* name, const Eigen::Vector3d& values) {
 }
 
 void replace_attribute(const XmlElement& origin, const char* name, const Eigen::Vector3d& old_values,
-                       const Eigen::Vector3d& values, std::vector<Replacement>& replacements) {
+                       const Eigen::Vector3d& values, std::vector<ByteChange>& replacements) {
   if ((values - old_values).cwiseAbs().maxCoeff() <= kSame) return;
   if (const XmlAttribute* written = origin.attribute(name)) {
     replacements.push_back({written->begin, written->end, triple(values)});
@@ -44,7 +44,7 @@ void replace_attribute(const XmlElement& origin, const char* name, const Eigen::
   }
 }
 
-void replace_origin(const NewOrigin& change, std::vector<Replacement>& replacements) {
+void replace_origin(const NewOrigin& change, std::vector<ByteChange>& replacements) {
   const Origin &old_origin = change.joint->origin, &origin = change.origin;
   if (const XmlElement* written = change.joint->element.child("origin")) {
     replace_attribute(*written, "xyz", old_origin.xyz_m, origin.xyz_m, replacements);
@@ -100,11 +100,11 @@ std::string motion_text(const Joint& joint) {
 }  // namespace
 
 std::string with_origins(const std::string& text, const std::vector<NewOrigin>& origins) {
-  std::vector<Replacement> replacements;
+  std::vector<ByteChange> replacements;
   for (const NewOrigin& origin : origins) replace_origin(origin, replacements);
-  std::ranges::sort(replacements, std::ranges::greater{}, &Replacement::begin);
+  std::ranges::sort(replacements, std::ranges::greater{}, &ByteChange::begin);
   std::string changed = text;
-  for (const Replacement& replacement : replacements)
+  for (const ByteChange& replacement : replacements)
     changed.replace(replacement.begin, replacement.end - replacement.begin, replacement.text);
   return changed;
 }

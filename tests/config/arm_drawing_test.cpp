@@ -33,7 +33,7 @@ urdf: {file: arm.urdf, base: a, tip: b}
 home_deg: [1, 2, 3, 4]
 )yaml";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_all(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
@@ -41,11 +41,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 std::string drawn_text(const std::string& convention) {
   const bool axes = convention == "urdf";
-  std::string text = replaced(kDrawn, "CONVENTION", convention);
-  text = replaced(text, "ROW1",
+  std::string text = with_all(kDrawn, "CONVENTION", convention);
+  text = with_all(text, "ROW1",
                   axes ? "xyz_mm: [0, 10, 300], rpy_deg: [0, 0, 20], axis: [0, 0, 1]"
                        : "alpha_deg: 90, a_mm: 20, d_mm: 300, theta_offset_deg: 20");
-  return replaced(text, "ROW2",
+  return with_all(text, "ROW2",
                   axes ? "xyz_mm: [400, 10, 0], rpy_deg: [90, 0, 0], axis: [0, 1, 1]"
                        : "alpha_deg: 0, a_mm: 400, d_mm: 10, beta_deg: 0.5");
 }
@@ -95,7 +95,7 @@ TEST_P(DrawnRobots, HaveTheirMassesWhereTheFileHasThem) {
 TEST(DrawnRobots, AreRefusedWhereTheyMakeNoSense) {
   const auto complaint_about = [](const std::string& from, const std::string& to) {
     const std::string text = drawn_text("urdf");
-    return complaint([&] { robot_of(replaced(text, from, to)); });
+    return complaint([&] { robot_of(with_all(text, from, to)); });
   };
   EXPECT_THAT(complaint_about("axis: [0, 0, 1]", "axis: [0, 0, 0]"), HasSubstr("axis must not be zero"));
   EXPECT_THAT(complaint_about("direction: -1", "direction: 0"), HasSubstr("direction must be 1 or -1"));

@@ -17,13 +17,12 @@ inline constexpr std::array kArms{Arm::standard, Arm::modified, Arm::sliding_sta
 inline Robot laden_arm(RandomStream& stream, Arm arm) {
   const bool standard = arm == Arm::standard || arm == Arm::sliding_standard;
   Robot robot;
-  robot.chain = mounted_arm(stream, 6, standard ? Convention::standard_dh : Convention::modified_dh);
+  robot.chain = random_arm(stream, 6, standard ? Convention::standard_dh : Convention::modified_dh);
   if (arm == Arm::sliding_standard || arm == Arm::sliding_modified) {
     Joint& joint = robot.chain.joints[2];
     joint.type = JointType::prismatic;
     joint.lower = -0.5;
     joint.upper = 0.5;
-    std::erase_if(robot.chain.couplings, [](const CommandCoupling& coupling) { return coupling.joint == 2; });
   }
   for (int link = 0; link < 6; ++link) {
     robot.masses.push_back(

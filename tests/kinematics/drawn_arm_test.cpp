@@ -10,18 +10,18 @@
 namespace demecal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 Origin random_origin(RandomStream& stream) {
   Origin origin;
   for (double& length : origin.xyz_m) length = stream.real(-0.4, 0.4);
-  for (double& angle : origin.rpy_rad) angle = stream.real(-kPi, kPi);
+  for (double& angle : origin.rpy_rad) angle = stream.real(-kHalfTurn, kHalfTurn);
   return origin;
 }
 
 /// A right angle as files write it, exact or rounded, or none.
 double file_angle(RandomStream& stream) {
-  constexpr std::array kAngles{0.0, 0.0, 1.5707963, -1.570796327, kPi / 2, kPi, 3.14159, 1e-5};
+  constexpr std::array kAngles{0.0, 0.0, 1.5707963, -1.570796327, kHalfTurn / 2, kHalfTurn, 3.14159, 1e-5};
   return kAngles[stream.index(kAngles.size())];
 }
 
@@ -220,7 +220,7 @@ TEST(CoupledJoints, AreDrivenByBothCommandsAndComeBack) {
 
 TEST(ControllerAngles, TurnBackIntoTheRotationThatEachControllerMeans) {
   RandomStream stream{1808};
-  const auto turned = [](const Eigen::Vector3d& axis, double deg) { return about(axis, deg * kPi / 180.0); };
+  const auto turned = [](const Eigen::Vector3d& axis, double deg) { return about(axis, deg * kHalfTurn / 180.0); };
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   for (int which = 0; which < 200; ++which) {
     Origin origin = random_origin(stream);

@@ -146,7 +146,7 @@ TEST(CorrectedCommand, OfFewerThanSixJointsPutsThePositionFirst) {
   for (const int joints : {4, 5}) {
     int regular = 0;
     for (int trial = 0; trial < 200; ++trial) {
-      const Chain nominal = mounted_arm(stream, joints, Convention::standard_dh);
+      const Chain nominal = random_arm(stream, joints, Convention::standard_dh);
       const CorrectedRobot robot = random_robot(stream, nominal, 2e-3, 0.01);
       const JointVector desired = random_joints(stream, nominal);
       const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, desired) * robot.tool("");

@@ -69,7 +69,7 @@ TEST(EffectsOfARobot, MoveTheToolAsTheSumOfTheirMotionsAtFirstOrder) {
 TEST(EffectsOfARobot, AboutAJointsAxisAddToItsValue) {
   RandomStream stream{662};
   for (int trial = 0; trial < 10; ++trial) {
-    CorrectedRobot robot = random_robot(stream, mounted_arm(stream, 6, Convention::standard_dh, 0.3), 0.01, 0.0);
+    CorrectedRobot robot = random_robot(stream, random_arm(stream, 6, Convention::standard_dh, 0.3), 0.01, 0.0);
     robot.described = heavy(stream, robot.chain);
     const JointVector q = random_joints(stream, robot.chain);
     JointVector shifted = q;
@@ -80,6 +80,25 @@ TEST(EffectsOfARobot, AboutAJointsAxisAddToItsValue) {
     }
     EXPECT_EQ(robot.actual_joints(q), shifted);
     EXPECT_LT((robot.predict(q, "").matrix() - without_effects(robot).predict(shifted, "").matrix()).norm(), 1e-14);
+  }
+}
+
+TEST(EffectsOfARobot, AboutAJointsAxisDoNotPassOnToJointsThatItsCommandTurns) {
+  RandomStream stream{668};
+  for (int trial = 0; trial < 10; ++trial) {
+    CorrectedRobot robot = random_robot(stream, mounted_arm(stream, 6, Convention::standard_dh), 0.01, 0.01);
+    robot.described = heavy(stream, robot.chain);
+    Chain uncoupled = robot.chain;  // commanded by what its drives turn
+    uncoupled.couplings.clear();
+    const JointVector q = random_joints(stream, robot.chain);
+    JointVector turned = driven_joints(robot.chain, q);
+    for (int joint = 0; joint < 6; ++joint) {
+      const double offset = stream.real(-0.1, 0.1);
+      robot.effects.push_back({.kind = "joint_offset", .joint = joint, .values = {offset}});
+      turned[joint] += offset + robot.corrections[static_cast<std::size_t>(joint)](q[joint]);
+    }
+    const Eigen::Matrix4d expected = (robot.sensor_from_base * forward(uncoupled, turned) * robot.tool("")).matrix();
+    EXPECT_LT((robot.predict(q, "").matrix() - expected).norm(), 1e-13);
   }
 }
 
