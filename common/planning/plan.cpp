@@ -96,12 +96,13 @@ class Planning {
     const auto judging_poses =
         static_cast<std::size_t>(judging(request_.validation, most_) + judging(request_.accept, most_));
     places_ = draw_poses(space_, std::max(kPlaces, judging_poses), stream(2)).poses;
-    if (candidates_.size() >= std::max<std::size_t>(most, 4) && places_.size() >= judging_poses) return;
+    const std::size_t needed = request_.accuracy_m ? static_cast<std::size_t>(fewest_poses(model_)) : most;
+    if (candidates_.size() >= std::max<std::size_t>(needed, 4) && places_.size() >= judging_poses) return;
     const auto worst = std::ranges::max_element(plan_.refused) - plan_.refused.begin();
     throw InputError({request_.robot.name, 0}, std::to_string(plan_.feasible),
                      fmt::format("of {} random poses are feasible, too few to choose {} from; most were refused since: "
                                  "{}. Widen the cell, or ask for fewer poses",
-                                 plan_.drawn, most_, to_string(static_cast<Obstruction>(worst))));
+                                 plan_.drawn, needed, to_string(static_cast<Obstruction>(worst))));
   }
 
   Design of_size(Design design, int poses) const {
@@ -155,7 +156,7 @@ class Planning {
     const int step = std::max(1, last / kPoints);
     for (int poses = 1; poses <= last; ++poses) {
       if (!greedy.add_best()) break;
-      const bool shown = poses >= fewest_poses(model_) && (poses % step == 0 || poses == static_cast<int>(chosen));
+      const bool shown = poses == static_cast<int>(chosen) || (poses >= fewest_poses(model_) && poses % step == 0);
       if (!shown) continue;
       CurvePoint point{poses, workspace.predicted(greedy.covariance()), 0.0};
       for (int i = 0; i < kRandomDraws; ++i) {

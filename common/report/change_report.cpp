@@ -22,7 +22,7 @@ std::pair<std::string, double> shown_unit(const std::string& unit) {
   return {unit, 1.0};
 }
 
-std::string advice_on(const ChangeCause& cause, const std::string& model_file) {
+std::string what_to_do_about(const ChangeCause& cause, const std::string& model_file) {
   const std::string update = "or bring the model up to date: demecal diagnose DATASET.yaml --prior " + model_file;
   switch (law_of(cause.effect).subject()) {
     case Subject::instrument:
@@ -39,7 +39,7 @@ std::string advice_on(const ChangeCause& cause, const std::string& model_file) {
       cause.effect.joint + 1, update);
 }
 
-std::string advice(const ChangeReport& change, const std::string& model_file) {
+std::string what_to_do(const ChangeReport& change, const std::string& model_file) {
   if (change.unnamed)
     return "The errors are larger than the model expects and none of the causes tried explains them: measure 30 poses "
            "or more and run demecal diagnose DATASET.yaml --prior " +
@@ -47,7 +47,7 @@ std::string advice(const ChangeReport& change, const std::string& model_file) {
   if (change.found.empty())
     return change.set_up_anew ? "The robot itself is as it was; its base was found again in the instrument's new frame."
                               : "Nothing needs to be done.";
-  return advice_on(change.found.back(), model_file);
+  return what_to_do_about(change.found.back(), model_file);
 }
 
 Json cause_json(const ChangeCause& cause, const Robot& robot) {
@@ -91,7 +91,7 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"tried", Json::array()},
             {"outliers", Json::array()},
             {"not_testable", change.not_testable},
-            {"advice", advice(change, model_file)}};
+            {"advice", what_to_do(change, model_file)}};
   for (const ChangeCause& cause : change.found) json["causes"].push_back(cause_json(cause, data.robot));
   if (!change.found.empty()) json["cause"] = cause_json(change.found.front(), data.robot);
   for (const ChangeCause& cause : change.found)
@@ -112,7 +112,7 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
     if (!cause.rivals.empty())
       text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));
   }
-  text += "  " + advice(change, model_file) + '\n';
+  text += "  " + what_to_do(change, model_file) + '\n';
   text += fmt::format("  errors of the tool: rms {:.3g} mm by the model", millimetres(change.error_m));
   if (!change.found.empty()) text += fmt::format(", {:.3g} mm once this is taken in", millimetres(change.left_m));
   text += fmt::format("; {} poses, noise {:.3g} mm per axis\n", change.poses, millimetres(change.noise_m));
