@@ -10,10 +10,10 @@ namespace demecal::inline report {
 namespace {
 
 /// Poses enough for a mean of what the posterior says.
-constexpr std::size_t kMostPoses = 300;
+constexpr std::size_t kMostJudged = 300;
 
 double mean_posterior_m2(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows) {
-  const std::size_t step = 1 + (rows.size() - 1) / kMostPoses;
+  const std::size_t step = 1 + (rows.size() - 1) / kMostJudged;
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < rows.size(); i += step) {
     sum += posterior_square_m2(*model.posterior, model.robot, data, data.poses[rows[i]]);

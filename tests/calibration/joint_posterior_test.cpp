@@ -87,7 +87,7 @@ TEST(JointPosterior, IsWhereErrorsAndMisfitTogetherAreMostProbable) {
     const JointBelief belief = belief_about({}, 6);
     const auto misfit = [&](const JointVector& errors) {
       const Eigen::Isometry3d reached = nominal.predict(pose.joints + errors, "");
-      const Eigen::VectorXd left = residual(reached, data, pose);
+      const Eigen::VectorXd left = residual(nominal, reached, data, pose);
       return errors.squaredNorm() / 1e-6 + left.head<3>().squaredNorm() / std::pow(scales[kPosition], 2) +
              left.segment<3>(3).squaredNorm() / std::pow(scales[kOrientation], 2) +
              left.tail<2>().squaredNorm() / std::pow(scales[kDistance], 2);

@@ -42,6 +42,7 @@ struct PerfectRun {
   LoopOutcome loop;
   Calibration calibration;
   DataCheck check;
+  std::vector<JointCandidates> candidates;
   std::vector<DistalStep> distal;
   std::vector<FoundTransform> structure;
   RunFacts facts;
@@ -58,7 +59,8 @@ struct PerfectRun {
     model.joints.clear();
   }
   Report report() const {
-    return make_report({arm.data, model, arm.truth, loop, preparation, calibration, check, distal, structure, facts});
+    return make_report(
+        {arm.data, model, arm.truth, loop, preparation, calibration, check, candidates, distal, structure, facts});
   }
 };
 

@@ -108,9 +108,9 @@ TEST(ResidualField, MotionColumnsAreWhatSmallMotionsOfEveryPlaceChange) {
             return moved(Eigen::Isometry3d::Identity(), sensor) * arm.truth.sensor_from_base *
                    forward(arm.truth.chain, pose.joints, places) * arm.truth.tool("");
           };
-          const Eigen::VectorXd change =
-              (residual(prediction(-kStep), arm.data, pose) - residual(prediction(kStep), arm.data, pose)) /
-              (2 * kStep);
+          const Eigen::VectorXd change = (residual(arm.truth, prediction(-kStep), arm.data, pose) -
+                                          residual(arm.truth, prediction(kStep), arm.data, pose)) /
+                                         (2 * kStep);
           Eigen::VectorXd column = field.motions.block(first, motion_column(place, axis), count, 1);
           const MeasurementRows rows = rows_of(pose);
           column.head(rows.position) *= kScales[kPosition];
