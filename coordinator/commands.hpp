@@ -36,6 +36,7 @@ const std::atomic<bool>& watch_for_interrupt();
 /// Each of these adds a subcommand whose callback sets `exit_code`. User input that is wrong leaves it as InputError.
 void add_calibrate(CLI::App& app, ExitCode& exit_code);
 void add_apply(CLI::App& app, ExitCode& exit_code);
+void add_certify(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_diagnose(CLI::App& app, ExitCode& exit_code);
 void add_evaluate(CLI::App& app, ExitCode& exit_code);

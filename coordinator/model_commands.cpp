@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "acceptance/certificate.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/input_files.hpp"
 #include "config/model_file.hpp"
@@ -129,7 +130,8 @@ ExitCode run(const EvaluateRequest& request) {
                         pose_errors(data, model, robot, nullptr),
                         data_check_entry(checked.check),
                         unapplied_effects(robot, data),
-                        {}};
+                        {},
+                        uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
   for (const UnappliedEffect& one : evaluation.effects_not_applied)

@@ -26,6 +26,7 @@
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"
+#include "report/pose_csv.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {
@@ -61,7 +62,8 @@ std::string witness_of(const std::string& name) {
   const auto is_its = [&name](const Mark& mark) { return mark.name == name; };
   if (std::ranges::any_of(kMarks, is_its)) return name;
   if (name == "study.csv") return "study.json";
-  const bool result = name == "history.csv" || name == "distal.csv" || name == "proposed.csv";
+  const bool result =
+      name == "history.csv" || name == "distal.csv" || name == "proposed.csv" || name == "pose-errors.csv";
   return result ? "report.json" : "dataset.yaml";
 }
 
@@ -82,7 +84,7 @@ std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
 }  // namespace
 
 std::vector<std::string> result_files(Method method) {
-  std::vector<std::string> files{"model.yaml", "model-best.yaml", "report.json", "report.html"};
+  std::vector<std::string> files{"model.yaml", "model-best.yaml", "report.json", "report.html", "pose-errors.csv"};
   if (has_islands(method)) files.emplace_back("history.csv");
   if (method == Method::distal) files.emplace_back("distal.csv");
   return files;
@@ -150,6 +152,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
                                      .structure = result.structure,
                                      .runtime = result.facts});
   write_result(folder, "report.json", to_json(report));
+  write_result(folder, "pose-errors.csv", pose_errors_csv(report));
   const bool evolves = has_islands(method);
   const std::vector<HistoryRow> history = evolves ? history_rows(result.history) : std::vector<HistoryRow>{};
   if (report.distal) write_result(folder, "distal.csv", distal_csv(*report.distal));

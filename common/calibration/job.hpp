@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "data/certificate_fields.hpp"
 #include "evolution/archipelago.hpp"
 #include "explanations/explanation_search.hpp"
 #include "expression/tree.hpp"
@@ -122,6 +123,7 @@ struct Job {
   ClosedLoopOptions closed_loop;
   ExplanationSearch explanations;  ///< at the loop's end; its most effects are those that the loop may add
   DistalOptions distal;
+  CertificateFields certificate{};  ///< what certificates of the model are to state
 
   bool operator==(const Job&) const = default;
 };

@@ -11,6 +11,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
+#include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
 #include "fitting/declared_model.hpp"
@@ -34,6 +35,7 @@ struct CalibratedModel {
   std::vector<Interval> measured{};  ///< of every joint, where it stood in the fitted poses; none in old models
   /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
   KnownFunctions functions{};
+  CertificateFields certificate{};  ///< what the job states for certificates
   std::string data_name;
   std::string data_sha256;
   std::uint64_t seed = 0;

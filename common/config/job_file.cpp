@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/certificate_keys.hpp"
 #include "effects/effect.hpp"
 #include "evolution/archipelago.hpp"
 #include "yaml/files.hpp"
@@ -124,7 +125,8 @@ Job load_job(const std::filesystem::path& path) {
 Job read_job(const YamlNode& root) {
   const std::filesystem::path path = root.file;
   root.with_version("job", 1).with_keys({"demecal_job", "data", "method", "seed", "model", "gp", "islands",
-                                         "closed_loop", "explanations", "distal", "targets", "joint_error_mrad"});
+                                         "closed_loop", "explanations", "distal", "targets", "joint_error_mrad",
+                                         "certificate"});
   Job job;
   job.name = path.stem().string();
   job.data_file = resolve(path, root.at("data").text()).string();
@@ -146,6 +148,7 @@ Job read_job(const YamlNode& root) {
   if (const YamlNode* loop = root.find("closed_loop")) job.closed_loop = read_closed_loop(*loop);
   if (const YamlNode* search = root.find("explanations")) job.explanations = read_explanations(*search);
   if (const YamlNode* distal = root.find("distal")) job.distal = read_distal(*distal);
+  if (const YamlNode* certificate = root.find("certificate")) job.certificate = read_certificate(*certificate);
   job.targets = read_targets(root);
   if (!job.corrections.seeds.empty() && job.method == Method::distal && job.distal.form == DistalForm::sequential)
     root.at("gp").fail("", "has seed formulas, for which the sequential form of distal learning has no place");

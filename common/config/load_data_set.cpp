@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/certificate_keys.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "data/columns.hpp"
@@ -108,7 +109,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
   const YamlNode root = read_yaml(path);
   root.with_version("dataset", 1)
       .with_keys({"demecal_dataset", "name", "robot", "poses", "columns", "anchors_mm", "tools_mm", "units", "frame",
-                  "split", "exclude"});
+                  "split", "exclude", "certificate"});
   DataSet data;
   data.name = root.find("name") ? root.at("name").text() : path.stem().string();
   data.robot = read_named(root.at("robot"), load_robot);
@@ -132,6 +133,7 @@ DataSet load_data_set(const std::filesystem::path& path) {
     split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
   }
   exclude(root.find("exclude"), data);
+  if (const YamlNode* certificate = root.find("certificate")) read_certificate(*certificate);
   return data;
 }
 

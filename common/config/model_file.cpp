@@ -13,6 +13,7 @@
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "calibration/shared_functions.hpp"
+#include "config/certificate_keys.hpp"
 #include "config/input_files.hpp"
 #include "config/job_file.hpp"
 #include "data/text.hpp"
@@ -203,7 +204,7 @@ std::string model_text(const CalibratedModel& model) {
     const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
     text << correction_text(summary, correction, model.functions);
   }
-  text << posterior_text(model) << prediction_text(model);
+  text << posterior_text(model) << prediction_text(model) << certificate_text(model.certificate);
   return text.str();
 }
 
@@ -211,7 +212,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   const YamlNode file = read_yaml(path).with_version("model", 1);
   file.with_keys({"demecal_model", "job", "version", "method", "seed", "data", "robot", "declared", "base", "tools",
                   "links", "estimates", "effects", "shared_functions", "corrections", "measured_ranges", "posterior",
-                  "prediction_interval"});
+                  "prediction_interval", "certificate"});
   CalibratedModel model;
   model.job = file.at("job").text();
   model.version = file.at("version").text();
@@ -241,6 +242,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   model.robot.described = model.nominal;
   read_posterior(file, model);
   read_prediction(file, model);
+  if (const YamlNode* certificate = file.find("certificate")) model.certificate = read_certificate(*certificate);
   return model;
 }
 

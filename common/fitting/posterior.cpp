@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -103,16 +104,32 @@ double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& p
   return 3.0 * (std::pow(interval.noise_m, 2) + model_error_m2);
 }
 
+double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints) {
+  constexpr double kGrowth = 2.0, kLeastRange = 0.2;
+  double widened = 1.0;
+  for (std::size_t joint = 0; joint < measured.size() && joint < static_cast<std::size_t>(joints.size()); ++joint) {
+    const Interval& range = measured[joint];
+    const double centre = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
+    double away = joints[static_cast<Eigen::Index>(joint)] - centre;
+    if (chain.joints[joint].type == JointType::revolute) away = std::remainder(away, 2.0 * std::numbers::pi);
+    widened += kGrowth * std::max(0.0, std::abs(away) - half) / std::max(2.0 * half, kLeastRange);
+  }
+  return widened;
+}
+
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                  const DataSet& data, const MeasuredPose& pose) {
-  return interval.quantile *
-         std::sqrt(posterior_square_m2(posterior, robot, data, pose) + noise_square_m2(interval, pose));
+                  const DataSet& data, const MeasuredPose& pose, double widened) {
+  PredictionInterval model_alone = interval;
+  model_alone.noise_m = model_alone.distance_noise_m = 0.0;
+  const double model_m2 = posterior_square_m2(posterior, robot, data, pose) + noise_square_m2(model_alone, pose);
+  const double noise_m2 = noise_square_m2(interval, pose) - noise_square_m2(model_alone, pose);
+  return interval.quantile * std::sqrt(widened * widened * model_m2 + noise_m2);
 }
 
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                       const Stop& stop) {
+                       const Stop& stop, double widened) {
   const double posterior_m2 = pose_covariance(posterior, robot, stop).topLeftCorner<3, 3>().trace();
-  return interval.quantile * std::sqrt(posterior_m2 + 3.0 * std::pow(interval.model_error_m, 2));
+  return widened * interval.quantile * std::sqrt(posterior_m2 + 3.0 * std::pow(interval.model_error_m, 2));
 }
 
 }  // namespace demecal::inline fitting

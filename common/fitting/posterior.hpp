@@ -10,8 +10,10 @@
 
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
+#include "expression/bound.hpp"
 #include "fitting/declared_model.hpp"
 #include "fitting/parameter_space.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
@@ -87,13 +89,19 @@ double posterior_square_m2(const Posterior& posterior, const CorrectedRobot& rob
 /// The expected square that noise and model error add at a pose, m^2.
 double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& pose);
 
-/// The radius that holds 95 % of the tool errors measured at that pose, m. Its measurement noise is in it.
+/// By how much the model's part of an error is taken to be larger where joints stand outside what was measured: 1
+/// within the ranges, and growing by each joint's way outside, in shares of its range (whole turns aside). Nothing was
+/// seen there: the growth is a judgement, not a measurement.
+double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints);
+
+/// The radius that holds 95 % of the tool errors measured at that pose, m. Its measurement noise is in it; all else is
+/// `widened` times as large (see extrapolation()).
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                  const DataSet& data, const MeasuredPose& pose);
+                  const DataSet& data, const MeasuredPose& pose, double widened = 1.0);
 
 /// The radius about the predicted point of the robot's own tool that holds the real one 95 % of the time, m: without
 /// measurement noise.
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                       const Stop& stop);
+                       const Stop& stop, double widened = 1.0);
 
 }  // namespace demecal::inline fitting

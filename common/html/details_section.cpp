@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "fitting/fit.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "kinematics/units.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline html {
@@ -32,10 +34,23 @@ std::string owner_of(const std::string& name) {
   return name.substr(0, name.find('_'));
 }
 
+/// Whether the poses say less of a link's number than was believed of it before: what the fit gives then is its maker's
+/// figure and how uncertain that was taken to be.
+bool is_undetermined(const ParameterEntry& parameter, const std::string& unit) {
+  constexpr double kShare = 0.7;
+  if (!parameter.name.starts_with("joint ") || !parameter.standard_error) return false;
+  const FitOptions usual;
+  return *parameter.standard_error > kShare * (unit == "mm" ? millimetres(usual.prior_m) : degrees(usual.prior_rad));
+}
+
 std::string parameter_row(const ParameterEntry& parameter) {
   const Unit unit = unit_of(parameter.name);
   const auto& [name, nominal, value, error] = parameter;
   const auto moved = nominal && value ? std::optional(*value - *nominal) : std::nullopt;
+  if (is_undetermined(parameter, unit.name)) {
+    return table_row("<code>" + escaped(name) + "</code>",
+                     {fixed(nominal, unit.decimals), "not determined", "–", "–", unit.name, "–"});
+  }
   const bool seen = error && *error > 0.0;
   const std::string surely = moved && seen ? fixed(std::abs(*moved) / *error, 1) : (error ? "not identified" : "–");
   return table_row("<code>" + escaped(name) + "</code>",

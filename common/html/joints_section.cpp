@@ -140,9 +140,12 @@ std::string formula_line(const JointEntry& joint) {
 std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
   const std::string note =
       joint.note.empty() ? "" : "<p class=\"note\">Left neutral: " + escaped(joint.note) + ".</p>\n";
-  const std::string figures = plot(joint) + evolution_figure(joint, history);
+  const std::string curve = plot(joint), evolution = evolution_figure(joint, history);
   return "<article class=\"joint\">\n" + joint_head(joint) + note +
-         (figures.empty() ? "" : "<div class=\"pair\">\n" + figures + "</div>\n") + formula_line(joint) +
+         (curve.empty() ? "" : "<div class=\"pair\">\n" + curve + "</div>\n") + formula_line(joint) +
+         (evolution.empty()
+              ? ""
+              : "<details><summary class=\"soft\">how it evolved</summary>\n" + evolution + "</details>\n") +
          "</article>\n";
 }
 

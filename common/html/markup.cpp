@@ -145,11 +145,24 @@ svg.bars { min-width: 620px; }
 .chart polyline.i3 { stroke: var(--i3); } .chart polyline.i4 { stroke: var(--i4); } .chart polyline.i5 { stroke: var(--i5); }
 .chart circle.i0 { fill: var(--i0); } .chart circle.i1 { fill: var(--i1); } .chart circle.i2 { fill: var(--i2); }
 .chart circle.i3 { fill: var(--i3); } .chart circle.i4 { fill: var(--i4); } .chart circle.i5 { fill: var(--i5); }
+.controls { display: flex; flex-wrap: wrap; gap: 6px 16px; align-items: center; margin: 8px 0; font-size: 13.5px; color: var(--soft); }
+.controls label { display: inline-flex; align-items: center; gap: 6px; max-width: 100%; } .controls label[hidden] { display: none; }
+.controls input, .controls select, .controls button { font: inherit; color: var(--ink); background: var(--page); border: 1px solid var(--line); border-radius: 6px; padding: 3px 7px; min-width: 0; max-width: 100%; }
+.controls input[type="range"] { padding: 0; width: 130px; } .controls button { min-width: 32px; min-height: 30px; cursor: pointer; } .controls button:disabled { opacity: 0.4; cursor: default; }
+.buttons { display: inline-flex; flex-wrap: wrap; gap: 4px; } canvas { display: block; width: 100%; touch-action: pan-y; } #view-canvas { cursor: grab; }
+.pose-name { position: sticky; top: 0; z-index: 1; background: var(--page); padding: 6px 0; margin: 0; min-height: 2.6em; font-variant-numeric: tabular-nums; }
+.wide { overflow-x: auto; } #pose-errors thead button { font: inherit; color: inherit; background: none; border: 0; padding: 2px 0; cursor: pointer; }
+#pose-errors th[aria-sort="descending"] button::after { content: " ↓"; } #pose-errors th[aria-sort="ascending"] button::after { content: " ↑"; }
+#pose-errors th:first-child, #pose-errors th:nth-child(2), #pose-errors td:nth-child(2), #pose-errors th:last-child { text-align: left; } #pose-errors tbody tr[tabindex] { cursor: pointer; } #pose-errors tbody tr:hover > *, #pose-errors tbody tr:focus > * { background: var(--idle-back); }
+details.folded { margin-top: 26px; border-top: 1px solid var(--line); } details.folded > summary { font-size: 19px; font-weight: 650; padding: 10px 0; cursor: pointer; }
+details.folded > section > h2 { display: none; }
+@media (max-width: 520px) { main { padding: 18px 12px 40px; } .panel { padding: 10px; } .pair { grid-template-columns: minmax(0, 1fr); } h1 { font-size: 24px; } .headline { font-size: 18px; } .headline b { white-space: normal; } }
 @media print {
   :root { color-scheme: light; --page: #ffffff; }
   body { font-size: 11pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
   .joint, .tile, tr, figure { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .controls, .pose-name { display: none; } details.folded::details-content { content-visibility: visible; height: auto; } .wide { overflow: visible; }
   .panel, .panel.long { overflow: visible; max-height: none; } .long thead th { position: static; } pre.formula { max-height: none; }
 }
 )css";

@@ -20,6 +20,12 @@ std::string joints_section(const Report& report, const FitnessHistory& history);
 std::string parameters_section(const Report& report);
 /// Poses that were noticed, by name.
 std::string poses_section(const Report& report);
+/// Every pose with its error: a view of the arm, plots, and a table that sorts and filters; with their script.
+std::string where_section(const Report& report);
+/// What the script of where_section() reads: JSON without a character that HTML could take for markup.
+std::string pose_data(const Report& report);
+/// What only those who want to know how open; empty where `body` is. Opened in print.
+std::string folded(const std::string& title, const std::string& body);
 /// What the run took, and what repeats it.
 std::string run_section(const Report& report);
 

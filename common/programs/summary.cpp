@@ -39,7 +39,7 @@ std::string block(const Target& target, const CorrectedTarget& corrected, const 
   const TargetFigures figures = target_figures(target, corrected, arm);
   text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg", figures.moved_mm, figures.turned_deg);
   if (corrected.error95_m)
-    text += fmt::format(", then within {:.3f} mm of the target (95 %)", millimetres(*corrected.error95_m));
+    text += fmt::format(", corrected to within ± {:.3f} mm (k = 2)", millimetres(*corrected.error95_m));
   text += '\n';
   const std::string names = heading(figures);
   if (names != last_heading) text += names;
@@ -65,7 +65,11 @@ Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& 
   json["corrected"] = figures.corrected;
   json["difference"] = figures.difference;
   json["moved_mm"] = figures.moved_mm;
-  if (corrected.error95_m) json["predicted_error95_mm"] = millimetres(*corrected.error95_m);
+  if (corrected.error95_m) {
+    json["predicted_error95_mm"] = millimetres(*corrected.error95_m);
+    json["standard_uncertainty_mm"] = 0.5 * millimetres(*corrected.error95_m);
+    json["coverage_factor"] = 2;
+  }
   json["left_as_programmed"] = corrected.notes;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
   return json;

@@ -126,7 +126,8 @@ CorrectedTarget correct_target(const Target& target, const CommandModel& model, 
   corrected.residual_rad = solution.orientation_residual_rad;
   corrected.command_tool = model.nominal_tool(corrected.command);
   if (model.posterior && model.interval)
-    corrected.error95_m = real_radius95_m(*model.interval, *model.posterior, model.robot, stop);
+    corrected.error95_m = real_radius95_m(*model.interval, *model.posterior, model.robot, stop,
+                                          extrapolation(model.nominal.chain, model.measured, stop.joints));
   if (target.is_pose()) settle_position(target, model, goal.translation(), corrected);
   return corrected;
 }

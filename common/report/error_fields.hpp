@@ -3,6 +3,7 @@
 
 #include "report/json.hpp"
 #include "report/report.hpp"
+#include "report/uncertainty.hpp"
 
 namespace demecal::inline report {
 
@@ -30,6 +31,29 @@ void fields(auto& visit, Like<DataCheckEntry> auto& check) {
 void fields(auto& visit, Like<PoseErrorEntry> auto& pose) {
   visit("id", pose.id, "target", pose.target, "set", pose.set, "before_mm", pose.before_mm, "after_mm", pose.after_mm,
         "interval95_mm", pose.interval95_mm, "flags", pose.flags);
+  visit.when(!pose.place.joints.empty(), "joints", pose.place.joints);
+  visit.when(!pose.place.position_mm.empty(), "position_mm", pose.place.position_mm);
+  visit.when(!pose.place.before_error_mm.empty(), "before_error_mm", pose.place.before_error_mm);
+  visit.when(!pose.place.after_error_mm.empty(), "after_error_mm", pose.place.after_error_mm);
+  visit.when(pose.place.temperature_celsius.has_value(), "temperature_celsius", pose.place.temperature_celsius);
+  visit.when(pose.place.time_s.has_value(), "time_s", pose.place.time_s);
+}
+
+void fields(auto& visit, Like<ArmJointEntry> auto& joint) {
+  visit("type", joint.type, "placement", joint.placement);
+}
+
+void fields(auto& visit, Like<ArmEntry> auto& arm) {
+  visit("base", arm.base, "joints", arm.joints, "flange", arm.flange, "tool_mm", arm.tool_mm);
+}
+
+void fields(auto& visit, Like<UncertaintyContribution> auto& one) {
+  visit("name", one.name, "type", one.type, "standard_mm", one.standard_mm);
+}
+
+void fields(auto& visit, Like<UncertaintyEntry> auto& entry) {
+  visit("contributions", entry.contributions, "standard_mm", entry.standard_mm, "coverage_factor",
+        entry.coverage_factor, "expanded_mm", entry.expanded_mm, "remark", entry.remark);
 }
 
 }  // namespace demecal::inline report

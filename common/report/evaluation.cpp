@@ -68,7 +68,7 @@ void fields(auto& visit, Like<UnappliedEffect> auto& effect) {
 
 void fields(auto& visit, Like<Evaluation> auto& evaluation) {
   visit("error_mm", evaluation.error_mm, "pose_errors", evaluation.pose_errors, "data_check", evaluation.data_check,
-        "effects_not_applied", evaluation.effects_not_applied);
+        "effects_not_applied", evaluation.effects_not_applied, "uncertainty", evaluation.uncertainty);
 }
 
 void fields(auto& visit, Like<ComparedMethod> auto& method) {
@@ -96,13 +96,17 @@ ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
 
 std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
                                         const CorrectedRobot* before) {
+  constexpr double kOutside = 1.1;  ///< less is not worth a flag
   std::vector<PoseErrorEntry> poses;
   for (const MeasuredPose& pose : data.poses) {
     PoseErrorEntry entry{pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
+    const double widened = extrapolation(data.robot.chain, model.measured, pose.joints);
     if (before != nullptr) entry.before_mm = if_finite(millimetres(tool_error_m(*before, data, pose)));
     entry.after_mm = if_finite(millimetres(tool_error_m(robot, data, pose)));
     if (model.posterior && model.interval)
-      entry.interval95_mm = if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose)));
+      entry.interval95_mm =
+          if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, widened)));
+    if (widened > kOutside) entry.flags.emplace_back("outside_measured");
     poses.push_back(std::move(entry));
   }
   return poses;

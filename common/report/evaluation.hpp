@@ -15,6 +15,7 @@
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/report.hpp"
+#include "report/uncertainty.hpp"
 
 namespace demecal::inline report {
 
@@ -59,11 +60,12 @@ struct Evaluation {
   std::vector<PoseErrorEntry> pose_errors;  ///< before_mm is none
   DataCheckEntry data_check;
   std::vector<UnappliedEffect> effects_not_applied;
-  std::optional<PredictionEntry> prediction;  ///< for people alone
+  std::optional<PredictionEntry> prediction;      ///< for people alone
+  std::optional<UncertaintyEntry> uncertainty{};  ///< of a corrected position at poses like these
 };
 
 /// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "pose_errors": [...],
-/// "data_check": ..., "effects_not_applied": [...]} on one line.
+/// "data_check": ..., "effects_not_applied": [...], "uncertainty": ...} on one line.
 std::string to_json(const Evaluation& evaluation);
 
 struct ComparedMethod {

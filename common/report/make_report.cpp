@@ -58,7 +58,9 @@ Report::Poses named_poses(const Conclusions& run) {
 /// With what is known of poses by name.
 std::vector<PoseErrorEntry> flagged_errors(const Conclusions& run, const Report::Poses& named) {
   std::vector<PoseErrorEntry> poses = pose_errors(run.data, run.model, run.model.robot, &run.before);
-  for (PoseErrorEntry& pose : poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    PoseErrorEntry& pose = poses[i];
+    pose.place = pose_place(run.data, run.data.poses[i], run.before, run.model.robot);
     if (std::ranges::find(named.outliers, pose.id) != named.outliers.end()) pose.flags.emplace_back("outlier");
     if (std::ranges::find(named.near_singular, pose.id) != named.near_singular.end())
       pose.flags.emplace_back("near_singular");
@@ -180,6 +182,7 @@ Report make_report(const Conclusions& run) {
     report.unseen_validation_rms_mm = BeforeAfter{if_finite(unseen->before_mm), if_finite(unseen->after_mm)};
   }
   report.pose_errors = flagged_errors(run, report.poses);
+  if (!data.poses.empty()) report.arm = arm_entry(model.robot, data.poses.front().target);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   report.noise_floor_mm = noise_floor_mm(data);
   set_loop(run.loop, model.nominal, report);

@@ -60,6 +60,13 @@ Report refusal_report(const DataSet& data, const std::string& job, const DataChe
 /// The standard deviation per axis of position about the mean of its repeats, mm; nothing where no pose is repeated.
 std::optional<double> noise_floor_mm(const DataSet& data);
 
+/// Of a pose that `before` and `after` predict.
+PosePlace pose_place(const DataSet& data, const MeasuredPose& pose, const CorrectedRobot& before,
+                     const CorrectedRobot& after);
+
+/// With the tool of `target`.
+ArmEntry arm_entry(const CorrectedRobot& robot, const std::string& target);
+
 /// In the unit that its name ends with.
 ParameterEntry parameter_entry(const ParameterEstimate& estimate);
 

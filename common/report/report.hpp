@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "expression/bound.hpp"
+#include "report/pose_places.hpp"
 
 namespace demecal::inline report {
 
@@ -58,7 +59,8 @@ struct PoseErrorEntry {
   std::optional<double> before_mm;      ///< of what the closed loop started from
   std::optional<double> after_mm;       ///< of the model
   std::optional<double> interval95_mm;  ///< radius that holds 95 % of the errors there, measurement noise included
-  std::vector<std::string> flags{};     ///< "outlier", "near_singular"
+  std::vector<std::string> flags{};     ///< "outlier", "near_singular", "outside_measured"
+  PosePlace place{};
 };
 
 /// What the radii of single poses come from.
@@ -250,6 +252,7 @@ struct Report {
   std::vector<std::string> fitted_sets;                  ///< `last_fit.poses`
   std::optional<BeforeAfter> unseen_validation_rms_mm;   ///< where validation poses had a part in the last fit
   std::vector<PoseErrorEntry> pose_errors;               ///< of all poses; empty where nothing was fitted
+  std::optional<ArmEntry> arm{};                         ///< where something was fitted
   std::optional<PredictionEntry> prediction_interval{};  ///< behind their radii
   std::optional<double> noise_floor_mm;  ///< standard deviation of repeats per axis, where there are repeats
   std::vector<CauseEntry> causes;        ///< of what the loop added, the costliest first

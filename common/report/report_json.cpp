@@ -207,6 +207,7 @@ void fields(auto& visit, Like<Report> auto& report) {
     fit("poses", report.fitted_sets);
     fit.when(report.unseen_validation_rms_mm.has_value(), "unseen_validation_rms_mm", report.unseen_validation_rms_mm);
   });
+  visit.when(report.arm.has_value(), "arm", report.arm);
   visit("pose_errors", report.pose_errors, "prediction_interval", report.prediction_interval, "noise_floor_mm",
         report.noise_floor_mm);
   loop_fields(visit, report);

@@ -152,7 +152,12 @@ std::string to_terminal(const Evaluation& evaluation) {
     const SetErrors& errors = evaluation.error_mm.*set.errors;
     if (errors.mean_mm) text += figures_line(std::string("  ") + set.name, kSetColumns, errors);
   }
-  return text + intervals(evaluation.pose_errors, evaluation.prediction);
+  text += intervals(evaluation.pose_errors, evaluation.prediction);
+  if (evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
+    text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
+                        *evaluation.uncertainty->expanded_mm);
+  }
+  return text;
 }
 
 std::string to_terminal(const DataCheckEntry& check) {

@@ -171,6 +171,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .posterior = posterior_of(data, job.declared, calibration),
           .interval = interval_of(data, job.declared, calibration),
           .measured = measured_ranges(data, calibration),
+          .certificate = job.certificate,
           .data_name = data.name,
           .data_sha256 = data.sha256,
           .seed = job.seed,

@@ -31,6 +31,9 @@ inline Report full_report() {
   report.poses.excluded = {{"P31", "validation", 0.4}};
   report.unseen_validation_rms_mm = {0.37, 0.17};
   report.pose_errors = {{"P01", "A", "calibration", 0.5, 0.3, 0.8, {"outlier"}}};
+  report.pose_errors.front().place = {{10, 20}, {1, 2, 3}, {0.3, 0, 0.4}, {0.3, 0, 0}, 21.5, 60.0};
+  report.arm =
+      ArmEntry{std::vector<double>(12), {{"revolute", std::vector<double>(12)}}, std::vector<double>(12), {0, 0, 50}};
   report.prediction_interval = {2.1, 0.05, 0.0, 0.02, "accept", 30, 1, "a remark"};
   report.distal = {{1, 10, "0.001 * SIN(theta)", 40.0}};
   report.runtime.waited_share = {{"cell-a-1", 0.04}};

@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "acceptance/certificate.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "data/csv.hpp"
@@ -21,6 +22,7 @@
 #include "programs/summary.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
+#include "report/pose_csv.hpp"
 #include "report/study.hpp"
 
 namespace demecal {
@@ -92,13 +94,19 @@ TEST(WrittenFormats, ReportNamesEveryFinding) {
   EXPECT_THAT(named, ContainerEq(kinds));
 }
 
+UncertaintyEntry made_up_uncertainty() {
+  return {{{"numbers of the model", "A", 0.03}}, 0.04, 2.0, 0.08, "from poses"};
+}
+
 TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
-  const Report report = full_report();
+  Report report = full_report();
+  for (PoseErrorEntry& pose : report.pose_errors) pose.place = {};  // evaluate says no more than the errors
   expect_json("evaluate --json", {to_json(Evaluation{report.after,
                                                      report.pose_errors,
                                                      report.data_check,
                                                      {{"backlash", 2, "approach", 30, "It cannot be applied."}},
-                                                     report.prediction_interval})});
+                                                     report.prediction_interval,
+                                                     made_up_uncertainty()})});
 }
 
 /// Two cells with one seed each.
@@ -128,6 +136,23 @@ TEST(WrittenFormats, ComparisonHasTheKeysOfThePage) {
   Comparison comparison;
   comparison.methods.resize(1);
   expect_json("comparison.json", {to_json(comparison)});
+}
+
+TEST(WrittenFormats, CertificateHasTheKeysOfThePage) {
+  Certificate certificate;
+  certificate.uncertainty = made_up_uncertainty();
+  certificate.conditions.resize(1);
+  certificate.characteristics.resize(1);
+  certificate.poses.resize(1);
+  expect_json("certify --json", {to_json(certificate)});
+}
+
+TEST(WrittenFormats, PosesHaveTheColumnsOfThePage) {
+  Report arms = full_report();
+  expect_columns("pose-errors.csv", {pose_errors_csv(arms), [&arms] {
+                                       arms.arm->joints.front().type = "prismatic";
+                                       return pose_errors_csv(arms);
+                                     }()});
 }
 
 TEST(WrittenFormats, HistoriesHaveTheColumnsOfThePage) {
@@ -228,7 +253,7 @@ std::set<std::string> in_sources(const std::regex& expression) {
 }
 
 TEST(WrittenFormats, PageHasTheFilesThatTheSourcesName) {
-  static const std::regex name("\"/?([a-z][a-z-]*\\.(?:csv|jsonl?|yaml|html|journal|v2)|\\.demecal-files)\"");
+  static const std::regex name("\"/?([a-z][a-z-]*\\.(?:csv|jsonl?|yaml|html|journal|v2|pdf|xml)|\\.demecal-files)\"");
   EXPECT_THAT(formats_section("Files").keys(), ContainerEq(in_sources(name)));
 }
 

@@ -25,8 +25,22 @@ inline std::string unescaped(std::string text) {
   return text;
 }
 
-/// The words of markup, without its tags.
-inline std::string words_of(const std::string& markup) {
+/// Without what stands within its scripts, which is no markup to a browser.
+inline std::string without_scripts(const std::string& page) {
+  std::string text;
+  std::size_t at = 0;
+  for (std::size_t begin = page.find("<script"); begin != std::string::npos; begin = page.find("<script", at)) {
+    const std::size_t inside = page.find('>', begin), end = page.find("</script>", begin);
+    if (inside == std::string::npos || end == std::string::npos) break;
+    text += page.substr(at, inside + 1 - at);
+    at = end;
+  }
+  return text + page.substr(at);
+}
+
+/// The words of markup, without its tags and scripts.
+inline std::string words_of(const std::string& page) {
+  const std::string markup = without_scripts(page);
   std::string text;
   bool inside = false;
   for (const char letter : markup) {
@@ -86,9 +100,9 @@ inline std::size_t points_in(const std::vector<Points>& lines) {
 
 /// The tags that are closed wrongly or never, in words; empty in a well-formed page.
 inline std::string unbalanced(const std::string& page) {
-  const std::set<std::string> closed_by_themselves{"!DOCTYPE", "meta"};
+  const std::set<std::string> closed_by_themselves{"!DOCTYPE", "input", "meta"};
   std::vector<std::string> open;
-  for (const std::string& tag : all_between(page, "<", ">")) {
+  for (const std::string& tag : all_between(without_scripts(page), "<", ">")) {
     const std::string name = tag.substr(0, tag.find_first_of(" \n/", 1));
     if (closed_by_themselves.contains(name) || tag.ends_with('/')) continue;
     if (!tag.starts_with('/')) {

@@ -15,6 +15,7 @@ std::string library_of(const std::string& header) {
                                                                {"nlohmann/", "nlohmann_json::nlohmann_json"},
                                                                {"yaml-cpp/", "yaml-cpp"},
                                                                {"openssl/", "OpenSSL::Crypto"},
+                                                               {"libxml/", "LibXml2::LibXml2"},
                                                                {"CLI/", "CLI11::CLI11"},
                                                                {"fastdds/", "fastrtps"},
                                                                {"fastrtps/", "fastrtps"},
@@ -77,8 +78,11 @@ Violations check_libraries(const Source& source, const Map& map) {
 }
 
 Violations check_owners(const Source& source) {
-  static const std::map<std::string, std::string> owners = {
-      {"yaml-cpp", "yaml"}, {"fastrtps", "dds"}, {"fastcdr", "tests"}, {"demecal_idl", "tests"}};
+  static const std::map<std::string, std::string> owners = {{"yaml-cpp", "yaml"},
+                                                            {"LibXml2::LibXml2", "certificate"},
+                                                            {"fastrtps", "dds"},
+                                                            {"fastcdr", "tests"},
+                                                            {"demecal_idl", "tests"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;

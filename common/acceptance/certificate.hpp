@@ -1,0 +1,90 @@
+// The document of an acceptance: all that the certificate states, in whichever form it is written.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "acceptance/iso9283.hpp"
+#include "acceptance/verdict.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/certificate_fields.hpp"
+#include "data/data_set.hpp"
+#include "report/report.hpp"
+#include "report/uncertainty.hpp"
+
+namespace demecal::inline acceptance {
+
+/// What the calibration cannot know of itself.
+struct CertifiedRun {
+  CertificateFields fields;
+  double tolerance_m = 0.0;
+  std::string today;         ///< YYYY-MM-DD, of the run
+  std::string model_sha256;  ///< of the bytes of the model file
+  bool refit_base = false;   ///< base and tool were fitted to the data's calibration poses first
+};
+
+/// A quantity of the conditions under which was measured, over the judged poses.
+struct Condition {
+  std::string name;
+  std::optional<double> lower, upper;  ///< none: not recorded
+  std::string unit;
+};
+
+struct CertifiedPose {
+  std::string id, target;
+  std::size_t measurements = 0;
+  std::optional<double> before_mm{}, after_mm{}, uncertainty_mm{};  ///< AP before and after; radius of 95 % at the pose
+  bool beyond = false;                                              ///< the tolerance
+};
+
+/// What the picture shows, in the frame of the measurements, m.
+struct CertifiedView {
+  std::vector<Eigen::Vector3d> arm{};                          ///< joint by joint to the tool, at one of the poses
+  std::vector<std::pair<Eigen::Vector3d, double>> points_m{};  ///< measured, with the error there
+};
+
+struct Certificate {
+  CertificateFields fields;
+  std::vector<std::string> missing{};     ///< titles of fields that are expected and not stated
+  std::string robot, job, model_version;  ///< of the model; `robot` as stated, or as its file names it
+  std::string version;                    ///< of this program
+  std::string data_name, data_sha256, model_sha256, model_data_sha256;
+  std::string measured_on, issued_on;  ///< YYYY-MM-DD
+  bool date_is_of_run = false;         ///< nobody stated when was measured
+  std::string judged_set;              ///< "accept", "validation", "calibration"
+  std::size_t judged_rows = 0;
+  std::vector<Condition> conditions;
+  SetErrors before, after;  ///< over the judged rows
+  std::string before_words;
+  std::vector<Characteristic> characteristics;
+  Judgement judgement{};
+  std::optional<std::size_t> poses_to_decide{};  ///< in all, where it is undecided and a number of them would
+  std::vector<CertifiedPose> poses{};            ///< the largest error first
+  std::optional<UncertaintyEntry> uncertainty{};
+  std::vector<std::string> remarks{};  ///< what whoever signs should know
+  CertifiedView view{};
+};
+
+/// The poses judged: accept poses; without any validation poses, and so on.
+std::vector<std::size_t> judged_poses(const DataSet& data);
+
+/// The robot with base and tool fitted to the poses of the data that are not judged; to the judged ones where there are
+/// too few others. Throws InputError where they cannot be fitted.
+CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot);
+
+/// Throws InputError where the data hold no pose with an error to judge.
+Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run);
+
+/// "proved within 0.2 mm ..." in one sentence for whoever reads only one.
+std::string verdict_sentence(const Certificate& certificate);
+/// What more would decide; empty where it is decided.
+std::string remedy_sentence(const Certificate& certificate);
+
+/// One JSON object on one line with `demecal_certificate: 1`.
+std::string to_json(const Certificate& certificate);
+
+}  // namespace demecal::inline acceptance

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "acceptance/certificate.hpp"
+#include "kinematics/units.hpp"
+#include "report/error_fields.hpp"
+#include "report/json.hpp"
+
+namespace demecal::inline acceptance {
+
+void fields(auto& visit, Like<Condition> auto& one) {
+  visit("name", one.name, "lower", one.lower, "upper", one.upper, "unit", one.unit);
+}
+
+void fields(auto& visit, Like<Characteristic> auto& one) {
+  visit("symbol", one.symbol, "title", one.title, "clause", one.clause, "value_mm", one.value_mm, "basis", one.basis);
+}
+
+void fields(auto& visit, Like<CertifiedPose> auto& pose) {
+  visit("id", pose.id, "target", pose.target, "measurements", pose.measurements, "before_mm", pose.before_mm,
+        "after_mm", pose.after_mm, "interval95_mm", pose.uncertainty_mm, "beyond", pose.beyond);
+}
+
+namespace {
+
+std::optional<double> in_mm(const std::optional<double>& value_m) {
+  if (!value_m) return std::nullopt;
+  return millimetres(*value_m);
+}
+
+}  // namespace
+
+void fields(auto& visit, Like<Judgement> auto& judged) {
+  visit("verdict", std::string(to_string(judged.verdict)), "tolerance_mm", millimetres(judged.tolerance_m),
+        "share_of_poses", kAcceptedShare, "confidence", kConfidence, "error_mm", millimetres(judged.error_m),
+        "lower_mm", in_mm(judged.lower_m), "upper_mm", in_mm(judged.upper_m), "guard_below_mm",
+        millimetres(judged.guard_below_m), "guard_above_mm", millimetres(judged.guard_above_m), "poses", judged.poses,
+        "beyond", judged.beyond, "assumes_normal", judged.assumes_normal);
+}
+
+void fields(auto& visit, Like<Certificate> auto& certificate) {
+  visit("robot", certificate.robot, "data", certificate.data_name, "data_sha256", certificate.data_sha256,
+        "model_sha256", certificate.model_sha256, "version", certificate.version, "measured_on",
+        certificate.measured_on, "issued_on", certificate.issued_on, "judged_set", certificate.judged_set, "judgement",
+        certificate.judgement, "poses_to_decide", certificate.poses_to_decide, "sentence",
+        verdict_sentence(certificate), "remedy", remedy_sentence(certificate));
+  visit.within("error_mm", [&](auto& error) { error("before", certificate.before, "after", certificate.after); });
+  visit("characteristics", certificate.characteristics, "uncertainty", certificate.uncertainty, "conditions",
+        certificate.conditions, "poses", certificate.poses, "missing", certificate.missing, "remarks",
+        certificate.remarks);
+}
+
+std::string verdict_sentence(const Certificate& certificate) {
+  const Judgement& judged = certificate.judgement;
+  const double tolerance_mm = millimetres(judged.tolerance_m);
+  const std::string claim =
+      fmt::format("the position error is at most {:g} mm at {:.0f} % of poses like the {} {} poses judged here",
+                  tolerance_mm, 100.0 * kAcceptedShare, judged.poses, certificate.judged_set);
+  switch (judged.verdict) {
+    case Verdict::conformity:
+      return fmt::format("Conformity proved: {}, at a confidence of {:.1f} %.", claim, 100.0 * kConfidence);
+    case Verdict::non_conformity:
+      return fmt::format("Non-conformity proved: it is not true, at a confidence of {:.1f} %, that {}.",
+                         100.0 * kConfidence, claim);
+    case Verdict::undecided:
+      break;
+  }
+  return fmt::format("Undecided: these measurements prove neither that {} nor that it is not.", claim);
+}
+
+std::string remedy_sentence(const Certificate& certificate) {
+  const Judgement& judged = certificate.judgement;
+  if (judged.verdict != Verdict::undecided) return {};
+  if (judged.guard_below_m >= judged.tolerance_m)
+    return "The instrument's uncertainty alone is as large as the tolerance: another instrument is needed.";
+  if (certificate.poses_to_decide) {
+    return fmt::format(
+        "{} poses in all, {} more of the same kind, would decide if the share of poses beyond the limit "
+        "stays as it is.",
+        *certificate.poses_to_decide, *certificate.poses_to_decide - judged.poses);
+  }
+  return "The error is so close to the tolerance that no practical number of poses would decide.";
+}
+
+std::string to_json(const Certificate& certificate) {
+  nlohmann::ordered_json json{{"demecal_certificate", 1}};
+  JsonWriter write(json);
+  fields(write, certificate);
+  return to_text(json, -1);
+}
+
+}  // namespace demecal::inline acceptance

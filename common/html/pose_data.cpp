@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "html/sections.hpp"
+#include "report/report.hpp"
+
+namespace demecal::inline html {
+namespace {
+
+/// A text of JavaScript and JSON, whatever its bytes: nothing in it ends the script or is taken for markup.
+std::string quoted(std::string_view text) {
+  std::string made = "\"";
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (letter == '"' || letter == '\\') {
+      made += '\\';
+      made += letter;
+    } else if (code < 0x20 || letter == '<' || letter == '>' || letter == '&') {
+      made += fmt::format("\\u{:04x}", code);
+    } else {
+      made += letter;
+    }
+  }
+  return made + '"';
+}
+
+std::string number(std::optional<double> value, int decimals) {
+  if (!value || !std::isfinite(*value)) return "null";
+  std::string text = fmt::format("{:.{}f}", *value, decimals);
+  if (text.find('.') != std::string::npos) {
+    while (text.ends_with('0')) text.pop_back();
+    if (text.ends_with('.')) text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+/// `"key":[...],` of what `item` says of every pose.
+template <typename Item>
+std::string list(const char* key, const Report& report, const Item& item) {
+  std::string text = fmt::format("\"{}\":[", key);
+  bool first = true;
+  for (const PoseErrorEntry& pose : report.pose_errors) {
+    const std::string one = item(pose);
+    if (one.empty()) continue;
+    text += (first ? "" : ",") + one;
+    first = false;
+  }
+  return text + "],\n";
+}
+
+std::string joined(const std::vector<double>& numbers, int decimals) {
+  std::string text;
+  for (const double one : numbers) text += (text.empty() ? "" : ",") + number(one, decimals);
+  return text;
+}
+
+/// Numbers of every pose, one after the other; none where one pose has not so many.
+std::string vectors(const char* key, const Report& report, std::vector<double> PosePlace::*values, std::size_t size,
+                    int decimals) {
+  const bool complete = std::ranges::all_of(
+      report.pose_errors, [&](const PoseErrorEntry& pose) { return (pose.place.*values).size() == size; });
+  if (!complete) return fmt::format("\"{}\":[],\n", key);
+  return list(key, report, [&](const PoseErrorEntry& pose) { return joined(pose.place.*values, decimals); });
+}
+
+int flag_bits(const PoseErrorEntry& pose) {
+  constexpr std::string_view kFlags[] = {"outlier", "near_singular", "outside_measured"};
+  int bits = 0;
+  for (int bit = 0; bit < 3; ++bit) {
+    if (std::ranges::find(pose.flags, kFlags[bit]) != pose.flags.end()) bits |= 1 << bit;
+  }
+  return bits;
+}
+
+std::string arm_text(const Report& report) {
+  if (!report.arm) return "null";
+  constexpr int kDecimals = 6;
+  std::string joints;
+  for (const ArmJointEntry& joint : report.arm->joints) {
+    joints += (joints.empty() ? "" : ",") +
+              fmt::format("{{\"type\":{},\"placement\":[{}]}}", quoted(joint.type), joined(joint.placement, kDecimals));
+  }
+  return fmt::format("{{\"base\":[{}],\"joints\":[{}],\"flange\":[{}],\"tool\":[{}]}}",
+                     joined(report.arm->base, kDecimals), joints, joined(report.arm->flange, kDecimals),
+                     joined(report.arm->tool_mm, kDecimals));
+}
+
+/// Whether the numbers are as many as a picture of the arm takes.
+bool is_drawable(const Report& report) {
+  constexpr std::size_t kPlacement = 12;
+  if (!report.arm || report.arm->base.size() != kPlacement || report.arm->flange.size() != kPlacement) return false;
+  const std::vector<ArmJointEntry>& joints = report.arm->joints;
+  return report.arm->tool_mm.size() == 3 &&
+         std::ranges::all_of(joints, [](const ArmJointEntry& one) { return one.placement.size() == kPlacement; }) &&
+         std::ranges::all_of(report.pose_errors,
+                             [&](const PoseErrorEntry& pose) { return pose.place.joints.size() == joints.size(); });
+}
+
+}  // namespace
+
+std::string pose_data(const Report& report) {
+  const std::size_t joints = report.arm ? report.arm->joints.size() : 0;
+  const auto set_letter = [](const PoseErrorEntry& pose) { return pose.set.empty() ? 'c' : pose.set.front(); };
+  std::string sets;
+  for (const PoseErrorEntry& pose : report.pose_errors) sets += set_letter(pose);
+  std::string text = "{" + list("id", report, [](const PoseErrorEntry& pose) { return quoted(pose.id); });
+  text += list("target", report, [](const PoseErrorEntry& pose) { return quoted(pose.target); });
+  text += "\"set\":" + quoted(sets) + ",\n";
+  text += list("before", report, [](const PoseErrorEntry& pose) { return number(pose.before_mm, 4); });
+  text += list("after", report, [](const PoseErrorEntry& pose) { return number(pose.after_mm, 4); });
+  text += list("within", report, [](const PoseErrorEntry& pose) { return number(pose.interval95_mm, 4); });
+  text += list("flags", report, [](const PoseErrorEntry& pose) { return std::to_string(flag_bits(pose)); });
+  text += list("temperature", report, [](const PoseErrorEntry& p) { return number(p.place.temperature_celsius, 2); });
+  text += list("time", report, [](const PoseErrorEntry& pose) { return number(pose.place.time_s, 1); });
+  text += vectors("q", report, &PosePlace::joints, joints, 3);
+  text += vectors("p", report, &PosePlace::position_mm, 3, 2);
+  text += vectors("eb", report, &PosePlace::before_error_mm, 3, 4);
+  text += vectors("ea", report, &PosePlace::after_error_mm, 3, 4);
+  return text + "\"arm\":" + (is_drawable(report) ? arm_text(report) : "null") + "}";
+}
+
+}  // namespace demecal::inline html

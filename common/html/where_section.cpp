@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "html/markup.hpp"
+#include "html/pose_scripts.hpp"
+#include "html/sections.hpp"
+#include "report/report.hpp"
+
+namespace demecal::inline html {
+namespace {
+
+using Poses = std::vector<PoseErrorEntry>;
+
+/// Rows that stand in the page for readers without scripts: those with the largest errors.
+constexpr std::size_t kStaticRows = 200;
+
+std::string option(const std::string& value, const std::string& words) {
+  return "<option value=\"" + escaped(value) + "\">" + escaped(words) + "</option>";
+}
+
+std::set<std::string> targets_of(const Report& report) {
+  std::set<std::string> targets;
+  for (const PoseErrorEntry& pose : report.pose_errors) targets.insert(pose.target);
+  return targets;
+}
+
+std::string filters(const Report& report) {
+  std::string targets;
+  for (const std::string& target : targets_of(report)) {
+    if (!target.empty()) targets += option(target, target);
+  }
+  return "<div class=\"controls\">\n<label>set <select id=\"pose-set\">" + option("", "all") +
+         option("accept", "accept") + option("validation", "validation") + option("calibration", "calibration") +
+         "</select></label>\n<label" + (targets.empty() ? " hidden" : "") + ">target <select id=\"pose-target\">" +
+         option("", "all") + targets +
+         "</select></label>\n<label>pose <input id=\"pose-search\" type=\"search\" size=\"8\"></label>\n"
+         "<label><input id=\"pose-flagged\" type=\"checkbox\"> flagged</label>\n"
+         "<label><input id=\"pose-beyond\" type=\"checkbox\"> beyond its 95 %</label>\n</div>\n";
+}
+
+std::string flag_words(const PoseErrorEntry& pose) {
+  std::string text;
+  for (std::string flag : pose.flags) {
+    if (flag == "outside_measured") flag = "outside what was measured";
+    std::ranges::replace(flag, '_', ' ');
+    text += (text.empty() ? "" : ", ") + flag;
+  }
+  return text;
+}
+
+std::string pose_row(const PoseErrorEntry& pose) {
+  const bool beyond = pose.after_mm && pose.interval95_mm && *pose.after_mm > *pose.interval95_mm;
+  return "<tr><th scope=\"row\">" + escaped(pose.id) + (pose.target.empty() ? "" : " " + escaped(pose.target)) +
+         "</th><td>" + escaped(pose.set) + "</td><td>" + fixed(pose.before_mm, 3) + "</td><td" +
+         (beyond ? " class=\"bad\"" : "") + ">" + fixed(pose.after_mm, 3) + "</td><td>" + fixed(pose.interval95_mm, 3) +
+         "</td><td class=\"words\">" + escaped(flag_words(pose)) + "</td></tr>\n";
+}
+
+std::string pose_table(const Report& report) {
+  std::vector<const PoseErrorEntry*> largest;
+  for (const PoseErrorEntry& pose : report.pose_errors) largest.push_back(&pose);
+  std::ranges::stable_sort(largest, [](const PoseErrorEntry* one, const PoseErrorEntry* other) {
+    return one->after_mm.value_or(-1.0) > other->after_mm.value_or(-1.0);
+  });
+  largest.resize(std::min(largest.size(), kStaticRows));
+  std::string rows, heads;
+  for (const PoseErrorEntry* const pose : largest) rows += pose_row(*pose);
+  constexpr std::array<std::array<const char*, 2>, 6> kColumns{{{"id", "pose"},
+                                                                {"set", "set"},
+                                                                {"before", "before, mm"},
+                                                                {"after", "after, mm"},
+                                                                {"within", "95 % within, mm"},
+                                                                {"flags", "flags"}}};
+  for (const auto& [key, title] : kColumns) {
+    heads += fmt::format("<th{}><button type=\"button\" data-key=\"{}\">{}</button></th>",
+                         std::string_view(key) == "after" ? " aria-sort=\"descending\"" : "", key, title);
+  }
+  return "<div class=\"panel\">\n" + filters(report) + "<div class=\"wide\"><table id=\"pose-errors\">\n<thead><tr>" +
+         heads + "</tr></thead>\n<tbody>\n" + rows +
+         "</tbody></table></div>\n<div class=\"controls\"><button type=\"button\" id=\"pose-back\" "
+         "aria-label=\"previous poses\">‹</button><span id=\"pose-pages\">" +
+         fmt::format("the {} largest errors of {} poses", largest.size(), report.pose_errors.size()) +
+         "</span><button type=\"button\" id=\"pose-on\" aria-label=\"next poses\">›</button></div>\n</div>\n";
+}
+
+/// Where there are several: a row for each point on the tool.
+std::string target_table(const Report& report) {
+  if (targets_of(report).size() < 2) return {};
+  std::map<std::string, std::array<double, 4>> sums;  // count, before, after, largest
+  for (const PoseErrorEntry& pose : report.pose_errors) {
+    if (!pose.after_mm) continue;
+    auto& [count, before, after, largest] = sums[pose.target];
+    count += 1.0;
+    before += pose.before_mm.value_or(0.0);
+    after += *pose.after_mm;
+    largest = std::max(largest, *pose.after_mm);
+  }
+  std::string rows;
+  for (const auto& [target, figures] : sums) {
+    rows += table_row(target.empty() ? "the robot's tool" : escaped(target),
+                      {fixed(figures[0], 0), fixed(figures[1] / figures[0], 3), fixed(figures[2] / figures[0], 3),
+                       fixed(figures[3], 3)});
+  }
+  return "<h3>By target</h3>\n" +
+         table_panel("targets",
+                     "<th>target</th><th>measurements</th><th>mean before, mm</th><th>mean after, mm</th><th>largest "
+                     "after, mm</th>",
+                     rows, sums.size());
+}
+
+constexpr std::string_view kView = R"html(<div class="panel" id="view">
+<canvas id="view-canvas" tabindex="0" role="img" aria-label="The arm and the measured positions with their errors, exaggerated; arrow keys turn it, plus and minus zoom"></canvas>
+<div class="controls">
+<label>errors <input id="view-exaggeration" type="range" min="0" max="4" step="0.02" value="2"><span id="view-factor"></span></label>
+<label>show <select id="view-vectors"><option value="after">after</option><option value="both">before and after</option><option value="before">before</option><option value="none">none</option></select></label>
+<label>colour by error <select id="view-colour"><option value="after">after</option><option value="before">before</option></select></label>
+<label>slice <select id="view-slice"><option value="">all</option><option value="0">along x</option><option value="1">along y</option><option value="2">along z</option></select></label>
+<label>at <input id="view-slice-at" type="range" min="0" max="100" value="50"></label>
+<span class="buttons"><button type="button" data-view="left" aria-label="turn left">←</button><button type="button" data-view="right" aria-label="turn right">→</button><button type="button" data-view="up" aria-label="tilt up">↑</button><button type="button" data-view="down" aria-label="tilt down">↓</button><button type="button" data-view="nearer" aria-label="nearer">+</button><button type="button" data-view="further" aria-label="further">−</button><button type="button" data-view="reset">reset</button></span>
+</div>
+<p class="note">In the frame of the measurements. Lines lead from a position the way it was missed, grey before and blue after, exaggerated.</p>
+</div>
+)html";
+
+std::string plots(const Report& report) {
+  std::string choices = option("order", "order of measuring");
+  for (std::size_t joint = 0; report.arm && joint < report.arm->joints.size(); ++joint)
+    choices += option(fmt::format("joint{}", joint), fmt::format("joint {}", joint + 1));
+  const auto any = [&report](const auto& has) { return std::ranges::any_of(report.pose_errors, has); };
+  if (any([](const PoseErrorEntry& pose) { return pose.place.time_s.has_value(); })) choices += option("time", "time");
+  if (any([](const PoseErrorEntry& pose) { return pose.place.temperature_celsius.has_value(); }))
+    choices += option("temperature", "temperature");
+  if (any([](const PoseErrorEntry& pose) { return !pose.place.position_mm.empty(); }))
+    choices += option("x", "measured x") + option("y", "measured y") + option("z", "measured z");
+  choices += option("before", "error before");
+  return "<div class=\"panel\"><div class=\"pair\">\n<figure><canvas id=\"plot-histogram\" role=\"img\" aria-label=\""
+         "How many poses have which error, before and after\"></canvas><figcaption>Poses by error: grey before, blue "
+         "after.</figcaption></figure>\n<figure><canvas id=\"plot-cumulative\" role=\"img\" aria-label=\"Share of "
+         "poses "
+         "within an error, before and after\"></canvas><figcaption>Share of poses within an "
+         "error.</figcaption></figure>"
+         "\n</div>\n<figure><canvas id=\"plot-against\" role=\"img\" aria-label=\"Error after calibration against what "
+         "is chosen below\"></canvas><figcaption>Error after calibration, and its median along the way; by colour: "
+         "calibration, validation, accept.</figcaption></figure>\n<div class=\"controls\"><label>against <select "
+         "id=\"plot-what\">" +
+         choices + "</select></label></div>\n</div>\n";
+}
+
+}  // namespace
+
+std::string where_section(const Report& report) {
+  if (report.pose_errors.empty()) return {};
+  const std::string opening =
+      "<p class=\"note\">Errors before are those that the closed loop started from, with everything declared fitted. "
+      "All of it is in pose-errors.csv, too. The table filters the pictures with it.</p>\n"
+      "<p class=\"pose-name\" id=\"pose-name\" aria-live=\"polite\">Point at a pose, or pick one in the table.</p>\n";
+  return section("where", "Where the errors are",
+                 opening + std::string(kView) + plots(report) + pose_table(report) + target_table(report) +
+                     "<script type=\"application/json\" id=\"pose-data\">\n" + pose_data(report) +
+                     "</script>\n<script>\n" + std::string(pose_core_script()) + std::string(pose_table_script()) +
+                     std::string(pose_view_script()) + std::string(pose_plots_script()) + "</script>\n");
+}
+
+std::string folded(const std::string& title, const std::string& body) {
+  if (body.empty()) return {};
+  return "<details class=\"folded\"><summary>" + title + "</summary>\n" + body + "</details>\n";
+}
+
+}  // namespace demecal::inline html

@@ -1,0 +1,148 @@
+// The criteria of ISO 9283 are what its definitions give for scatter that the test chose.
+#include "acceptance/iso9283.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kinematics/random_arm.hpp"
+
+namespace demecal {
+namespace {
+
+/// An arm, and measured positions where it is sent plus what the test adds.
+class SentArm {
+ public:
+  explicit SentArm(std::uint64_t seed) : random_{seed} {
+    data_.robot.chain = random_arm(random_, 6, Convention::standard_dh);
+    data_.file = "sent.csv";
+  }
+
+  JointVector somewhere() { return random_joints(random_, data_.robot.chain); }
+
+  MeasuredPose& add(const std::string& id, const JointVector& joints, const Eigen::Vector3d& error_m) {
+    MeasuredPose pose;
+    pose.joints = joints;
+    pose.pose_id = id;
+    pose.set = PoseSet::accept;
+    pose.position_m = nominal_robot(data_).predict(joints, "").translation() + error_m;
+    data_.poses.push_back(pose);
+    return data_.poses.back();
+  }
+
+  std::vector<AttainedPose> poses() const {
+    std::vector<std::size_t> rows(data_.poses.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return attained_poses(data_, rows, nominal_robot(data_));
+  }
+
+  Characteristic criterion(const std::string& symbol) const {
+    for (const Characteristic& one : characteristics(data_, poses(), nominal_robot(data_))) {
+      if (one.symbol == symbol) return one;
+    }
+    ADD_FAILURE() << symbol;
+    return {};
+  }
+
+  DataSet& data() { return data_; }
+
+ private:
+  RandomStream random_;
+  DataSet data_;
+};
+
+const std::vector<Eigen::Vector3d> kScatter{{1e-5, 0, 0}, {-1e-5, 2e-5, 0}, {0, -2e-5, 3e-5}, {0, 0, -3e-5}};
+const Eigen::Vector3d kOffset(3e-4, -4e-4, 1.2e-3);
+
+TEST(Iso9283, PoseAccuracyIsTheDistanceOfTheBarycentre) {
+  SentArm arm(3);
+  const JointVector joints = arm.somewhere();
+  for (const Eigen::Vector3d& scatter : kScatter) arm.add("P1", joints, kOffset + scatter);
+  ASSERT_EQ(arm.poses().size(), 1U);
+  EXPECT_NEAR(arm.poses().front().accuracy_m, 1.3e-3, 1e-12);  // 3, 4, 12: 13
+  EXPECT_NEAR(*arm.criterion("AP").value_mm, 1.3, 1e-9);
+}
+
+TEST(Iso9283, RepeatabilityIsMeanPlusThreeDeviationsOfTheDistances) {
+  SentArm arm(4);
+  const JointVector joints = arm.somewhere();
+  for (const Eigen::Vector3d& scatter : kScatter) arm.add("P1", joints, kOffset + scatter);
+  const double lengths[] = {1e-5, std::sqrt(5.0) * 1e-5, std::sqrt(13.0) * 1e-5, 3e-5};
+  double mean = 0.0, squares = 0.0;
+  for (const double length : lengths) mean += length / 4.0;
+  for (const double length : lengths) squares += (length - mean) * (length - mean) / 3.0;
+  EXPECT_NEAR(*arm.criterion("RP").value_mm, 1e3 * (mean + 3.0 * std::sqrt(squares)), 1e-9);
+}
+
+TEST(Iso9283, VariationOfDirectionsIsTheLargestDistanceOfTheirBarycentres) {
+  SentArm arm(5);
+  const JointVector joints = arm.somewhere();
+  const std::vector<std::pair<double, Eigen::Vector3d>> sides{
+      {1, {1e-4, 0, 0}}, {-1, {-2e-4, 4e-4, 0}}, {0, {0, 0, 0}}};
+  for (const auto& [sign, shift] : sides) {
+    for (const Eigen::Vector3d& scatter : kScatter)
+      arm.add("P1", joints, shift + scatter).approach = ApproachSigns::Constant(6, sign);
+  }
+  EXPECT_EQ(arm.poses().size(), 3U) << "repeats are of one side";
+  EXPECT_NEAR(*arm.criterion("vAP").value_mm, 0.5, 1e-9);
+}
+
+TEST(Iso9283, DistanceAccuracyKnowsNothingOfTheFrame) {
+  SentArm arm(6);
+  const Eigen::Isometry3d elsewhere(Eigen::Translation3d(0.4, -2.0, 0.1) *
+                                    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()));
+  constexpr double kScale = 1.0003;
+  double longest_m = 0.0;
+  std::vector<Eigen::Vector3d> sent;
+  for (int i = 0; i < 12; ++i) {
+    MeasuredPose& pose = arm.add("P" + std::to_string(i), arm.somewhere(), Eigen::Vector3d::Zero());
+    for (const Eigen::Vector3d& other : sent) longest_m = std::max(longest_m, (other - *pose.position_m).norm());
+    sent.push_back(*pose.position_m);
+    pose.position_m = elsewhere * Eigen::Vector3d(kScale * *pose.position_m);
+  }
+  EXPECT_NEAR(*arm.criterion("AD").value_mm, 1e3 * (kScale - 1.0) * longest_m, 1e-9);
+  EXPECT_GT(*arm.criterion("AP").value_mm, 100.0);
+}
+
+TEST(Iso9283, DriftIsTheChangeBetweenSeriesOfRepeats) {
+  SentArm arm(7);
+  const JointVector joints = arm.somewhere();
+  for (int hour = 0; hour < 3; ++hour) {
+    double second = 3600.0 * hour;
+    for (const Eigen::Vector3d& scatter : kScatter)
+      arm.add("P1", joints, (1.0 + hour) * kOffset + (1.0 + hour) * scatter).time_s = second++;
+  }
+  EXPECT_NEAR(*arm.criterion("dAP").value_mm, 2.6, 1e-9);
+  SentArm once(8);
+  for (const Eigen::Vector3d& scatter : kScatter) once.add("P1", joints, kOffset + scatter).time_s = 0.0;
+  EXPECT_NEAR(*arm.criterion("dRP").value_mm, 2.0 * *once.criterion("RP").value_mm, 1e-9);
+}
+
+TEST(Iso9283, SaysWhatWasNotMeasured) {
+  SentArm arm(9);
+  for (int i = 0; i < 5; ++i) arm.add("P" + std::to_string(i), arm.somewhere(), kOffset);
+  for (const char* const symbol : {"RP", "vAP", "dAP", "dRP"}) {
+    EXPECT_FALSE(arm.criterion(symbol).value_mm) << symbol;
+    EXPECT_NE(arm.criterion(symbol).basis, "") << symbol;
+  }
+  EXPECT_TRUE(arm.criterion("AP").value_mm);
+  EXPECT_TRUE(arm.criterion("AD").value_mm);
+}
+
+TEST(Iso9283, OfLengthsAloneHasAccuracyAndNothingElse) {
+  SentArm arm(10);
+  arm.data().anchors_m = {Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(0, 2, 0)};
+  for (int i = 0; i < 3; ++i) {
+    MeasuredPose& pose = arm.add("P" + std::to_string(i), arm.somewhere(), Eigen::Vector3d::Zero());
+    for (const Eigen::Vector3d& anchor : arm.data().anchors_m)
+      pose.distances_m.push_back((*pose.position_m - anchor).norm() + 2e-4);
+    pose.position_m.reset();
+  }
+  EXPECT_NEAR(*arm.criterion("AP").value_mm, 0.2, 1e-9);
+  for (const char* const symbol : {"RP", "vAP", "AD", "dAP"}) EXPECT_FALSE(arm.criterion(symbol).value_mm) << symbol;
+}
+
+}  // namespace
+}  // namespace demecal

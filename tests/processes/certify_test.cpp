@@ -1,0 +1,157 @@
+// demecal certify: a verdict with every tolerance, three files, and what nobody stated named.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "small_job.hpp"
+
+namespace demecal {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A model found on simulated data, and certificates of it.
+class Certified {
+ public:
+  explicit Certified(const std::string& stated = "") {
+    std::ofstream(job_.data(), std::ios::app) << stated;
+    const Ended ended = run("demecal", {"diagnose", job_.data(), "--declare", "registration,joint_corrections",
+                                        "--candidates", "joint_offset,gear_harmonic", "--out", job_.path("out")});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+  }
+
+  Ended certify(const std::string& tolerance, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"certify", job_.path("out/model.yaml"), job_.data(), "--tolerance", tolerance,
+                                       "--out",   job_.path("signed")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("demecal", arguments);
+  }
+  std::string text(const std::string& name) const { return job_.text(name); }
+  std::string path(const std::string& name) const { return job_.path(name); }
+
+ private:
+  SmallJob job_;
+};
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(Certify, EndsWellWhateverTheVerdict) {
+  Certified robot;
+  const Ended wide = robot.certify("10"), narrow = robot.certify("0.001"), json = robot.certify("10", {"--json"});
+  ASSERT_EQ(wide.code, 0) << wide.err;
+  ASSERT_EQ(narrow.code, 0) << narrow.err;
+  ASSERT_EQ(json.code, 0) << json.err;
+  EXPECT_TRUE(has(wide.out, "Conformity proved")) << wide.out;
+  EXPECT_TRUE(has(narrow.out, "Non-conformity proved")) << narrow.out;
+  EXPECT_TRUE(has(wide.out, "not measured")) << "RP without repeats";
+  const Json said = Json::parse(json.out);
+  EXPECT_EQ(said["judgement"]["verdict"], "conformity proved");
+  EXPECT_EQ(said["judged_set"], "accept");
+  EXPECT_EQ(said["judgement"]["poses"], 10);
+  const double error_mm = said["judgement"]["error_mm"];
+  const Ended close = robot.certify(std::to_string(1.05 * error_mm));
+  EXPECT_EQ(close.code, 0);
+  EXPECT_TRUE(has(close.out, "Undecided")) << close.out;
+  EXPECT_TRUE(has(close.out, "poses in all")) << close.out;
+}
+
+TEST(Certify, HasTheFiguresOfTheReport) {
+  Certified robot;
+  ASSERT_EQ(robot.certify("0.5").code, 0);
+  const Json report = Json::parse(robot.text("out/report.json"));
+  const std::string page = robot.text("signed/certificate.html"), xml = robot.text("signed/certificate.xml");
+  for (const char* const stage : {"registered", "after"}) {
+    for (const char* const figure : {"mean", "rms", "p95", "max"}) {
+      const double value_mm = report["error_mm"][stage]["accept"][figure];
+      char cell[64];
+      std::snprintf(cell, sizeof cell, ">%.3f<", value_mm);
+      EXPECT_TRUE(has(page, cell)) << stage << ' ' << figure << ' ' << cell;
+    }
+  }
+  const std::string largest = report["error_mm"]["after"]["accept"]["max"].dump();
+  EXPECT_TRUE(has(xml, "<si:value>" + largest.substr(0, 8))) << largest;
+}
+
+/// The words of a PDF; empty where nothing reads it.
+std::string words_of_pdf(const std::string& path) {
+  const std::string text = path + ".txt";
+  if (std::system(("pdftotext -layout '" + path + "' '" + text + "' 2>/dev/null").c_str()) != 0) return {};
+  std::ifstream file(text);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Certify, PrintsTheSameFigures) {
+  Certified robot;
+  const Ended ended = robot.certify("0.5", {"--json"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  if (!std::filesystem::exists(robot.path("signed/certificate.pdf"))) GTEST_SKIP() << "no printer of pages here";
+  const std::string words = words_of_pdf(robot.path("signed/certificate.pdf"));
+  if (words.empty()) GTEST_SKIP() << "no pdftotext here";
+  const Json said = Json::parse(ended.out);
+  for (const char* const figure : {"mean", "rms", "p95", "max"}) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.3f", said["error_mm"]["after"][figure].get<double>());
+    EXPECT_TRUE(has(words, text)) << figure << "\n" << words;
+  }
+  EXPECT_TRUE(has(words, said["judgement"]["verdict"]));
+  EXPECT_TRUE(has(words, "Page 1 of ")) << words;
+}
+
+TEST(Certify, StatesWhatTheDataSetStatesAndNamesTheRest) {
+  Certified robot(
+      "certificate:\n  customer: \"Foundry & Sons\"\n  serial_number: 4711\n  date: 2026-02-03\n"
+      "  instrument_uncertainty_mm: 0.01\n");
+  const Ended ended = robot.certify("0.5");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::string page = robot.text("signed/certificate.html"), xml = robot.text("signed/certificate.xml");
+  for (const std::string& text : {page, xml}) {
+    EXPECT_TRUE(has(text, "Foundry &amp; Sons"));
+    EXPECT_TRUE(has(text, "4711"));
+    EXPECT_TRUE(has(text, "2026-02-03"));
+  }
+  EXPECT_TRUE(has(page, "Not stated, and left blank: Certificate number; ")) << page;
+  EXPECT_TRUE(has(xml, "not stated"));
+  EXPECT_TRUE(has(ended.out, "not stated, and blank on the certificate")) << ended.out;
+  EXPECT_FALSE(has(page, "Customer; "));
+}
+
+TEST(Certify, TakesTheJobsFieldsThroughTheModel) {
+  SmallJob job(2, 1);
+  std::ofstream(job.job(), std::ios::app) << "certificate: {customer: Foundry, operator: A. Person, country: DE}\n";
+  const Ended ended = run("demecal", {"calibrate", job.job(), "--out", job.path("out"), "--workers", "in-process:1",
+                                      "--max-effects", "0", "--quiet"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Ended certified = run(
+      "demecal", {"certify", job.path("out/model.yaml"), job.data(), "--tolerance", "1", "--out", job.path("signed")});
+  ASSERT_EQ(certified.code, 0) << certified.err;
+  EXPECT_TRUE(has(job.text("signed/certificate.xml"), "A. Person"));
+  EXPECT_TRUE(has(job.text("signed/certificate.xml"), "<dcc:countryCodeISO3166_1>DE<"));
+}
+
+TEST(Certify, SaysWhatIsWrongWithFieldsAndTolerances) {
+  Certified robot;
+  EXPECT_EQ(robot.certify("-1").code, 10);
+  EXPECT_EQ(robot.certify("nan").code, 10);
+  std::ofstream(robot.path("data/dataset.yaml"), std::ios::app) << "certificate: {date: 3 March}\n";
+  const Ended date = robot.certify("1");
+  EXPECT_EQ(date.code, 11);
+  EXPECT_TRUE(has(date.err, "'3 March': certificate.date must be a day written as 2026-01-31")) << date.err;
+}
+
+TEST(Certify, NeverOverwritesFilesThatAreNotOurs) {
+  Certified robot;
+  std::filesystem::create_directories(robot.path("signed"));
+  std::ofstream(robot.path("signed/certificate.html")) << "something else\n";
+  EXPECT_EQ(robot.certify("1").code, 10);
+  EXPECT_EQ(robot.text("signed/certificate.html"), "something else\n");
+  EXPECT_EQ(robot.certify("1", {"--force"}).code, 0);
+}
+
+}  // namespace
+}  // namespace demecal
