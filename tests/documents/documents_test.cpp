@@ -31,6 +31,7 @@ std::string text_of_file(const std::filesystem::path& path) {
 const std::vector<std::string> kRun = {
     "demecal calibrate my-job.yaml --out my-result",
     "demecal evaluate my-result/model.yaml my-new-poses.yaml",
+    "demecal certify my-result/model.yaml my-new-poses.yaml --tolerance 0.5 --out my-certificate",
     "demecal apply my-result/model.yaml my-program.v2 --out my-corrected-program.v2",
     "demecal compare configs/jobs/full.yaml --data DATASET.yaml",
 };
@@ -69,6 +70,7 @@ const std::map<std::string, std::string> kCovered = {
     {"demecal study configs/jobs/demo.yaml --set method=direct,diagnose --closed-loop --out study",
      "ComparesEvolutionAndTheClosedLoopAlone"},
     {"ctest --preset release -L applied", "scripts/test"},
+    {"build/release/bin/test_acceptance --gtest_filter=Verdict.*", "ProvesWhatIsNotTrueAtMostAsOftenAsIsSaid"},
     {"systemctl enable --now demecal-worker", "TheSystemdUnitStartsAWorkerWithTheOptionsOfItsFile"},
     {"echo 'OPTIONS=--discovery-server 192.0.2.10:11811' > /etc/default/demecal-worker",
      "TheSystemdUnitStartsAWorkerWithTheOptionsOfItsFile"},
