@@ -22,8 +22,8 @@ namespace demecal {
 namespace {
 
 constexpr std::array<const char*, 4> kPrinters{"weasyprint", "chromium", "chromium-browser", "google-chrome"};
-constexpr std::chrono::seconds kPatience{60};
-constexpr std::chrono::milliseconds kPollInterval{20};
+constexpr std::chrono::seconds kPrintPatience{60};
+constexpr std::chrono::milliseconds kPrintPoll{20};
 
 /// A folder of its own under the temporary one; removed with all that a browser left in it.
 class ScratchFolder {
@@ -74,7 +74,7 @@ bool runs_well(std::vector<std::string> words) {
     ::execv(pointers.front(), pointers.data());
     ::_exit(127);
   }
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kPrintPatience;
   int status = 0;
   while (::waitpid(child, &status, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() > end) {
@@ -82,7 +82,7 @@ bool runs_well(std::vector<std::string> words) {
       ::waitpid(child, &status, 0);
       return false;
     }
-    std::this_thread::sleep_for(kPollInterval);
+    std::this_thread::sleep_for(kPrintPoll);
   }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }

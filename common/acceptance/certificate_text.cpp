@@ -58,12 +58,12 @@ std::string verdict_sentence(const Certificate& certificate) {
       fmt::format("the position error is at most {:g} mm at {:.0f} % of poses like the {} {} poses judged here",
                   tolerance_mm, 100.0 * kAcceptedShare, judged.poses, certificate.judged_set);
   switch (judged.verdict) {
-    case Verdict::conformity:
+    case ConformityVerdict::conformity:
       return fmt::format("Conformity proved: {}, at a confidence of {:.1f} %.", claim, 100.0 * kConfidence);
-    case Verdict::non_conformity:
+    case ConformityVerdict::non_conformity:
       return fmt::format("Non-conformity proved: it is not true, at a confidence of {:.1f} %, that {}.",
                          100.0 * kConfidence, claim);
-    case Verdict::undecided:
+    case ConformityVerdict::undecided:
       break;
   }
   return fmt::format("Undecided: these measurements prove neither that {} nor that it is not.", claim);
@@ -71,7 +71,7 @@ std::string verdict_sentence(const Certificate& certificate) {
 
 std::string remedy_sentence(const Certificate& certificate) {
   const Judgement& judged = certificate.judgement;
-  if (judged.verdict != Verdict::undecided) return {};
+  if (judged.verdict != ConformityVerdict::undecided) return {};
   if (judged.guard_below_m >= judged.tolerance_m)
     return "The instrument's uncertainty alone is as large as the tolerance: another instrument is needed.";
   if (certificate.poses_to_decide) {

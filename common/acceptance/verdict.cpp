@@ -84,7 +84,7 @@ std::size_t count_beyond(const std::vector<double>& ascending, double limit) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
+const char* to_string(ConformityVerdict verdict) {
   constexpr const char* kWords[] = {"conformity proved", "non-conformity proved", "undecided"};
   return kWords[static_cast<std::size_t>(verdict)];
 }
@@ -94,12 +94,12 @@ std::size_t fewest_without_assumption() {
 }
 
 Judgement judge(std::span<const double> errors_m, double tolerance_m, double instrument_m, double noise_m) {
-  constexpr double kCoverageFactor = 2.0;
+  constexpr double kGuardFactor = 2.0;
   Judgement judged{.tolerance_m = tolerance_m,
                    .lower_m = {},
                    .upper_m = {},
-                   .guard_below_m = kCoverageFactor * instrument_m,
-                   .guard_above_m = kCoverageFactor * std::hypot(instrument_m, noise_m),
+                   .guard_below_m = kGuardFactor * instrument_m,
+                   .guard_above_m = kGuardFactor * std::hypot(instrument_m, noise_m),
                    .poses = errors_m.size()};
   if (errors_m.empty()) return judged;
   std::vector<double> ascending(errors_m.begin(), errors_m.end());
@@ -112,15 +112,15 @@ Judgement judge(std::span<const double> errors_m, double tolerance_m, double ins
   judged.upper_m = judged.assumes_normal ? normal_upper_limit(ascending) : ascending[upper - 1];
   if (lower > 0) judged.lower_m = ascending[lower - 1];
   if (*judged.upper_m + judged.guard_below_m <= tolerance_m) {
-    judged.verdict = Verdict::conformity;
+    judged.verdict = ConformityVerdict::conformity;
   } else if (judged.lower_m && *judged.lower_m - judged.guard_above_m > tolerance_m) {
-    judged.verdict = Verdict::non_conformity;
+    judged.verdict = ConformityVerdict::non_conformity;
   }
   return judged;
 }
 
 std::optional<std::size_t> poses_to_decide(std::span<const double> errors_m, const Judgement& judged) {
-  if (judged.verdict != Verdict::undecided || errors_m.empty()) return std::nullopt;
+  if (judged.verdict != ConformityVerdict::undecided || errors_m.empty()) return std::nullopt;
   const auto share = [&](double limit) {
     const auto beyond = std::ranges::count_if(errors_m, [limit](double error) { return error > limit; });
     return static_cast<double>(beyond) / static_cast<double>(errors_m.size());

@@ -9,10 +9,10 @@
 
 namespace demecal::inline acceptance {
 
-enum class Verdict { conformity, non_conformity, undecided };
+enum class ConformityVerdict { conformity, non_conformity, undecided };
 
 /// "conformity proved", "non-conformity proved", "undecided".
-const char* to_string(Verdict verdict);
+const char* to_string(ConformityVerdict verdict);
 
 /// Share of poses whose error the tolerance is to hold.
 inline constexpr double kAcceptedShare = 0.95;
@@ -21,7 +21,7 @@ inline constexpr double kConfidence = 0.975;
 
 /// What is said of the error that `kAcceptedShare` of poses like these keep within.
 struct Judgement {
-  Verdict verdict = Verdict::undecided;
+  ConformityVerdict verdict = ConformityVerdict::undecided;
   double tolerance_m = 0.0;
   double error_m = 0.0;                             ///< that share's among these poses
   std::optional<double> lower_m, upper_m;           ///< limits for all poses like these; none: no limit can be given

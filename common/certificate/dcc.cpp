@@ -105,10 +105,10 @@ class DccWriter : private DccResults {
   }
 
   void statements() {
-    const Verdict verdict = certificate_.judgement.verdict;
-    const char* const conformity = verdict == Verdict::conformity       ? "pass"
-                                   : verdict == Verdict::non_conformity ? "fail"
-                                                                        : nullptr;
+    const ConformityVerdict verdict = certificate_.judgement.verdict;
+    const char* const conformity = verdict == ConformityVerdict::conformity       ? "pass"
+                                   : verdict == ConformityVerdict::non_conformity ? "fail"
+                                                                                  : nullptr;
     statement(to_string(verdict), verdict_sentence(certificate_), "ISO 14253-1", conformity);
     if (const std::string remedy = remedy_sentence(certificate_); !remedy.empty())
       statement("what would decide", remedy, nullptr, nullptr);

@@ -33,7 +33,7 @@ std::string joined(const std::vector<std::string>& flags) {
 }
 
 /// Names come from files: a table has them on one line.
-std::string on_one_line(std::string name) {
+std::string pose_name_on_one_line(std::string name) {
   std::ranges::replace_if(
       name, [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
   return name;
@@ -73,8 +73,13 @@ std::string pose_errors_csv(const Report& report) {
   if (timed) table.columns.emplace_back("time_s");
   for (const PoseErrorEntry& pose : poses) {
     CsvRow& row = table.rows.emplace_back();
-    row.fields = {on_one_line(pose.id), on_one_line(pose.target), pose.set,          cell(pose.before_mm),
-                  cell(pose.after_mm),  cell(pose.interval95_mm), joined(pose.flags)};
+    row.fields = {pose_name_on_one_line(pose.id),
+                  pose_name_on_one_line(pose.target),
+                  pose.set,
+                  cell(pose.before_mm),
+                  cell(pose.after_mm),
+                  cell(pose.interval95_mm),
+                  joined(pose.flags)};
     add_cells(pose.place.joints, joints, row);
     for (const VectorColumns& columns : vectors) add_cells(pose.place.*columns.values, 3, row);
     if (warm) row.fields.push_back(cell(pose.place.temperature_celsius));

@@ -45,9 +45,9 @@ Shares proved(const Draw& draw, double tolerance, std::size_t poses, std::uint64
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<double> errors(poses);
     for (double& error : errors) error = draw(random);
-    const Verdict verdict = judge(errors, tolerance, 0.0, 0.0).verdict;
-    shares.conforming += verdict == Verdict::conformity ? 1.0 / kTrials : 0.0;
-    shares.not_conforming += verdict == Verdict::non_conformity ? 1.0 / kTrials : 0.0;
+    const ConformityVerdict verdict = judge(errors, tolerance, 0.0, 0.0).verdict;
+    shares.conforming += verdict == ConformityVerdict::conformity ? 1.0 / kTrials : 0.0;
+    shares.not_conforming += verdict == ConformityVerdict::non_conformity ? 1.0 / kTrials : 0.0;
   }
   return shares;
 }
@@ -86,42 +86,43 @@ TEST(Verdict, ProvesEitherWhereTheToleranceIsFarFromTheError) {
   RandomStream random{31};
   std::vector<double> errors(60);
   for (double& error : errors) error = 1e-4 * maxwell(random);
-  EXPECT_EQ(judge(errors, 1e-3, 0.0, 0.0).verdict, Verdict::conformity);
-  EXPECT_EQ(judge(errors, 1e-4, 0.0, 0.0).verdict, Verdict::non_conformity);
+  EXPECT_EQ(judge(errors, 1e-3, 0.0, 0.0).verdict, ConformityVerdict::conformity);
+  EXPECT_EQ(judge(errors, 1e-4, 0.0, 0.0).verdict, ConformityVerdict::non_conformity);
   const Judgement close = judge(errors, 2.8e-4, 0.0, 0.0);
-  EXPECT_EQ(close.verdict, Verdict::undecided);
+  EXPECT_EQ(close.verdict, ConformityVerdict::undecided);
   EXPECT_LE(*close.lower_m, close.error_m);
   EXPECT_GE(*close.upper_m, close.error_m);
 }
 
 TEST(Verdict, CountsTheInstrumentsUncertaintyAgainstEitherProof) {
   const std::vector<double> errors(200, 1e-4);
-  EXPECT_EQ(judge(errors, 1.5e-4, 0.0, 0.0).verdict, Verdict::conformity);
-  EXPECT_EQ(judge(errors, 1.5e-4, 2.4e-5, 0.0).verdict, Verdict::conformity);
-  EXPECT_EQ(judge(errors, 1.5e-4, 2.6e-5, 0.0).verdict, Verdict::undecided);
-  EXPECT_EQ(judge(errors, 0.5e-4, 2.4e-5, 0.0).verdict, Verdict::non_conformity);
-  EXPECT_EQ(judge(errors, 0.5e-4, 2.6e-5, 0.0).verdict, Verdict::undecided);
-  EXPECT_EQ(judge(errors, 0.5e-4, 0.0, 2.6e-5).verdict, Verdict::undecided) << "noise makes errors look larger";
-  EXPECT_EQ(judge(errors, 1.5e-4, 0.0, 2.6e-5).verdict, Verdict::conformity) << "and never smaller";
+  EXPECT_EQ(judge(errors, 1.5e-4, 0.0, 0.0).verdict, ConformityVerdict::conformity);
+  EXPECT_EQ(judge(errors, 1.5e-4, 2.4e-5, 0.0).verdict, ConformityVerdict::conformity);
+  EXPECT_EQ(judge(errors, 1.5e-4, 2.6e-5, 0.0).verdict, ConformityVerdict::undecided);
+  EXPECT_EQ(judge(errors, 0.5e-4, 2.4e-5, 0.0).verdict, ConformityVerdict::non_conformity);
+  EXPECT_EQ(judge(errors, 0.5e-4, 2.6e-5, 0.0).verdict, ConformityVerdict::undecided);
+  EXPECT_EQ(judge(errors, 0.5e-4, 0.0, 2.6e-5).verdict, ConformityVerdict::undecided)
+      << "noise makes errors look larger";
+  EXPECT_EQ(judge(errors, 1.5e-4, 0.0, 2.6e-5).verdict, ConformityVerdict::conformity) << "and never smaller";
 }
 
 TEST(Verdict, SaysHowManyPosesWouldDecide) {
   const std::vector<double> errors(20, 1e-4);
   const Judgement judged = judge(errors, 1.01e-4, 0.0, 0.0);
-  EXPECT_EQ(judged.verdict, Verdict::undecided);
+  EXPECT_EQ(judged.verdict, ConformityVerdict::undecided);
   EXPECT_TRUE(judged.assumes_normal);
   const auto needed = poses_to_decide(errors, judged);
   ASSERT_TRUE(needed);
   EXPECT_EQ(*needed, fewest_without_assumption());
   EXPECT_EQ(fewest_without_assumption(), 72U);
   const std::vector<double> enough(*needed, 1e-4);
-  EXPECT_EQ(judge(enough, 1.01e-4, 0.0, 0.0).verdict, Verdict::conformity);
+  EXPECT_EQ(judge(enough, 1.01e-4, 0.0, 0.0).verdict, ConformityVerdict::conformity);
   const std::vector<double> fewer(*needed - 1, 1e-4);
-  EXPECT_EQ(judge(fewer, 1.01e-4, 0.0, 0.0).verdict, Verdict::undecided);
+  EXPECT_EQ(judge(fewer, 1.01e-4, 0.0, 0.0).verdict, ConformityVerdict::undecided);
 }
 
 TEST(Verdict, OfNoPosesIsUndecided) {
-  EXPECT_EQ(judge({}, 1.0, 0.0, 0.0).verdict, Verdict::undecided);
+  EXPECT_EQ(judge({}, 1.0, 0.0, 0.0).verdict, ConformityVerdict::undecided);
 }
 
 }  // namespace
