@@ -182,13 +182,13 @@ std::vector<AttainedPose> series_of(const DataSet& data, const AttainedPose& pos
   return series;
 }
 
-struct Drift {
+struct SeriesDrift {
   double accuracy_m = 0.0, repeatability_m = 0.0, longest_s = 0.0;
   std::size_t poses = 0;
 };
 
-Drift drift_of(const DataSet& data, const Poses& poses, const CorrectedRobot& robot) {
-  Drift drift;
+SeriesDrift drift_of(const DataSet& data, const Poses& poses, const CorrectedRobot& robot) {
+  SeriesDrift drift;
   for (const AttainedPose& pose : poses) {
     const std::vector<AttainedPose> series = pose.has_position ? series_of(data, pose, robot) : Poses{};
     if (series.size() < 2) continue;
@@ -224,7 +224,7 @@ std::vector<AttainedPose> attained_poses(const DataSet& data, std::span<const st
 
 std::vector<Characteristic> characteristics(const DataSet& data, const std::vector<AttainedPose>& poses,
                                             const CorrectedRobot& robot) {
-  const Drift drift = drift_of(data, poses, robot);
+  const SeriesDrift drift = drift_of(data, poses, robot);
   const auto drifted = [&drift](const char* symbol, const char* title, double value_m) {
     Characteristic one{symbol, title, "7.6", {}, "no pose was measured repeatedly in series apart in time"};
     if (drift.poses == 0) return one;

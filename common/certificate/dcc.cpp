@@ -108,7 +108,7 @@ class DccWriter : private DccResults {
     const Conformity verdict = certificate_.judgement.verdict;
     const char* const conformity = verdict == Conformity::conformity       ? "pass"
                                    : verdict == Conformity::non_conformity ? "fail"
-                                                                        : nullptr;
+                                                                           : nullptr;
     statement(to_string(verdict), verdict_sentence(certificate_), "ISO 14253-1", conformity);
     if (const std::string remedy = remedy_sentence(certificate_); !remedy.empty())
       statement("what would decide", remedy, nullptr, nullptr);

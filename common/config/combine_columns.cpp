@@ -18,9 +18,8 @@ using SingleColumn = std::optional<ColumnName> ColumnMap::*;
 
 constexpr GroupOfColumns kGroups[] = {&ColumnMap::joints, &ColumnMap::position, &ColumnMap::orientation,
                                       &ColumnMap::distances, &ColumnMap::approach};
-constexpr SingleColumn kSingles[] = {&ColumnMap::payload, &ColumnMap::temperature, &ColumnMap::time,
-                                     &ColumnMap::set,     &ColumnMap::pose,        &ColumnMap::target,
-                                     &ColumnMap::contact};
+constexpr SingleColumn kSingles[] = {&ColumnMap::payload, &ColumnMap::temperature, &ColumnMap::time,   &ColumnMap::set,
+                                     &ColumnMap::pose,    &ColumnMap::target,      &ColumnMap::contact};
 
 /// The files that share columns, and which of them has a column.
 class SharedFiles {

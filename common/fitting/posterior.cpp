@@ -158,19 +158,6 @@ double extrapolation(const Chain& chain, std::span<const Interval> measured, con
   return widened;
 }
 
-double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints) {
-  constexpr double kGrowth = 2.0, kLeastRange = 0.2;
-  double widened = 1.0;
-  for (std::size_t joint = 0; joint < measured.size() && joint < static_cast<std::size_t>(joints.size()); ++joint) {
-    const Interval& range = measured[joint];
-    const double centre = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
-    double away = joints[static_cast<Eigen::Index>(joint)] - centre;
-    if (chain.joints[joint].type == JointType::revolute) away = std::remainder(away, 2.0 * std::numbers::pi);
-    widened += kGrowth * std::max(0.0, std::abs(away) - half) / std::max(2.0 * half, kLeastRange);
-  }
-  return widened;
-}
-
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                   const DataSet& data, const MeasuredPose& pose, double widened) {
   PredictionInterval model_alone = interval;

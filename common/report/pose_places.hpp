@@ -1,7 +1,8 @@
-// Where a pose was measured and which way it missed, and the arm that was there: what pictures of a report are drawn
-// from.
+// What a report says of single poses and contacts: how far they are off, where they were measured and which way they
+// missed, and the arm that was there.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,32 @@ struct ArmEntry {
   std::vector<ArmJointEntry> joints{};
   PlacementNumbers flange{};      ///< in the last link
   std::vector<double> tool_mm{};  ///< in the flange
+};
+
+/// One pose (one row of the data set).
+struct PoseErrorEntry {
+  std::string id, target, set;
+  std::optional<double> before_mm;      ///< of what the closed loop started from
+  std::optional<double> after_mm;       ///< of the model
+  std::optional<double> interval95_mm;  ///< radius that holds 95 % of the errors there, measurement noise included
+  std::vector<std::string> flags{};     ///< "outlier", "near_singular", "outside_measured"
+  PosePlace place{};
+};
+
+/// The poses of one set that touch one contact: how far from where they have it on average (rms).
+struct ContactEntry {
+  std::string contact, set, kind;
+  std::uint64_t poses = 0;
+  std::optional<double> registered_rms_mm, before_rms_mm, after_rms_mm;
+};
+
+/// A known length between contacts as the poses of one set have it, minus what is known.
+struct LengthErrorEntry {
+  std::vector<std::string> between;
+  std::string set;
+  std::optional<double> known_mm, sigma_mm;
+  std::optional<double> before_mm;  ///< of what the closed loop started from
+  std::optional<double> error_mm;   ///< of the model
 };
 
 }  // namespace demecal::inline report

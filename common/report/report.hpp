@@ -53,32 +53,6 @@ struct ExcludedPose {
   std::optional<double> error_mm;  ///< of the final model at it
 };
 
-/// One pose (one row of the data set).
-struct PoseErrorEntry {
-  std::string id, target, set;
-  std::optional<double> before_mm;      ///< of what the closed loop started from
-  std::optional<double> after_mm;       ///< of the model
-  std::optional<double> interval95_mm;  ///< radius that holds 95 % of the errors there, measurement noise included
-  std::vector<std::string> flags{};     ///< "outlier", "near_singular", "outside_measured"
-  PosePlace place{};
-};
-
-/// The poses of one set that touch one contact: how far from where they have it on average (rms).
-struct ContactEntry {
-  std::string contact, set, kind;
-  std::uint64_t poses = 0;
-  std::optional<double> registered_rms_mm, before_rms_mm, after_rms_mm;
-};
-
-/// A known length between contacts as the poses of one set have it, minus what is known.
-struct LengthErrorEntry {
-  std::vector<std::string> between;
-  std::string set;
-  std::optional<double> known_mm, sigma_mm;
-  std::optional<double> before_mm;  ///< of what the closed loop started from
-  std::optional<double> error_mm;   ///< of the model
-};
-
 /// What the radii of single poses come from.
 struct PredictionEntry {
   std::optional<double> quantile, noise_mm, distance_noise_mm, model_error_mm;

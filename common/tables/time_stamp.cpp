@@ -1,7 +1,7 @@
 #include "tables/time_stamp.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 
 #include "data/text.hpp"
@@ -54,11 +54,21 @@ class StampReader {
   std::string_view rest_;
 };
 
+bool is_leap(int year) {
+  return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+}
+
+/// Since the first day of 1970; nothing where there is no such day.
 std::optional<double> day_s(int year, int month, int day) {
-  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{static_cast<unsigned>(month)},
-                                         std::chrono::day{static_cast<unsigned>(day)}};
-  if (!date.ok()) return std::nullopt;
-  return kDay_s * static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+  constexpr int kDaysBefore1970 = 719162;  ///< from the first day of the year 1
+  constexpr std::array<int, 12> kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  if (year < 1 || month < 1 || month > 12) return std::nullopt;
+  const auto days_in = [&](int one) { return kDays[static_cast<std::size_t>(one - 1)] + (one == 2 && is_leap(year)); };
+  if (day < 1 || day > days_in(month)) return std::nullopt;
+  const int before = year - 1;
+  int days = 365 * before + before / 4 - before / 100 + before / 400 + day - 1 - kDaysBefore1970;
+  for (int one = 1; one < month; ++one) days += days_in(one);
+  return kDay_s * days;
 }
 
 /// "2026-11-24", "2026/11/24" or "24.11.2026", and the T or blank before a time.

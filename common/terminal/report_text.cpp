@@ -85,7 +85,7 @@ std::string lengths(const std::vector<LengthErrorEntry>& all) {
 std::string contacts(const Report& report) {
   if (report.contacts.empty()) return {};
   std::string text =
-      fmt::format("\n  {:<40}{:>10}{:>9}{:>9}{:>9}\n", "contacts, rms in mm", "poses", "tool", "before", "after");
+      fmt::format("\n  {:<40}{:>10}{:>9}{:>9}{:>9}\n", "contacts, rms in mm", "poses", "tool fit", "before", "after");
   const auto number = [](const std::optional<double>& mm) { return mm ? fmt::format("{:.3f}", *mm) : "–"; };
   for (const ContactEntry& one : report.contacts)
     text += fmt::format("    {:<38}{:>10}{:>9}{:>9}{:>9}\n", fmt::format("{} ({})", one.contact, one.set), one.poses,

@@ -135,9 +135,7 @@ TEST(WrittenFormats, StudyHasTheKeysAndColumnsOfThePage) {
 }
 
 TEST(WrittenFormats, ComparisonHasTheKeysOfThePage) {
-  Comparison comparison;
-  comparison.methods.resize(1);
-  expect_json("comparison.json", {to_json(comparison)});
+  expect_json("comparison.json", {to_json(Comparison{.methods = std::vector<ComparedMethod>(1)})});
 }
 
 TEST(WrittenFormats, CertificateHasTheKeysOfThePage) {

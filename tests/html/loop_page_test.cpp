@@ -219,5 +219,12 @@ TEST(LoopWords, HaveASentenceForEveryReason) {
   EXPECT_EQ(statistics_sentences(Report{}), "");
 }
 
+TEST(ReportPage, SaysThatARunWasInterrupted) {
+  Report report = made_up_report();
+  EXPECT_THAT(words_of(loop_page_of(report)), Not(HasSubstr("interrupted")));
+  report.runtime.interrupted = true;
+  EXPECT_THAT(words_of(loop_page_of(report)), HasSubstr("The run was interrupted"));
+}
+
 }  // namespace
 }  // namespace demecal

@@ -291,12 +291,5 @@ TEST(ReportPage, NamesTheKeyOfAValueOfTheWrongKind) {
   EXPECT_THAT(complaint(to_json(made_up_report()), "joint,island\n1,1\n"), HasSubstr("history.csv:1: has no column"));
 }
 
-TEST(ReportPage, SaysThatARunWasInterrupted) {
-  Report report = made_up_report();
-  EXPECT_THAT(words_of(page_of(report)), Not(HasSubstr("interrupted")));
-  report.runtime.interrupted = true;
-  EXPECT_THAT(words_of(page_of(report)), HasSubstr("The run was interrupted"));
-}
-
 }  // namespace
 }  // namespace demecal

@@ -36,7 +36,8 @@ bool means_something_else(const std::string& kind, const std::string& path) {
   static const std::map<std::string, std::set<std::string>> elsewhere{
       {"common/fitting/declared_model.cpp", {"registration", "tool", "joint_offset", "geometry"}},  // what jobs declare
       {"common/baselines/baseline.cpp", {"registration", "geometry"}},  // names of baselines
-      {"common/data_check/finding.cpp", {"joint_offset"}}};             // kinds of findings
+      {"common/data_check/finding.cpp", {"joint_offset"}},              // kinds of findings
+      {"common/updating/change.cpp", {"registration"}}};                // a verdict
   const auto words = elsewhere.find(path);
   const bool of_a_robot_language =
       (path.starts_with("common/languages/") || path.starts_with("common/programs/")) && kind == "tool";

@@ -79,12 +79,9 @@ Violations check_libraries(const Source& source, const Map& map) {
 }
 
 Violations check_owners(const Source& source) {
-  static const std::map<std::string, std::string> owners = {{"yaml-cpp", "yaml"},
-                                                            {"LibXml2::LibXml2", "certificate"},
-                                                            {"fastrtps", "dds"},
-                                                            {"fastcdr", "tests"},
-                                                            {"demecal_idl", "tests"},
-                                                            {"PkgConfig::HTTPLIB", "http"}};
+  static const std::map<std::string, std::string> owners = {
+      {"yaml-cpp", "yaml"},     {"LibXml2::LibXml2", "certificate"}, {"fastrtps", "dds"}, {"fastcdr", "tests"},
+      {"demecal_idl", "tests"}, {"PkgConfig::HTTPLIB", "http"}};
   const std::string home = home_of(source);
   if (home == "tests") return {};
   Violations found;
