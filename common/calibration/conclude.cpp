@@ -12,14 +12,12 @@
 
 #include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
-#include "calibration/chosen_together.hpp"
 #include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
-#include "fitness/fitness.hpp"
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/chain.hpp"
@@ -67,35 +65,20 @@ void refit(const DataSet& data, const Job& job, std::span<const std::size_t> sel
   result.estimates = again.estimates;
 }
 
-/// Joints that learnt from the whole model's error have sizes that suit each other already.
-bool learnt_alone(std::span<const JointCandidates> candidates) {
-  return std::ranges::all_of(candidates,
-                             [](const JointCandidates& joint) { return joint.training.table.loss == Loss::absolute; });
-}
-
-/// What is chosen joint by joint as evolved and what is chosen and sized together compete on the selection poses, with
-/// the declared numbers fitted again.
+/// What the selection poses choose among what evolved, with the declared numbers fitted again.
 Calibration with_best_corrections(const DataSet& data, const Job& job, const Preparation& preparation,
                                   std::span<const JointCandidates> candidates, const FitOptions& options) {
   const CorrectedRobot& declared = preparation.declared.robot;
   const std::vector<std::size_t> selecting = selection_poses(data, declared);
-  const std::vector<std::size_t> learning = without_gross_errors(data, PoseSet::calibration, declared);
-  const auto with = [&](const Selection& selection) {
-    Calibration calibration{.robot = with_shortened_corrections(selection.robot),
-                            .estimates = preparation.declared.estimates,
-                            .joints = {},
-                            .unseen = {}};
-    refit(data, job, selecting, options, calibration);
-    calibration.robot = without_negligible_corrections(data, std::move(calibration.robot));
-    return calibration;
-  };
-  Calibration result = with(select_corrections(data, learning, selecting, declared, candidates));
-  if (candidates.empty() || !learnt_alone(candidates)) return result;
-  Calibration together = with(choose_together(data, job.declared, learning, selecting,
-                                              loop_start(data, preparation.declared, declared), candidates));
-  const bool is_better =
-      performance_index_mm2(together.robot, data, selecting) < performance_index_mm2(result.robot, data, selecting);
-  return is_better ? together : result;
+  const Selection selection = select_corrections(data, without_gross_errors(data, PoseSet::calibration, declared),
+                                                 selecting, declared, candidates);
+  Calibration calibration{.robot = with_shortened_corrections(selection.robot),
+                          .estimates = preparation.declared.estimates,
+                          .joints = {},
+                          .unseen = {}};
+  refit(data, job, selecting, options, calibration);
+  calibration.robot = without_negligible_corrections(data, std::move(calibration.robot));
+  return calibration;
 }
 
 }  // namespace

@@ -214,6 +214,11 @@ JoinedTables join_files(const YamlNode& root, std::vector<PoseFile>& files, cons
   const std::size_t lead = leading_file(columns);
   JoinedRows rows;
   std::vector<std::string> warnings;
+  if (columns.time && rule.by != JoinBy::time) {
+    CsvTable& table = files[columns.time->table].table;
+    std::optional<double> origin_s;
+    write_times_as_seconds(table, TableColumn(table, *columns.time).index(), origin_s);
+  }
   switch (rule.by) {
     case JoinBy::name:
       rows = join_by_name(tables_of(files), names_of(files, node->at("by")), lead, rule.unmatched);

@@ -37,12 +37,15 @@ struct JointColumn {
 /// Whether the names of the data set's columns say all that a table of poses needs: not where they are numbers, or
 /// where the file's own headings give the units.
 bool names_suffice(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {
-  const auto has_unit = [&](const ColumnName& column) {
+  if (columns.joints.size() != chain.joints.size()) return false;
+  for (std::size_t i = 0; i < columns.joints.size(); ++i) {
+    const ColumnName& column = columns.joints[i];
     const std::size_t ending = column.name.rfind('_');
     const bool own = ending != std::string::npos && find_unit(lower_case(column.name.substr(ending + 1)));
-    return column.number == 0 && (own || (units.angle && units.length));
-  };
-  return columns.joints.size() == chain.joints.size() && std::ranges::all_of(columns.joints, has_unit);
+    const bool assumed = is_revolute(chain.joints[i]) ? units.angle.has_value() : units.length.has_value();
+    if (column.number > 0 || !(own || assumed)) return false;
+  }
+  return true;
 }
 
 std::vector<JointColumn> joint_columns(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {

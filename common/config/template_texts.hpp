@@ -72,6 +72,7 @@ name: my simulation
 robot: @ROBOT@
 seed: 1
 poses: {calibration: 60, validation: 30, accept: 30, repeats: 1}
+joint_ranges: {}           # joints anywhere within their limits; or {q1_deg: [-90, 90]}, or a cuboid for the tool
 measurement:
   sensor_from_base: {translation_mm: [1500, -500, 300], rotation_deg: [0, 0, 90]}   # where the instrument sees the base
   noise_mm: 0.05           # standard deviation of a coordinate

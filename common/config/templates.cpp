@@ -121,7 +121,7 @@ std::string preparation_template(const GivenFiles& given, const std::filesystem:
   const auto has_joints = [](const std::filesystem::path& path) {
     return count_joint_columns(read_table(read_file(path), path.string()).table) > 0;
   };
-  std::string program = "poses.csv", readings = "readings.csv";
+  std::string program = "poses.csv", readings = "readings.txt";
   if (!given.programs.empty()) program = relative_to(folder, given.programs.front());
   for (const std::filesystem::path& table : given.tables)
     (has_joints(table) ? program : readings) = relative_to(folder, table);

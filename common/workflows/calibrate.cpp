@@ -1,5 +1,6 @@
 #include "workflows/workflows.hpp"
 
+#include <Eigen/Geometry>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -158,6 +159,25 @@ CalibrateResult calibrate_without_evolution(const DataSet& data, const Job& job,
   return std::move(diagnosis.result);
 }
 
+/// The placement that a model file gives back to the bit: the rotation of a quaternion that it turns into again.
+Eigen::Isometry3d as_files_have_it(Eigen::Isometry3d placement) {
+  constexpr int kMost = 100;
+  Eigen::Quaterniond turn(placement.linear());
+  for (int i = 0; i < kMost; ++i) {
+    const Eigen::Quaterniond again(turn.normalized().toRotationMatrix());
+    if (again.coeffs() == turn.coeffs()) break;
+    turn = again;
+  }
+  placement.linear() = turn.normalized().toRotationMatrix();
+  return placement;
+}
+
+CorrectedRobot as_files_have_it(CorrectedRobot robot) {
+  robot.sensor_from_base = as_files_have_it(robot.sensor_from_base);
+  for (auto& [target, tool] : robot.tools) tool = as_files_have_it(tool);
+  return robot;
+}
+
 }  // namespace
 
 CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration) {
@@ -165,7 +185,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .nominal = data.robot,
           .method = job.method,
           .declared = job.declared,
-          .robot = calibration.robot,
+          .robot = as_files_have_it(calibration.robot),
           .estimates = calibration.estimates,
           .joints = calibration.joints,
           .posterior = posterior_of(data, job.declared, calibration),

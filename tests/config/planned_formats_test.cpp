@@ -46,7 +46,9 @@ PlanRequest small_request() {
 
 TEST(PlannedFormats, PlanHasTheKeysOfThePage) {
   const PlanRequest request = small_request();
-  expect_documented(formats_section("plan.json"), all_paths(Json::parse(to_json(make_plan(request), request, {"a"}))));
+  Plan plan = make_plan(request);
+  plan.refused.fill(1);
+  expect_documented(formats_section("plan.json"), all_paths(Json::parse(to_json(plan, request, {"a"}))));
 }
 
 TEST(PlannedFormats, CheckHasTheKeysOfThePage) {

@@ -232,7 +232,7 @@ TEST(Templates, OfEveryKindAreRead) {
   folder.write("poses.csv", poses);
   std::string readings = "pose,x_mm,y_mm,z_mm\n";
   for (int i = 0; i < 5; ++i) readings += "P" + std::to_string(i) + ",1,2," + std::to_string(i) + "\n";
-  folder.write("readings.csv", readings);
+  folder.write("readings.txt", readings);
   EXPECT_EQ(load_data_set(write(TemplateKind::dataset, "dataset.yaml")).poses.size(), 5u);
   EXPECT_EQ(load_job(write(TemplateKind::job, "job.yaml")).seed, 1u);
   EXPECT_EQ(load_scenario(write(TemplateKind::scenario, "scenario.yaml")).name, "my simulation");

@@ -73,9 +73,8 @@ void expect_columns(const std::string& title, const std::vector<std::string>& ta
 
 TEST(WrittenFormats, ReportHasTheKeysOfThePage) {
   NamedObjects named{{"rounds[].interval", "NAME"}};
-  for (const char* effect : {"rounds[].effect", "rounds[].rivals[]", "dropped[]", "not_found[]"}) {
+  for (const char* effect : {"rounds[].effect", "rounds[].rivals[]", "dropped[]", "not_found[]"})
     for (const char* numbers : {".parameters", ".standard_errors"}) named[std::string(effect) + numbers] = "NAME";
-  }
   expect_json("report.json", {to_json(full_report()), to_json(made_up_report())}, named);
 }
 
@@ -88,9 +87,8 @@ TEST(WrittenFormats, ReportNamesEveryFinding) {
     return std::set<std::string>();
   }();
   std::set<std::string> kinds;
-  for (int kind = 0; kind <= static_cast<int>(FindingKind::other_robot); ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(FindingKind::other_robot); ++kind)
     kinds.emplace(to_string(static_cast<FindingKind>(kind)));
-  }
   EXPECT_THAT(named, ContainerEq(kinds));
 }
 
@@ -135,7 +133,9 @@ TEST(WrittenFormats, StudyHasTheKeysAndColumnsOfThePage) {
 }
 
 TEST(WrittenFormats, ComparisonHasTheKeysOfThePage) {
-  expect_json("comparison.json", {to_json(Comparison{.methods = std::vector<ComparedMethod>(1)})});
+  Comparison comparison;
+  comparison.methods.resize(1);
+  expect_json("comparison.json", {to_json(comparison)});
 }
 
 TEST(WrittenFormats, CertificateHasTheKeysOfThePage) {

@@ -112,7 +112,7 @@ TEST(ReadPoses, RefusesMapsThatDoNotFit) {
   EXPECT_EQ(refusal(rows, map), "set.yaml:5: 'q9_deg': is no column of poses.csv; the nearest is 'q1_deg'");
   map = small_map({"q1_deg", "q2_deg", "q3_mm"}, {});
   EXPECT_EQ(refusal(rows, map),
-            "set.yaml:4: columns must name position, orientation or distances: nothing was measured");
+            "set.yaml:4: columns must name position, orientation, distances or contact: nothing was measured");
   map = small_map({"q1_deg", "q2_deg", "q3_mm"}, {"x_mm", "y_mm"});
   EXPECT_EQ(refusal(rows, map), "set.yaml:5: columns.position must name 3 columns, not 2");
 }

@@ -160,7 +160,7 @@ TEST(Commands, ShownInDocumentsRunAsTheyStand) {
   for (const std::string& command : kRun) {
     const std::string call = "cd " + folder.string() + " && export PATH=" + kPrograms +
                              ":$PATH DEMECAL_DOMAIN=" + private_domain() + " && " + command;
-    const Ended ended = Program("/bin/sh", {"-c", call}).wait(std::chrono::seconds(300));
+    const Ended ended = StartedProgram("/bin/sh", {"-c", call}).wait(std::chrono::seconds(300));
     EXPECT_EQ(ended.code, 0) << command << "\n" << ended.err;
   }
 }

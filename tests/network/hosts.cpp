@@ -44,7 +44,7 @@ void release(pid_t holder) {
 /// Runs lines of `ip` commands as that process sees the network.
 void ip(pid_t network, const std::string& lines) {
   const std::string script = "PATH=$PATH:/usr/sbin:/sbin; ip -batch - <<END\n" + lines + "END\n";
-  const Ended ended = Program("/bin/sh", {"-c", script}, network).wait();
+  const Ended ended = StartedProgram("/bin/sh", {"-c", script}, network).wait();
   if (ended.code != 0) throw std::runtime_error("ip ended with " + std::to_string(ended.code) + ": " + ended.err);
 }
 

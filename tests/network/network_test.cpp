@@ -43,7 +43,7 @@ class Calibration {
                           discovery),
                      hosts.at(0)) {
     for (const int host : {1, 2})
-      workers_.push_back(std::make_unique<Program>("demecal-worker", with({}, discovery), hosts.at(host)));
+      workers_.push_back(std::make_unique<StartedProgram>("demecal-worker", with({}, discovery), hosts.at(host)));
   }
 
   /// Whether it goes on for that long.
@@ -67,8 +67,8 @@ class Calibration {
   }
 
   const SmallJob& job_;
-  Program coordinator_;
-  std::vector<std::unique_ptr<Program>> workers_;
+  StartedProgram coordinator_;
+  std::vector<std::unique_ptr<StartedProgram>> workers_;
 };
 
 class Network : public testing::Test {
@@ -124,15 +124,15 @@ TEST_F(Network, BrokenLinksHealAndLeaveTheSameModelByMulticast) {
 }
 
 TEST_F(Network, BrokenLinksHealAndLeaveTheSameModelByADiscoveryServer) {
-  const Program server("/usr/bin/fast-discovery-server", {"-i", "0", "-l", Hosts::address(0), "-p", "11811"},
-                       hosts_->at(0));
+  const StartedProgram server("/usr/bin/fast-discovery-server", {"-i", "0", "-l", Hosts::address(0), "-p", "11811"},
+                              hosts_->at(0));
   expect_the_model_of_a_calm_run({"--discovery-server", Hosts::address(0) + ":11811"});
 }
 
 TEST_F(Network, HostsMeetByNamedPeersAndShowCertificates) {
   const SmallJob job;
   const std::string script = std::string(DEMECAL_SOURCE_DIR) + "/scripts/security";
-  ASSERT_EQ(Program(script, {job.path("certificates")}).wait().code, 0);
+  ASSERT_EQ(StartedProgram(script, {job.path("certificates")}).wait().code, 0);
   std::vector<std::string> discovery{"--security", job.path("certificates")};
   for (int host = 0; host < 3; ++host) discovery.insert(discovery.end(), {"--peer", Hosts::address(host)});
   Calibration calibration(*hosts_, job, discovery);

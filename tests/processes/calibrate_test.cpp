@@ -19,8 +19,8 @@ std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, 
           "--domain",  private_domain()};
 }
 
-std::unique_ptr<Program> worker() {
-  return std::make_unique<Program>("demecal-worker", std::vector<std::string>{"--domain", private_domain()});
+std::unique_ptr<StartedProgram> worker() {
+  return std::make_unique<StartedProgram>("demecal-worker", std::vector<std::string>{"--domain", private_domain()});
 }
 
 TEST(Calibrate, WritesModelReportAndHistoryAndPrintsTheErrors) {
@@ -54,7 +54,7 @@ TEST(Calibrate, GivesTheSameModelForOneAndTwoWorkersAndWorkersStartedBeforeOrAft
     ASSERT_EQ(run("demecal", calibrate(job, "before", 0)).code, 0);
   }
   EXPECT_EQ(model, job.text("before/model.yaml"));
-  Program coordinator("demecal", calibrate(job, "after", 0));
+  StartedProgram coordinator("demecal", calibrate(job, "after", 0));
   ASSERT_TRUE(coordinator.wait_for_err("waiting"));
   const auto first = worker(), second = worker();
   ASSERT_EQ(coordinator.wait().code, 0);
@@ -65,7 +65,7 @@ TEST(Calibrate, SurvivesTheDeathOfAWorkerWithTheSameModel) {
   const SmallJob job(200);
   ASSERT_EQ(run("demecal", calibrate(job, "whole", 2)).code, 0);
   auto victim = worker();
-  Program coordinator("demecal", calibrate(job, "killed", 0));
+  StartedProgram coordinator("demecal", calibrate(job, "killed", 0));
   ASSERT_TRUE(coordinator.wait_for_err("joined"));
   const auto survivor = worker();
   victim->signal(SIGKILL);
@@ -90,7 +90,7 @@ TEST(Calibrate, EndsWithTwentyWhereNoWorkerComes) {
 
 TEST(Calibrate, InterruptedSavesWhatItReached) {
   const SmallJob job(1000000);
-  Program coordinator("demecal", calibrate(job, "out", 2));
+  StartedProgram coordinator("demecal", calibrate(job, "out", 2));
   ASSERT_TRUE(coordinator.wait_for_err("generation"));
   coordinator.signal(SIGINT);
   const Ended ended = coordinator.wait(std::chrono::seconds(30));

@@ -124,7 +124,7 @@ TEST(Diagnose, UnknownWordsEndWithTenAndTheNearestOne) {
 
 TEST(Diagnose, InterruptedSavesWhatItReached) {
   const SmallJob job(20, 2, kBacklash);
-  Program program("demecal", diagnose(job, "out"));
+  StartedProgram program("demecal", diagnose(job, "out"));
   while (!std::filesystem::exists(job.path("out"))) std::this_thread::yield();
   program.signal(SIGINT);
   const Ended ended = program.wait(std::chrono::seconds(60));

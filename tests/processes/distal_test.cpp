@@ -68,7 +68,7 @@ TEST(Distal, RoundsAreBredByTheSameTwoProcessesWhichLeaveInTheEnd) {
 TEST(Distal, ALocalWorkerThatDiesLeavesTheOtherAndTheSameModel) {
   const SmallJob job(4000);
   ASSERT_EQ(run("demecal", learn_distally(job, "calm", 2)).code, 0);
-  Program coordinator("demecal", learn_distally(job, "killed", 2));
+  StartedProgram coordinator("demecal", learn_distally(job, "killed", 2));
   ASSERT_TRUE(await_runs(job, "killed", 2));
   const std::vector<pid_t> workers = coordinator.children();
   ASSERT_EQ(workers.size(), 2U);
@@ -82,7 +82,7 @@ TEST(Distal, ALocalWorkerThatDiesLeavesTheOtherAndTheSameModel) {
 
 TEST(Distal, AWorkerStartedElsewhereServesEveryRound) {
   const SmallJob job(40);
-  const Program elsewhere("demecal-worker", {"--domain", private_domain(300)});
+  const StartedProgram elsewhere("demecal-worker", {"--domain", private_domain(300)});
   ASSERT_EQ(run("demecal", learn_distally(job, "elsewhere", 0)).code, 0);
   const Recorded all = recorded(job, "elsewhere");
   EXPECT_GT(all.runs.size(), 2U);

@@ -47,7 +47,7 @@ void DisturbedJob::start_coordinator(bool resume) {
       "calibrate", job_.job(),      "--out", job_.path(out_), "--workers", std::to_string(local_workers_), "--domain",
       domain_,     "--max-effects", "0"};
   if (resume) arguments.insert(arguments.end(), {"--resume", job_.path(out_)});
-  coordinator_ = std::make_unique<Program>("demecal", arguments);
+  coordinator_ = std::make_unique<StartedProgram>("demecal", arguments);
 }
 
 void DisturbedJob::disturb() {
@@ -73,8 +73,8 @@ void DisturbedJob::disturb() {
 
 void DisturbedJob::add() {
   const std::string slots = std::to_string(1 + random_.index(2));
-  workers_.push_back(
-      {std::make_unique<Program>("demecal-worker", std::vector<std::string>{"--domain", domain_, "--slots", slots})});
+  workers_.push_back({std::make_unique<StartedProgram>(
+      "demecal-worker", std::vector<std::string>{"--domain", domain_, "--slots", slots})});
   ++happened_.joined;
 }
 

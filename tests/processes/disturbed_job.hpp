@@ -31,7 +31,7 @@ class DisturbedJob {
 
  private:
   struct Worker {
-    std::unique_ptr<Program> program;
+    std::unique_ptr<StartedProgram> program;
     bool stopped = false;
   };
 
@@ -52,7 +52,7 @@ class DisturbedJob {
   Disturbances happened_;
   std::vector<Worker> workers_;
   int local_workers_;
-  std::unique_ptr<Program> coordinator_;
+  std::unique_ptr<StartedProgram> coordinator_;
 };
 
 }  // namespace demecal

@@ -25,9 +25,9 @@ std::size_t count(const std::string& text, const std::string& words) {
 TEST(Hostile, AFloodOfEveryTopicNeitherChangesNorEndsARun) {
   const SmallJob job(1000);
   ASSERT_EQ(run("demecal", calibrate_briefly(job, "calm", 2)).code, 0);
-  Program intruder("demecal-hostile", {private_domain()});
+  StartedProgram intruder("demecal-hostile", {private_domain()});
   ASSERT_TRUE(intruder.wait_for_out("flooding"));
-  Program worker("demecal-worker", {"--domain", private_domain()});
+  StartedProgram worker("demecal-worker", {"--domain", private_domain()});
   const Ended ended = run("demecal", calibrate_briefly(job, "flooded", 1));
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_FALSE(intruder.ends_within(std::chrono::milliseconds{0})) << intruder.wait().err;

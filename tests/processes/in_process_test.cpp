@@ -48,7 +48,7 @@ std::string open_files_of(pid_t process) {
 TEST(InProcess, StartsNoProcessAndOpensNoSocketAndIsResumed) {
   const SmallJob job(1500);
   ASSERT_EQ(run("demecal", calibrate_by(job, "in-process:2", "calm")).code, 0);
-  Program program("demecal", calibrate_by(job, "in-process:2", "out"));
+  StartedProgram program("demecal", calibrate_by(job, "in-process:2", "out"));
   ASSERT_TRUE(program.wait_for_err("joined with 2 slots"));
   EXPECT_TRUE(program.children().empty());
   EXPECT_THAT(open_files_of(program.process()), testing::Not(HasSubstr("socket:")));

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 const std::string kSource = DEMECAL_SOURCE_DIR, kBuild = DEMECAL_BINARY_DIR;
 
 Ended patiently(const std::string& program, const std::vector<std::string>& arguments) {
-  return Program(program, arguments).wait(std::chrono::seconds(400));
+  return StartedProgram(program, arguments).wait(std::chrono::seconds(400));
 }
 
 /// The build, installed below a folder of its own.

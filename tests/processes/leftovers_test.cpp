@@ -75,9 +75,9 @@ class EndlessRun : public ::testing::Test {
   const std::string domain_ = private_domain();
   const std::set<std::string> shared_before_ = shared_memory();
   SmallJob job_{1000000};
-  Program worker_{"demecal-worker", {"--domain", domain_}};
-  Program coordinator_{"demecal",
-                       {"calibrate", job_.job(), "--out", job_.path("out"), "--workers", "2", "--domain", domain_}};
+  StartedProgram worker_{"demecal-worker", {"--domain", domain_}};
+  StartedProgram coordinator_{
+      "demecal", {"calibrate", job_.job(), "--out", job_.path("out"), "--workers", "2", "--domain", domain_}};
   std::vector<pid_t> local_workers_;
 };
 

@@ -28,7 +28,7 @@ std::vector<std::string> calibrate_watched(const SmallJob& job, const std::strin
 }
 
 /// The address that a monitor printed, whole.
-std::string address_of(Program& monitor) {
+std::string address_of(StartedProgram& monitor) {
   if (!monitor.wait_for_out("/\n")) return "";
   const std::string out = monitor.out_so_far();
   const std::size_t begin = out.find("http://");
@@ -41,7 +41,7 @@ std::string fetched(const std::string& url) {
 
 /// What a browser finds at `url` once the stage holds `word`.
 Json seen_by_browser(const std::string& url, const std::string& word) {
-  Program node("/usr/bin/node", {std::string(DEMECAL_SOURCE_DIR) + "/tests/browser/live_page.mjs", url, word});
+  StartedProgram node("/usr/bin/node", {std::string(DEMECAL_SOURCE_DIR) + "/tests/browser/live_page.mjs", url, word});
   const Ended ended = node.wait(std::chrono::seconds(240));
   EXPECT_EQ(ended.code, 0) << ended.err;
   return ended.code == 0 ? Json::parse(ended.out) : Json();
@@ -49,10 +49,10 @@ Json seen_by_browser(const std::string& url, const std::string& word) {
 
 TEST(LivePage, ShowsARunInABrowserAndAnyMomentOfItAgain) {
   const SmallJob job(200, 2);
-  Program monitor("demecal", {"monitor", "--domain", page_domain(1), "--http", "0"});
+  StartedProgram monitor("demecal", {"monitor", "--domain", page_domain(1), "--http", "0"});
   const std::string url = address_of(monitor);
   ASSERT_TRUE(url.starts_with("http://127.0.0.1:")) << monitor.out_so_far() << monitor.err_so_far();
-  Program coordinator("demecal", calibrate_watched(job, "out", 1));
+  StartedProgram coordinator("demecal", calibrate_watched(job, "out", 1));
   const Json seen = seen_by_browser(url, "finished");
   EXPECT_EQ(coordinator.wait().code, 0);
   ASSERT_TRUE(seen.contains("phone")) << seen.dump();
@@ -89,7 +89,7 @@ TEST(LivePage, ShowsARunInABrowserAndAnyMomentOfItAgain) {
 TEST(LivePage, ShowsARecordedRun) {
   const SmallJob job;
   ASSERT_EQ(run("demecal", calibrate_watched(job, "out", 2)).code, 0);
-  Program monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0"});
+  StartedProgram monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0"});
   const std::string url = address_of(monitor);
   Json state;
   for (int i = 0; i < 200 && (state.is_null() || state["run"].is_null() || state["run"]["share_done"] < 1.0); ++i) {
@@ -105,8 +105,8 @@ TEST(LivePage, ShowsARecordedRun) {
 TEST(LivePage, DrawsTheArmOfADataSetAndWhereItWasMeasured) {
   const SmallJob job;
   ASSERT_EQ(run("demecal", calibrate_watched(job, "out", 6)).code, 0);
-  Program monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0", "--data",
-                              job.data(), "--model", job.path("out/model.yaml")});
+  StartedProgram monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0", "--data",
+                                     job.data(), "--model", job.path("out/model.yaml")});
   const std::string url = address_of(monitor);
   Json arm;
   std::istringstream events(fetched(url + "api/events"));
@@ -145,11 +145,11 @@ TEST(LivePage, DrawsTheArmOfADataSetAndWhereItWasMeasured) {
 TEST(LivePage, ChangesNothingOfTheModelThoughABrowserIsStopped) {
   const SmallJob job(1000, 2);
   ASSERT_EQ(run("demecal", calibrate_watched(job, "alone", 3)).code, 0);
-  Program monitor("demecal", {"monitor", "--domain", page_domain(3), "--http", "0"});
+  StartedProgram monitor("demecal", {"monitor", "--domain", page_domain(3), "--http", "0"});
   const std::string url = address_of(monitor);
-  Program reading("/usr/bin/curl", {"--silent", "--no-buffer", url + "api/stream"});
-  Program stopped("/usr/bin/curl", {"--silent", "--no-buffer", "--limit-rate", "100", url + "api/stream"});
-  Program coordinator("demecal", calibrate_watched(job, "watched", 3));
+  StartedProgram reading("/usr/bin/curl", {"--silent", "--no-buffer", url + "api/stream"});
+  StartedProgram stopped("/usr/bin/curl", {"--silent", "--no-buffer", "--limit-rate", "100", url + "api/stream"});
+  StartedProgram coordinator("demecal", calibrate_watched(job, "watched", 3));
   ASSERT_TRUE(reading.wait_for_out("\"progress\""));
   stopped.signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait().code, 0);
@@ -162,7 +162,7 @@ TEST(LivePage, ChangesNothingOfTheModelThoughABrowserIsStopped) {
 }
 
 TEST(LivePage, WantsATokenElsewhere) {
-  Program monitor("demecal", {"monitor", "--domain", page_domain(4), "--http", "0.0.0.0:0"});
+  StartedProgram monitor("demecal", {"monitor", "--domain", page_domain(4), "--http", "0.0.0.0:0"});
   ASSERT_TRUE(monitor.wait_for_out("#token="));
   const std::string out = monitor.out_so_far();
   const std::size_t colon = out.rfind(':') + 1;

@@ -58,9 +58,9 @@ bool has(const std::vector<Json>& events, const char* word, const char* key, con
 
 TEST(Monitor, ComesLateSeesAllThatIsThereAndOutlivesTheCoordinator) {
   const SmallJob job(100000, 2);
-  Program watching("demecal", monitor(1)), listening("demecal", monitor(1, {"--json"}));
+  StartedProgram watching("demecal", monitor(1)), listening("demecal", monitor(1, {"--json"}));
   ASSERT_TRUE(watching.wait_for_out("nobody is calibrating"));
-  Program coordinator("demecal", calibrate_on(job, "out", 1));
+  StartedProgram coordinator("demecal", calibrate_on(job, "out", 1));
   ASSERT_TRUE(listening.wait_for_out("\"progress\""));
   const Ended once = run("demecal", monitor(1, {"--once"}));
   EXPECT_EQ(once.code, 0) << once.err;
@@ -82,7 +82,7 @@ TEST(Monitor, ComesLateSeesAllThatIsThereAndOutlivesTheCoordinator) {
   ASSERT_EQ(run("demecal", calibrate_on(next, "out", 1)).code, 0);
   EXPECT_TRUE(listening.wait_for_out("\"finished\""));
   EXPECT_TRUE(watching.wait_for_out("finished"));
-  for (Program* program : {&watching, &listening}) {
+  for (StartedProgram* program : {&watching, &listening}) {
     program->signal(SIGINT);
     const Ended ended = program->wait(std::chrono::seconds(20));
     EXPECT_EQ(ended.code, 0) << ended.err;
@@ -99,15 +99,15 @@ TEST(Monitor, SaysThatNobodyIsThere) {
 TEST(Monitor, ChangesNothingOfTheModelWhetherItWatchesOrIsStopped) {
   const SmallJob job(1000, 2);  // longer than it takes to find each other
   ASSERT_EQ(run("demecal", calibrate_on(job, "alone", 3)).code, 0);
-  Program watching("demecal", monitor(3, {"--json"}));
+  StartedProgram watching("demecal", monitor(3, {"--json"}));
   ASSERT_TRUE(watching.wait_for_out("begin"));
   ASSERT_EQ(run("demecal", calibrate_on(job, "watched", 3)).code, 0);
   ASSERT_TRUE(watching.wait_for_out("\"finished\""));
   EXPECT_EQ(islands_in(events_of(watching.out_so_far())), 12u);
 
-  Program stopped("demecal", monitor(3, {"--json"}));
+  StartedProgram stopped("demecal", monitor(3, {"--json"}));
   ASSERT_TRUE(stopped.wait_for_out("begin"));
-  Program coordinator("demecal", calibrate_on(job, "stopped", 3));
+  StartedProgram coordinator("demecal", calibrate_on(job, "stopped", 3));
   ASSERT_TRUE(stopped.wait_for_out("\"progress\""));
   stopped.signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait().code, 0);

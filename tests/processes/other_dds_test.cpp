@@ -102,9 +102,9 @@ class OtherDds : public ::testing::Test {
 
 TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   const SmallJob job(1000, 2);
-  Program monitor("demecal", {"monitor", "--domain", other_domain(1), "--json", "--ros2"});
+  StartedProgram monitor("demecal", {"monitor", "--domain", other_domain(1), "--json", "--ros2"});
   ASSERT_TRUE(monitor.wait_for_out("begin"));
-  Program reader("read-topics", {other_domain(1), "60"});
+  StartedProgram reader("read-topics", {other_domain(1), "60"});
   ASSERT_TRUE(reader.wait_for_out("reading"));
   const Ended calibrated = run("demecal", calibrate(job, "out", 1));
   ASSERT_EQ(calibrated.code, 0) << calibrated.err;
@@ -160,12 +160,13 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
 TEST_F(OtherDds, ChangesNothingOfTheModelWithTwentyReadersOneOfThemStopped) {
   const SmallJob job(1000, 2);
   ASSERT_EQ(run("demecal", calibrate(job, "alone", 2)).code, 0);
-  Program monitor("demecal", {"monitor", "--domain", other_domain(2), "--json", "--ros2"});
-  std::vector<std::unique_ptr<Program>> readers;
+  StartedProgram monitor("demecal", {"monitor", "--domain", other_domain(2), "--json", "--ros2"});
+  std::vector<std::unique_ptr<StartedProgram>> readers;
   for (int i = 0; i < 20; ++i)
-    readers.push_back(std::make_unique<Program>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
+    readers.push_back(
+        std::make_unique<StartedProgram>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
   for (const auto& reader : readers) ASSERT_TRUE(reader->wait_for_out("reading"));
-  Program coordinator("demecal", calibrate(job, "read", 2));
+  StartedProgram coordinator("demecal", calibrate(job, "read", 2));
   ASSERT_TRUE(readers[0]->wait_for_out("demecal/7/progress"));
   readers[0]->signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait(std::chrono::seconds(240)).code, 0);

@@ -42,7 +42,7 @@ std::string scratch_file() {
 
 }  // namespace
 
-Program::Program(const std::string& name, const std::vector<std::string>& arguments, pid_t network)
+StartedProgram::StartedProgram(const std::string& name, const std::vector<std::string>& arguments, pid_t network)
     : out_path_(scratch_file()), err_path_(scratch_file()) {
   const bool is_path = name.find('/') != std::string::npos;
   const std::string path = is_path ? name : std::string(DEMECAL_BINARY_DIR) + "/bin/" + name;
@@ -55,7 +55,7 @@ Program::Program(const std::string& name, const std::vector<std::string>& argume
   if (process_ == 0) become(path, pointers, network, out_path_, err_path_);
 }
 
-Program::~Program() {
+StartedProgram::~StartedProgram() {
   if (!has_ended()) {
     ::kill(process_, SIGKILL);
     ::waitpid(process_, nullptr, 0);
@@ -64,51 +64,51 @@ Program::~Program() {
   std::remove(err_path_.c_str());
 }
 
-void Program::signal(int number) const {
+void StartedProgram::signal(int number) const {
   ::kill(process_, number);
 }
 
-bool Program::has_ended() {
+bool StartedProgram::has_ended() {
   if (!ended_) ended_ = ::waitpid(process_, &status_, WNOHANG) == process_;
   return ended_;
 }
 
-bool Program::ends_within(std::chrono::milliseconds patience) {
+bool StartedProgram::ends_within(std::chrono::milliseconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (!has_ended() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(kPoll);
   return ended_;
 }
 
-std::vector<pid_t> Program::children() const {
+std::vector<pid_t> StartedProgram::children() const {
   const std::string process = std::to_string(process_);
   std::ifstream list("/proc/" + process + "/task/" + process + "/children");
   return {std::istream_iterator<pid_t>(list), {}};
 }
 
-Ended Program::wait(std::chrono::seconds patience) {
+Ended StartedProgram::wait(std::chrono::seconds patience) {
   ends_within(patience);
   Ended ended{-1, contents(out_path_), contents(err_path_)};
   if (ended_) ended.code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
   return ended;
 }
 
-std::string Program::err_so_far() const {
+std::string StartedProgram::err_so_far() const {
   return contents(err_path_);
 }
 
-std::string Program::out_so_far() const {
+std::string StartedProgram::out_so_far() const {
   return contents(out_path_);
 }
 
-bool Program::wait_for_out(const std::string& text, std::chrono::seconds patience) {
+bool StartedProgram::wait_for_out(const std::string& text, std::chrono::seconds patience) {
   return wait_for(out_path_, text, patience);
 }
 
-bool Program::wait_for_err(const std::string& text, std::chrono::seconds patience) {
+bool StartedProgram::wait_for_err(const std::string& text, std::chrono::seconds patience) {
   return wait_for(err_path_, text, patience);
 }
 
-bool Program::wait_for(const std::string& path, const std::string& text, std::chrono::seconds patience) {
+bool StartedProgram::wait_for(const std::string& path, const std::string& text, std::chrono::seconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < deadline) {
     const bool over = has_ended();
@@ -120,7 +120,7 @@ bool Program::wait_for(const std::string& path, const std::string& text, std::ch
 }
 
 Ended run(const std::string& name, const std::vector<std::string>& arguments) {
-  return Program(name, arguments).wait();
+  return StartedProgram(name, arguments).wait();
 }
 
 std::string private_domain(int which) {

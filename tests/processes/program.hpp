@@ -17,14 +17,14 @@ struct Ended {
 };
 
 /// A running program of the build under test; killed where it is still running when this goes.
-class Program {
+class StartedProgram {
  public:
   /// `name` is a program of the build, such as "demecal", or the path of another. It sees the network that the process
   /// `network` sees; where that is 0, this one's.
-  Program(const std::string& name, const std::vector<std::string>& arguments, pid_t network = 0);
-  ~Program();
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  StartedProgram(const std::string& name, const std::vector<std::string>& arguments, pid_t network = 0);
+  ~StartedProgram();
+  StartedProgram(const StartedProgram&) = delete;
+  StartedProgram& operator=(const StartedProgram&) = delete;
 
   pid_t process() const { return process_; }
   void signal(int number) const;

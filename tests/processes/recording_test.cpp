@@ -48,7 +48,7 @@ Json comparable(Json event) {
 TEST(Recording, HoldsARunForTheReferenceReaderAndForReplay) {
   const SmallJob job(200, 2);
   const std::string file = job.path("run.mcap");
-  Program recording("demecal", {"monitor", "--domain", recorded_domain(1), "--json", "--record", file});
+  StartedProgram recording("demecal", {"monitor", "--domain", recorded_domain(1), "--json", "--record", file});
   ASSERT_TRUE(recording.wait_for_out("begin"));
   const Ended calibrated = run("demecal", {"calibrate", job.job(), "--out", job.path("out"), "--workers", "2",
                                            "--domain", recorded_domain(1), "--quiet"});
@@ -95,9 +95,9 @@ TEST(Recording, HoldsARunForTheReferenceReaderAndForReplay) {
 TEST(Recording, OfAMonitorThatWasKilledShowsWhatItHad) {
   const SmallJob job(100000, 2);
   const std::string file = job.path("run.mcap");
-  Program recording("demecal", {"monitor", "--domain", recorded_domain(2), "--json", "--record", file});
-  Program coordinator("demecal", {"calibrate", job.job(), "--out", job.path("out"), "--workers", "1", "--domain",
-                                  recorded_domain(2), "--quiet"});
+  StartedProgram recording("demecal", {"monitor", "--domain", recorded_domain(2), "--json", "--record", file});
+  StartedProgram coordinator("demecal", {"calibrate", job.job(), "--out", job.path("out"), "--workers", "1", "--domain",
+                                         recorded_domain(2), "--quiet"});
   ASSERT_TRUE(recording.wait_for_out("\"progress\""));
   std::this_thread::sleep_for(std::chrono::seconds(3));  // longer than a chunk lasts
   recording.signal(SIGKILL);

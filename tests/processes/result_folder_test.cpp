@@ -83,12 +83,12 @@ TEST(ResultFolder, GoesOnAfterARunThatWasKilledOrInterrupted) {
   const std::vector<std::string> arguments{"calibrate", job.job(), "--out",    job.path("out"),
                                            "--workers", "1",       "--domain", private_domain()};
   for (const int signal : {SIGKILL, SIGINT}) {
-    Program program("demecal", arguments);
+    StartedProgram program("demecal", arguments);
     ASSERT_TRUE(program.wait_for_err("generation")) << program.err_so_far();
     program.signal(signal);
     EXPECT_NE(program.wait().code, 10);
   }
-  Program again("demecal", arguments);
+  StartedProgram again("demecal", arguments);
   EXPECT_TRUE(again.wait_for_err("generation")) << again.err_so_far();
   again.signal(SIGINT);
   EXPECT_EQ(again.wait().code, 130);

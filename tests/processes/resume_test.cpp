@@ -33,7 +33,7 @@ Words resume(const SmallJob& job, const std::string& out, Words more = {}) {
 
 /// A calibration whose coordinator was killed when its islands had got on a little.
 void leave_unfinished(const SmallJob& job, const std::string& out) {
-  Program coordinator("demecal", calibrate_with(job, out));
+  StartedProgram coordinator("demecal", calibrate_with(job, out));
   ASSERT_TRUE(coordinator.wait_for_err("generation"));
   coordinator.signal(SIGKILL);
   coordinator.wait();
@@ -74,7 +74,7 @@ TEST(Resume, NeedsNoOtherFolderAndTakesADamagedEnd) {
 TEST(Resume, GoesOnAfterCtrlC) {
   const SmallJob job(kGenerations);
   const std::string model = calm_model(job);
-  Program coordinator("demecal", calibrate_with(job, "out"));
+  StartedProgram coordinator("demecal", calibrate_with(job, "out"));
   ASSERT_TRUE(coordinator.wait_for_err("generation"));
   coordinator.signal(SIGINT);
   const Ended interrupted = coordinator.wait();
@@ -118,7 +118,7 @@ TEST(Resume, GoesOnAfterTheDiskWasFull) {
 
 TEST(Calibrate, OneFolderIsServedByOneCoordinator) {
   const SmallJob job(1000000);
-  Program first("demecal", calibrate_with(job, "out"));
+  StartedProgram first("demecal", calibrate_with(job, "out"));
   ASSERT_TRUE(first.wait_for_err("generation"));
   const Ended second = run("demecal", calibrate_with(job, "out"));
   EXPECT_EQ(second.code, 11);

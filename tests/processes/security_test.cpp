@@ -16,7 +16,7 @@ class Security : public testing::Test {
  protected:
   /// Makes a folder of certificates with an authority of its own.
   std::string certificates(const std::string& name) {
-    const Ended ended = Program(std::string(DEMECAL_SOURCE_DIR) + "/scripts/security", {job_.path(name)}).wait();
+    const Ended ended = StartedProgram(std::string(DEMECAL_SOURCE_DIR) + "/scripts/security", {job_.path(name)}).wait();
     EXPECT_EQ(ended.code, 0) << ended.err;
     return job_.path(name);
   }
@@ -30,8 +30,8 @@ class Security : public testing::Test {
     return with({"calibrate", job, "--out", job_.path(out), "--workers", std::to_string(workers), "--max-effects", "0"},
                 folder);
   }
-  static std::unique_ptr<Program> worker(const std::string& folder) {
-    return std::make_unique<Program>("demecal-worker", with({}, folder));
+  static std::unique_ptr<StartedProgram> worker(const std::string& folder) {
+    return std::make_unique<StartedProgram>("demecal-worker", with({}, folder));
   }
 
   const SmallJob job_;
@@ -53,7 +53,7 @@ TEST_F(Security, SecuredCalibrationsGiveTheSameModel) {
 TEST_F(Security, WorkersWithForeignCertificatesAndWithoutAnyAreRefusedAndNamed) {
   const SmallJob endless(1000000);
   const std::string folder = certificates("certificates"), foreign = certificates("foreign");
-  Program coordinator("demecal", calibrate(endless.job(), "out", 0, folder));
+  StartedProgram coordinator("demecal", calibrate(endless.job(), "out", 0, folder));
   ASSERT_TRUE(coordinator.wait_for_err("waiting"));
   const auto stranger = worker(foreign), naked = worker("");
   EXPECT_TRUE(coordinator.wait_for_err("-" + std::to_string(naked->process()) + "-"));

@@ -53,7 +53,7 @@ TEST(Study, ComparesEvolutionAndTheClosedLoopAlone) {
 
 TEST(Study, InterruptedKeepsWhatItReached) {
   const SmallJob job(200);
-  Program program("demecal", study(job, {"--seeds", "500", "--workers", "2"}));
+  StartedProgram program("demecal", study(job, {"--seeds", "500", "--workers", "2"}));
   ASSERT_TRUE(program.wait_for_err("[2/500]"));
   program.signal(SIGINT);
   const Ended ended = program.wait();

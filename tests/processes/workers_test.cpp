@@ -42,10 +42,10 @@ class Workers : public testing::Test {
     return shell("export HOME=" + job_.path("") + " CALLS=" + job_.path("calls") + " PATH=" + job_.path("bin") +
                  ":$PATH; " + kRoot + "/scripts/workers " + arguments);
   }
-  static Ended shell(const std::string& line) { return Program("/bin/bash", {"-c", line}).wait(); }
+  static Ended shell(const std::string& line) { return StartedProgram("/bin/bash", {"-c", line}).wait(); }
 
-  std::unique_ptr<Program> coordinator() {
-    return std::make_unique<Program>(
+  std::unique_ptr<StartedProgram> coordinator() {
+    return std::make_unique<StartedProgram>(
         "demecal", std::vector<std::string>{"calibrate", endless_.job(), "--out", job_.path("out"), "--workers", "0",
                                             "--domain", kDomain});
   }
@@ -135,7 +135,7 @@ TEST_F(Workers, TheSystemdUnitStartsAWorkerWithTheOptionsOfItsFile) {
   std::string command = std::regex_replace(line[1].str(), std::regex("\\$\\$"), "$$");
   command = std::regex_replace(command, std::regex("[^ ]*/demecal-worker"), kPrograms + "/demecal-worker");
   const auto calibration = coordinator();
-  const Program service("/bin/sh", {"-c", "SLOTS=5 OPTIONS='--domain " + kDomain + "'; " + command});
+  const StartedProgram service("/bin/sh", {"-c", "SLOTS=5 OPTIONS='--domain " + kDomain + "'; " + command});
   EXPECT_TRUE(calibration->wait_for_err("joined with 5 slots"));
   if (shell("command -v systemd-analyze").code != 0) GTEST_SKIP() << "there is no systemd here to ask about the unit";
   const Ended verified = shell("systemd-analyze verify --man=no " + unit_file);

@@ -55,7 +55,11 @@ TEST(Change, OfTheBaseAloneIsToldFromOneOfTheRobot) {
   CorrectedRobot now = true_wrist(1);
   now.sensor_from_base.translation() += Eigen::Vector3d(6e-4, -5e-4, 6e-4);
   const ChangeReport moved = find_change(model, measured_wrist(now, 14, 0, 301));
-  EXPECT_EQ(moved.verdict, ChangeVerdict::registration);
+  std::string found;
+  for (const ChangeCause& cause : moved.found)
+    found += cause.effect.kind + " of joint " + std::to_string(cause.effect.joint + 1) + ", p " +
+             std::to_string(cause.p_family) + "; ";
+  EXPECT_EQ(moved.verdict, ChangeVerdict::registration) << found << "unnamed: " << moved.unnamed;
   EXPECT_LT(moved.left_m, 0.3 * moved.error_m);
   now.sensor_from_base.translation() += Eigen::Vector3d(0.5, 0.2, 0.1);
   const ChangeReport anew = find_change(model, measured_wrist(now, 14, 0, 302));
