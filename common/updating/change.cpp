@@ -20,7 +20,7 @@ namespace demecal::inline updating {
 namespace {
 
 constexpr double kError = 0.05, kErrorOfAny = 1e-3;
-/// Of a cause beside those found: it is sought in what they left of the same poses.
+/// Of a cause beside those found, or beside a base found anew: it is sought in what they left of the same poses.
 constexpr double kErrorOfFurther = 0.005;
 constexpr double kFound = 1.645 + 1.282;  ///< one-sided at 5 %, nine times in ten
 constexpr std::size_t kFewestPoses = 4;
@@ -142,7 +142,7 @@ class ChangeSearch {
       std::vector<ChangeCause> causes = causes_on(rows);
       if (causes.empty()) break;
       if (step == 0) report_.tried = causes;
-      if (causes.front().p_family >= (step == 0 ? kError : kErrorOfFurther)) break;
+      if (causes.front().p_family >= (step == 0 && !report_.set_up_anew ? kError : kErrorOfFurther)) break;
       report_.found.push_back(causes.front());
       project(rows, causes.front().effect);
     }

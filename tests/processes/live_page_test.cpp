@@ -92,7 +92,11 @@ TEST(LivePage, ShowsARecordedRun) {
   StartedProgram monitor("demecal", {"monitor", "--replay", job.path("out"), "--speed", "1000", "--http", "0"});
   const std::string url = address_of(monitor);
   Json state;
-  for (int i = 0; i < 200 && (state.is_null() || state["run"].is_null() || state["run"]["share_done"] < 1.0); ++i) {
+  const auto is_over = [&] {
+    return !state.is_null() && !state["run"].is_null() && state["run"]["share_done"] >= 1.0 &&
+           state["calibration"]["stage"] == "finished";
+  };
+  for (int i = 0; i < 200 && !is_over(); ++i) {
     state = Json::parse(fetched(url + "api/state"));
     ::usleep(100'000);
   }

@@ -37,7 +37,8 @@ TEST(PoseCsv, ReadsBackEveryPose) {
 TEST(PoseCsv, HasNoColumnsForWhatNoPoseHas) {
   Report report;
   report.pose_errors = {{"P1", "", "accept", {}, 0.1, {}}};
-  EXPECT_EQ(pose_errors_csv(report), "id,target,set,before_mm,after_mm,interval95_mm,flags\nP1,,accept,,0.1,,\n");
+  EXPECT_EQ(pose_errors_csv(report),
+            "id,target,set,before_mm,after_mm,interval95_mm,flags\nP1,\"\",accept,\"\",0.1,\"\",\"\"\n");
 }
 
 }  // namespace
