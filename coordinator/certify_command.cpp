@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -91,6 +92,7 @@ std::string print_page(const CertifyRequest& request) {
 }
 
 ExitCode run(const CertifyRequest& request) {
+  if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
   const CalibratedModel model = load_model(request.model_file);
   CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;

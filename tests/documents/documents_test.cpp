@@ -86,7 +86,7 @@ const std::map<std::string, std::string> kCovered = {
 std::string help_of(const std::string& command) {
   static std::map<std::string, std::string> known;
   std::smatch words;
-  std::regex_search(command, words, std::regex("^(\\S+)(?: ([a-z]+)\\b)?"));
+  std::regex_search(command, words, std::regex("^(\\S+)(?: (robot [a-z]+|[a-z]+)\\b)?"));
   const bool script = words[1].str().starts_with("scripts/");
   const std::string call = script                        ? (kRoot / words[1].str()).string()
                            : words[1].str() == "demecal" ? kPrograms + "/demecal " + words[2].str()

@@ -58,7 +58,8 @@ TEST(Certify, EndsWellWhateverTheVerdict) {
   const Ended close = robot.certify(std::to_string(1.05 * error_mm));
   EXPECT_EQ(close.code, 0);
   EXPECT_TRUE(has(close.out, "Undecided")) << close.out;
-  EXPECT_TRUE(has(close.out, "poses in all")) << close.out;
+  EXPECT_TRUE(has(close.out, "poses in all") || has(close.out, "no practical number of poses would decide"))
+      << close.out;
 }
 
 TEST(Certify, HasTheFiguresOfTheReport) {
