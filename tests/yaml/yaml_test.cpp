@@ -64,8 +64,12 @@ TEST(Yaml, NamesTheNearestKey) {
   EXPECT_EQ(complaint([&] {
               root.at("gp").with_keys({"tournament_size", "population_size"});
             }),
-            "f.yaml:2: 'population': is no key of gp; the nearest is 'population_size'");
-  EXPECT_EQ(complaint([&] { root.with_keys({"gd", "go"}); }), "f.yaml:1: 'gp': is no key; the nearest is 'gd'");
+            "f.yaml:2: 'population': is no key of gp; the nearest is 'population_size'. Keys that are allowed here: "
+            "tournament_size population_size");
+  EXPECT_EQ(complaint([&] {
+              root.with_keys({"gd", "go"});
+            }),
+            "f.yaml:1: 'gp': is no key; the nearest is 'gd'. Keys that are allowed here: gd go");
 }
 
 TEST(Yaml, ChecksTheKindAndVersionOfAFile) {
