@@ -110,7 +110,7 @@ void ClosedLoop::make_candidates(const Linearization& linearization) {
 /// How measurements scatter, and the model's numbers by that; twice, since either depends on the other.
 void ClosedLoop::estimate_noise() {
   constexpr int kRounds = 2;
-  if (!options_.noise || problem_.fitted.size() > kMostPosesForNoise) return;
+  if (!options_.noise || problem_.fitted.size() > kMostPosesForNoise || has_contacts(problem_.data)) return;
   const bool several_kinds = std::ranges::count_if(model_.scales, [](double scale) { return scale > 0.0; }) > 1;
   if (group_ > 0 && several_kinds) {
     // An effect that was missing may have shown in one kind of rows more than in another.
