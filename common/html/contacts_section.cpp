@@ -11,8 +11,8 @@ namespace {
 
 /// A bar as long as the spread, of the longest.
 std::string spread_bar(const std::optional<double>& mm, double longest_mm, const char* colour) {
-  constexpr double kWidth = 160.0;
-  const double width = longest_mm > 0.0 ? kWidth * mm.value_or(0.0) / longest_mm : 0.0;
+  constexpr double kWidest = 160.0;
+  const double width = longest_mm > 0.0 ? kWidest * mm.value_or(0.0) / longest_mm : 0.0;
   return "<svg width=\"160\" height=\"8\" role=\"img\" aria-label=\"" + fixed(mm, 3) + " mm\"><rect width=\"" +
          fixed(width, 1) + "\" height=\"8\" fill=\"" + colour + "\"/></svg>";
 }

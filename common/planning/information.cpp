@@ -62,6 +62,7 @@ double belief_of(const ParameterId& id, const FitOptions& options) {
     case ParameterId::Kind::base_translation:
     case ParameterId::Kind::base_rotation:
     case ParameterId::Kind::tool_rotation:
+    case ParameterId::Kind::contact:
       return kPlace;
     case ParameterId::Kind::tool_translation:
       return kUsualTool_m;

@@ -43,7 +43,7 @@ std::optional<Visit> led_to(const SimulatedRobot& robot, const Eigen::Vector3d& 
     if (off.norm() < kThere_m) return visit;
     const Eigen::Matrix3Xd slopes = slopes_at(robot, visit);
     const Eigen::Matrix3d square = slopes * slopes.transpose() + kDamping * Eigen::Matrix3d::Identity();
-    JointVector change = slopes.transpose() * square.ldlt().solve(off);
+    Eigen::VectorXd change = slopes.transpose() * square.ldlt().solve(off);
     const double largest = change.cwiseAbs().maxCoeff();
     if (largest > kLongestStep) change *= kLongestStep / largest;
     visit.commanded += change;
