@@ -14,7 +14,7 @@ namespace demecal::inline html {
 namespace {
 
 /// A text of JavaScript and JSON, whatever its bytes: nothing in it ends the script or is taken for markup.
-std::string quoted(std::string_view text) {
+std::string script_text(std::string_view text) {
   std::string made = "\"";
   for (const char letter : text) {
     const auto code = static_cast<unsigned char>(letter);
@@ -83,8 +83,8 @@ std::string arm_text(const Report& report) {
   constexpr int kDecimals = 6;
   std::string joints;
   for (const ArmJointEntry& joint : report.arm->joints) {
-    joints += (joints.empty() ? "" : ",") +
-              fmt::format("{{\"type\":{},\"placement\":[{}]}}", quoted(joint.type), joined(joint.placement, kDecimals));
+    joints += (joints.empty() ? "" : ",") + fmt::format("{{\"type\":{},\"placement\":[{}]}}", script_text(joint.type),
+                                                        joined(joint.placement, kDecimals));
   }
   return fmt::format("{{\"base\":[{}],\"joints\":[{}],\"flange\":[{}],\"tool\":[{}]}}",
                      joined(report.arm->base, kDecimals), joints, joined(report.arm->flange, kDecimals),
@@ -109,9 +109,9 @@ std::string pose_data(const Report& report) {
   const auto set_letter = [](const PoseErrorEntry& pose) { return pose.set.empty() ? 'c' : pose.set.front(); };
   std::string sets;
   for (const PoseErrorEntry& pose : report.pose_errors) sets += set_letter(pose);
-  std::string text = "{" + list("id", report, [](const PoseErrorEntry& pose) { return quoted(pose.id); });
-  text += list("target", report, [](const PoseErrorEntry& pose) { return quoted(pose.target); });
-  text += "\"set\":" + quoted(sets) + ",\n";
+  std::string text = "{" + list("id", report, [](const PoseErrorEntry& pose) { return script_text(pose.id); });
+  text += list("target", report, [](const PoseErrorEntry& pose) { return script_text(pose.target); });
+  text += "\"set\":" + script_text(sets) + ",\n";
   text += list("before", report, [](const PoseErrorEntry& pose) { return number(pose.before_mm, 4); });
   text += list("after", report, [](const PoseErrorEntry& pose) { return number(pose.after_mm, 4); });
   text += list("within", report, [](const PoseErrorEntry& pose) { return number(pose.interval95_mm, 4); });

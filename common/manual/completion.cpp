@@ -20,7 +20,7 @@ std::string function_name(const CLI::App& program) {
 }
 
 /// In single quotes of a shell.
-std::string quoted(const std::string& text) {
+std::string shell_text(const std::string& text) {
   std::string safe = "'";
   for (const char letter : text) safe += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
   return safe + "'";
@@ -46,7 +46,7 @@ std::string choice_cases(const CLI::App& command, const std::string& name) {
   for (const DescribedOption& option : described_options(command)) {
     if (option.positional || option.choices.empty()) continue;
     for (const std::string& word : option.names) {
-      cases += "    " + name + ":" + word + ") choices=" + quoted(spaced(option.choices)) + " ;;\n";
+      cases += "    " + name + ":" + word + ") choices=" + shell_text(spaced(option.choices)) + " ;;\n";
     }
   }
   return cases;
@@ -61,10 +61,10 @@ std::string zsh_argument(const DescribedOption& option) {
   }
   const std::string action = option.choices.empty() ? "_files" : "(" + spaced(option.choices) + ")";
   const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + action;
-  if (option.positional) return "    " + quoted(":" + option.names.front() + ":" + action) + " \\\n";
+  if (option.positional) return "    " + shell_text(":" + option.names.front() + ":" + action) + " \\\n";
   std::string lines;
   for (const std::string& name : option.names)
-    lines += "    " + quoted(name + "[" + description + "]" + value) + " \\\n";
+    lines += "    " + shell_text(name + "[" + description + "]" + value) + " \\\n";
   return lines;
 }
 
@@ -75,7 +75,7 @@ std::string zsh_arguments(const CLI::App& command) {
 }
 
 /// In single quotes of fish, in which a backslash escapes.
-std::string quoted_for_fish(const std::string& text) {
+std::string fish_text(const std::string& text) {
   std::string safe = "'";
   for (const char letter : text) {
     if (letter == '\'' || letter == '\\') safe += '\\';
@@ -94,8 +94,8 @@ std::string fish_options(const CLI::App& command, const std::string& beginning) 
       if (!option.positional) lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     }
     if (!option.positional && !option.value.empty()) lines += " -r";
-    if (!option.choices.empty()) lines += " -f -a " + quoted_for_fish(spaced(option.choices));
-    lines += " -d " + quoted_for_fish(option.description) + "\n";
+    if (!option.choices.empty()) lines += " -f -a " + fish_text(spaced(option.choices));
+    lines += " -d " + fish_text(option.description) + "\n";
   }
   return lines;
 }
@@ -107,7 +107,7 @@ std::string bash_completion(const CLI::App& program) {
   std::string cases = choice_cases(program, ""), words;
   for (const CLI::App* command : program.get_subcommands({})) {
     cases += choice_cases(*command, command->get_name());
-    words += "    " + command->get_name() + ") options=" + quoted(option_words(*command)) + " ;;\n";
+    words += "    " + command->get_name() + ") options=" + shell_text(option_words(*command)) + " ;;\n";
   }
   const std::string names = spaced(command_names(program));
   return "# bash completion of " + program.get_name() + "\n" + function +
@@ -119,7 +119,7 @@ std::string bash_completion(const CLI::App& program) {
          "    *) ;;\n"
          "  esac\n"
          "  case \"$command\" in\n" +
-         words + "    *) options=" + quoted(option_words(program)) +
+         words + "    *) options=" + shell_text(option_words(program)) +
          " ;;\n"
          "  esac\n"
          "  COMPREPLY=()\n"
@@ -130,7 +130,7 @@ std::string bash_completion(const CLI::App& program) {
          (names.empty() ? std::string()
                         : "  elif [[ $COMP_CWORD -eq 1 ]]; then\n"
                           "    mapfile -t COMPREPLY < <(compgen -W " +
-                              quoted(names) + " -- \"$current\")\n") +
+                              shell_text(names) + " -- \"$current\")\n") +
          "  fi\n"
          "}\n"
          "complete -o bashdefault -o default -F " +
@@ -142,7 +142,7 @@ std::string zsh_completion(const CLI::App& program) {
   if (command_names(program).empty()) return script + zsh_arguments(program);
   script += "if (( CURRENT == 2 )); then\n  local -a commands=(\n";
   for (const CLI::App* command : program.get_subcommands({}))
-    script += "    " + quoted(command->get_name() + ":" + command->get_description()) + "\n";
+    script += "    " + shell_text(command->get_name() + ":" + command->get_description()) + "\n";
   script +=
       "  )\n"
       "  _describe command commands\n"
@@ -172,7 +172,7 @@ std::string fish_completion(const CLI::App& program) {
   const std::string first = complete + " -n '" + function + " \"\"'";
   script += fish_options(program, first);
   for (const CLI::App* command : program.get_subcommands({})) {
-    script += first + " -f -a " + command->get_name() + " -d " + quoted_for_fish(command->get_description()) + "\n";
+    script += first + " -f -a " + command->get_name() + " -d " + fish_text(command->get_description()) + "\n";
     script += fish_options(*command, complete + " -n '" + function + " " + command->get_name() + "'");
   }
   return script;
