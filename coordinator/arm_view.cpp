@@ -66,7 +66,7 @@ Json misses(const CorrectedRobot& robot, const std::vector<const MeasuredPose*>&
 Json misses_of_model(const std::string& file, const DataSet& data, const std::vector<const MeasuredPose*>& poses) {
   if (file.empty()) return Json::array();
   const CalibratedModel model = load_model(file);
-  require_same_arm(model, data);
+  require_same_arm(model.robot, data);
   return misses(model.robot, poses);
 }
 

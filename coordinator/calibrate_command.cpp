@@ -56,7 +56,7 @@ Job job_of(const CalibrateRequest& request) {
   Job job = load_job(request.job_file);
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
-  if (!request.data_file.empty()) job.data_file = request.data_file;
+  if (!request.data_file.empty()) job.data_files = {request.data_file};
   for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural}) {
     if (request.method == to_string(method)) job.method = method;
   }
@@ -92,7 +92,9 @@ void print_head(const CalibrateRequest& request, const Job& job, const DataSet& 
 /// options override in it.
 JobIdentity identity_of(const std::string& job_file, const Job& job, const DataSet& data, bool asynchronous) {
   const std::string overridden = fmt::format("\n{} {}\n", to_string(job.method), job.closed_loop.max_effects);
-  return {.data_sha256 = sha256(data.sha256 + read_file(job.data_file) + robot_text(data.robot)),
+  std::string described;
+  for (const std::string& file : job.data_files) described += read_file(file);
+  return {.data_sha256 = sha256(data.sha256 + described + robot_text(data.robot)),
           .job_sha256 = sha256(read_file(job_file) + overridden),
           .seed = job.seed,
           .version = DEMECAL_VERSION,
@@ -206,9 +208,14 @@ ExitCode run(CalibrateRequest request) {
     return ExitCode::wrong_arguments;
   }
   const Job job = job_of(request);
-  const CheckedData checked = load_checked(job.data_file);
+  const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
   const DataSet& data = checked.data;
-  if (job.method == Method::structural) require_instrument(data, "the method structural");
+  if (job.method == Method::structural) {
+    require_instrument(data, "the method structural");
+    if (!data.stations.empty())
+      throw InputError({request.job_file, 0}, "data",
+                       "names several stations, and the method structural learns from one");
+  }
   std::vector<std::string> files = result_files(job.method);
   files.emplace_back("events.jsonl");
   make_writable(request.out, files, request.force);

@@ -93,10 +93,11 @@ std::string print_page(const CertifyRequest& request) {
 
 ExitCode run(const CertifyRequest& request) {
   if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
-  const CalibratedModel model = load_model(request.model_file);
+  CalibratedModel model = load_model(request.model_file);
   CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
-  require_same_arm(model, data);
+  model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
+  require_same_arm(model.robot, data);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
   check_fitted(data, model.robot, checked.check);

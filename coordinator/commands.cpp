@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
@@ -18,6 +21,7 @@
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "terminal/report_text.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -36,12 +40,26 @@ const std::atomic<bool>& watch_for_interrupt() {
   return interrupted;
 }
 
-CheckedData load_checked(const std::filesystem::path& path) {
-  DescribedDataSet described = load_described_data_set(path);
-  CheckedData checked{std::move(described.data), {}};
-  for (const std::string& sentence : described.recognised) fmt::print(stderr, "{}\n", sentence);
-  checked.check = check_without_copies(checked.data);
+CheckedData load_checked(std::span<const std::string> paths, StationTools tools, bool force) {
+  std::vector<DataSet> sets;
+  DataCheck check;
+  for (const std::string& path : paths) {
+    DescribedDataSet described = load_described_data_set(path);
+    for (const std::string& sentence : described.recognised) fmt::print(stderr, "{}\n", sentence);
+    DataCheck own = check_without_copies(described.data);
+    if (paths.size() > 1)
+      for (Finding& finding : own.findings) finding.sentence = described.data.name + ": " + finding.sentence;
+    std::ranges::move(own.findings, std::back_inserter(check.findings));
+    sets.push_back(std::move(described.data));
+    if (check.verdict() == DataVerdict::contradiction && !force) return {std::move(sets.back()), std::move(check)};
+  }
+  CheckedData checked{joined_stations(std::move(sets), tools), std::move(check)};
+  if (paths.size() > 1) checked.data.sha256 = sha256(checked.data.sha256);
   return checked;
+}
+
+CheckedData load_checked(const std::string& path) {
+  return load_checked(std::span(&path, 1), StationTools::own, true);
 }
 
 bool refuses(const CheckedData& checked, bool force) {

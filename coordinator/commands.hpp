@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/stations.hpp"
 
 namespace demecal {
 
@@ -61,7 +62,10 @@ struct CheckedData {
 
 /// The data set of a file and what the check of it found. Throws InputError
 /// where the file is invalid, or a joint stands outside its limits and no finding says why.
-CheckedData load_checked(const std::filesystem::path& path);
+CheckedData load_checked(const std::string& path);
+/// The same of several files, each a station's: every one is checked by itself, then they are joined. Unless forced,
+/// the first that contradicts the arm is returned alone.
+CheckedData load_checked(std::span<const std::string> paths, StationTools tools, bool force);
 
 /// Whether the data contradict the robot's description, and nobody forces the command to go on: said on standard error.
 bool refuses(const CheckedData& checked, bool force);

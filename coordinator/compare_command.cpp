@@ -58,7 +58,7 @@ Job job_of(const CompareRequest& request) {
   Job job = load_job(request.job_file);
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
-  if (!request.data_file.empty()) job.data_file = request.data_file;
+  if (!request.data_file.empty()) job.data_files = {request.data_file};
   return job;
 }
 
@@ -135,7 +135,7 @@ ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const 
 
 ExitCode run(const CompareRequest& request) {
   const Job job = job_of(request);
-  const CheckedData checked = load_checked(job.data_file);
+  const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
   const DataSet& data = checked.data;
   require_instrument(data, "compare");
   std::vector<std::string> files = result_files(job.method);

@@ -45,7 +45,8 @@ namespace demecal {
 namespace {
 
 struct DiagnoseRequest {
-  std::string data_file, model_file, prior_file, out;
+  std::vector<std::string> data_files;
+  std::string model_file, prior_file, out;
   std::vector<std::string> declared;
   std::uint64_t seed = 1;
   ClosedLoopOptions loop;
@@ -73,8 +74,8 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
 
 Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
   Job job;
-  job.name = std::filesystem::path(request.data_file).stem().string();
-  job.data_file = request.data_file;
+  job.name = std::filesystem::path(request.data_files.front()).stem().string();
+  job.data_files = request.data_files;
   job.method = Method::diagnose;
   job.seed = request.seed;
   job.declared = declared;
@@ -90,7 +91,7 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
   const std::vector<Stop> stops =
       propose_poses(problem, diagnosis.model, ambiguous_effects(diagnosis.result.loop.rounds), request.proposed,
                     RandomStream{request.seed, number_of(RandomPurpose::proposed_poses)});
-  write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_file, data, stops));
+  write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_files.front(), data, stops));
 }
 
 ExitCode run(const DiagnoseRequest& request) {
@@ -103,7 +104,7 @@ ExitCode run(const DiagnoseRequest& request) {
                            .quiet = request.quiet,
                            .force = request.force});
   }
-  const CheckedData checked = load_checked(request.data_file);
+  const CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
   const DataSet& data = checked.data;
   if (request.proposed > 0) require_instrument(data, "--propose");
   std::optional<CalibratedModel> known;
@@ -170,7 +171,7 @@ void add_loop_options(CLI::App& command, DiagnoseRequest& request) {
 void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<DiagnoseRequest>();
   CLI::App* command = app.add_subcommand("diagnose", "what a declared model lacks: the closed loop's statistics alone");
-  command->add_option("data", request->data_file, "DATASET.yaml")->required();
+  command->add_option("data", request->data_files, "DATASET.yaml; several: one of each station")->required();
   command->add_option("--out", request->out, "folder for the results")->required();
   command->add_option("--model", request->model_file, "MODEL.yaml to start from, with its corrections and effects");
   command

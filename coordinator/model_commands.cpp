@@ -128,7 +128,8 @@ ExitCode run(const ExportRequest& request) {
 }
 
 struct EvaluateRequest {
-  std::string model_file, data_file;
+  std::string model_file;
+  std::vector<std::string> data_files;
   bool json = false, refit_base = false, force = false;
 };
 
@@ -142,11 +143,12 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
 
 ExitCode run(const EvaluateRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
-  CheckedData checked = load_checked(request.data_file);
+  CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
   const DataSet& data = checked.data;
-  require_same_arm(model, data);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
-  const CorrectedRobot robot = request.refit_base ? registered(model, data) : model.robot;
+  const CorrectedRobot robot =
+      request.refit_base ? registered(model, data) : seen_from_stations(model.robot, model.stations, data);
+  require_same_arm(robot, data);
   check_fitted(data, robot, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),
                         pose_errors(data, model, robot, nullptr),
@@ -186,7 +188,7 @@ void add_evaluate(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<EvaluateRequest>();
   CLI::App* command = app.add_subcommand("evaluate", "position error of a model on a data set");
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
-  command->add_option("data", request->data_file, "DATASET.yaml")->required();
+  command->add_option("data", request->data_files, "DATASET.yaml; several: one of each station")->required();
   command->add_flag("--json", request->json, "one line of JSON");
   add_force(*command, request->force);
   command->add_flag("--refit-base", request->refit_base,

@@ -16,7 +16,7 @@ namespace demecal {
 
 ExitCode run_with_prior(PriorRun run) {
   const CalibratedModel prior = load_model(run.prior_file);
-  const CheckedData checked = load_checked(run.job.data_file);
+  const CheckedData checked = load_checked(run.job.data_files, run.job.station_tools, run.force);
   const DataSet& data = checked.data;
   if (!run.declared_stated) run.job.declared = prior.declared;
   run.job.declared.registration = run.job.declared.tool = true;

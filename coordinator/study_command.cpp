@@ -110,8 +110,10 @@ ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) 
 ExitCode run(const StudyRequest& request) {
   const std::vector<GridAxis> axes = axes_of(request);
   const std::vector<GridCell> cells = grid_cells(request.job_file, axes);
-  const std::string& data_file = request.data_file.empty() ? cells.front().job.data_file : request.data_file;
-  const CheckedData checked = load_checked(data_file);
+  const Job& first = cells.front().job;
+  const CheckedData checked = request.data_file.empty()
+                                  ? load_checked(first.data_files, first.station_tools, request.force)
+                                  : load_checked(request.data_file);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
   fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
   const DataSet& data = checked.data;

@@ -91,7 +91,7 @@ Samples samples_of(const RegisteredArm& arm, const ScaledJoints& scaled) {
     seen.push_back(i);
     samples.joints.push_back(scaled(pose.joints));
     samples.error_m.emplace_back(
-        (*pose.position_m - arm.robot.predict(Stop(pose), pose.target).translation()).transpose());
+        (measured_point(arm.robot, pose) - arm.robot.predict(Stop(pose), pose.target).translation()).transpose());
   }
   samples.folds = assign_folds(arm.data, seen, kFoldsOfNetwork);
   return samples;

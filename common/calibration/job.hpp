@@ -15,6 +15,7 @@
 #include "expression/tree.hpp"
 #include "fitness/parameters.hpp"
 #include "fitting/declared_model.hpp"
+#include "fitting/stations.hpp"
 
 namespace demecal::inline calibration {
 
@@ -111,8 +112,9 @@ struct DistalOptions {
 };
 
 struct Job {
-  std::string name;       ///< the job file's stem
-  std::string data_file;  ///< path of the data set, resolved
+  std::string name;                     ///< the job file's stem
+  std::vector<std::string> data_files;  ///< paths of the data sets, resolved; several: a station each
+  StationTools station_tools = StationTools::own;
   Method method = Method::direct;
   std::uint64_t seed = 1;
   DeclaredModel declared{.registration = true, .joint_corrections = true};

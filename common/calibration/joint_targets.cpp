@@ -23,7 +23,7 @@ double characteristic_length_m(const Chain& chain) {
 }
 
 Eigen::Vector3d measured_position(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
-  if (pose.position_m) return *pose.position_m;
+  if (pose.position_m) return measured_point(robot, pose);
   Eigen::Isometry3d tool = robot.predict(Stop(pose), pose.target);
   CorrectedRobot moved = robot;
   for (int iteration = 0; iteration < 5; ++iteration) {

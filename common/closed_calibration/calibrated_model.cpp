@@ -217,9 +217,10 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
   FittedPosterior fitted{{{}, {}, {}}, model.scales};
   for (double& scale : fitted.scatter) scale *= std::sqrt(variance);
   Posterior& posterior = fitted.posterior;
-  std::vector<Eigen::Index> kept;  // all but contacts' places: what they take is in the covariance of the rest
+  std::vector<Eigen::Index> kept;  // all but contacts' and stations' places: what they take is in the rest's covariance
   for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
-    if (linearization.ids[i].kind == ParameterId::Kind::contact) continue;
+    const ParameterId::Kind kind = linearization.ids[i].kind;
+    if (kind == ParameterId::Kind::contact || kind == ParameterId::Kind::station) continue;
     posterior.ids.push_back(linearization.ids[i]);
     kept.push_back(static_cast<Eigen::Index>(i));
   }

@@ -36,6 +36,7 @@ struct CalibratedModel {
   /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
   KnownFunctions functions{};
   CertificateFields certificate{};  ///< what the job states for certificates
+  std::vector<Station> stations{};  ///< where the data were measured from; empty: one place
   std::string data_name;
   std::string data_sha256;
   std::uint64_t seed = 0;

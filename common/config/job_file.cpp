@@ -106,6 +106,22 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
   return options;
 }
 
+/// A data set, or a list of them: one a station.
+void read_data(const YamlNode& data, const std::filesystem::path& job_path, Job& job) {
+  const bool several = data.kind == YamlNode::Kind::list || data.kind == YamlNode::Kind::map;
+  if (!several) {
+    job.data_files = {resolve(job_path, data.text()).string()};
+    return;
+  }
+  const bool described = data.kind == YamlNode::Kind::map;
+  if (described) data.with_keys({"stations", "tool"});
+  const YamlNode& stations = described ? data.at("stations") : data;
+  for (const YamlNode& station : stations.list()) job.data_files.push_back(resolve(job_path, station.text()).string());
+  if (job.data_files.empty()) stations.fail("", "names no data set");
+  if (const YamlNode* tool = described ? data.find("tool") : nullptr)
+    job.station_tools = tool->one_of<StationTools>({{"own", StationTools::own}, {"shared", StationTools::shared}});
+}
+
 ExplanationSearch read_explanations(const YamlNode& node) {
   node.with_keys({"variations", "max_causes"});
   ExplanationSearch search;
@@ -129,7 +145,7 @@ Job read_job(const YamlNode& root) {
                                          "certificate"});
   Job job;
   job.name = path.stem().string();
-  job.data_file = resolve(path, root.at("data").text()).string();
+  read_data(root.at("data"), path, job);
   if (const YamlNode* method = root.find("method")) {
     job.method = method->one_of<Method>({{"direct", Method::direct},
                                          {"distal", Method::distal},

@@ -175,6 +175,22 @@ void read_corrections(const YamlNode& node, CalibratedModel& model) {
   }
 }
 
+std::string stations_text(const std::vector<Station>& stations) {
+  std::string text = stations.empty() ? "" : "stations:\n";
+  for (const Station& station : stations)
+    text += "  - {name: " + yaml_text(station.name) + ", data_sha256: " + yaml_text(station.sha256) +
+            ", first_from_own: " + rigid_text(station.first_from_own) + "}\n";
+  return text;
+}
+
+void read_stations(const YamlNode* list, std::vector<Station>& stations) {
+  if (!list) return;
+  for (const YamlNode& one : list->list()) {
+    one.with_keys({"name", "data_sha256", "first_from_own"});
+    stations.push_back({one.at("name").text(), one.at("data_sha256").text(), read_rigid(one.at("first_from_own"))});
+  }
+}
+
 }  // namespace
 
 std::string model_text(const CalibratedModel& model) {
@@ -192,7 +208,7 @@ std::string model_text(const CalibratedModel& model) {
     text << "  - {" << (target.empty() ? "" : "target: " + yaml_text(target) + ", ") << "pose: " << rigid_text(tool)
          << "}\n";
   }
-  text << "links:\n";
+  text << stations_text(model.stations) << "links:\n";
   for (const Joint& joint : model.robot.chain.joints) text << "  - " << link_text(joint) << '\n';
   if (!model.estimates.empty()) text << "estimates:\n";
   for (const ParameterEstimate& estimate : model.estimates) {
@@ -210,9 +226,26 @@ std::string model_text(const CalibratedModel& model) {
 
 CalibratedModel load_model(const std::filesystem::path& path) {
   const YamlNode file = read_yaml(path).with_version("model", 1);
-  file.with_keys({"demecal_model", "job", "version", "method", "seed", "data", "robot", "declared", "base", "tools",
-                  "links", "estimates", "effects", "shared_functions", "corrections", "measured_ranges", "posterior",
-                  "prediction_interval", "certificate"});
+  file.with_keys({"demecal_model",
+                  "job",
+                  "version",
+                  "method",
+                  "seed",
+                  "data",
+                  "robot",
+                  "declared",
+                  "base",
+                  "tools",
+                  "stations",
+                  "links",
+                  "estimates",
+                  "effects",
+                  "shared_functions",
+                  "corrections",
+                  "measured_ranges",
+                  "posterior",
+                  "prediction_interval",
+                  "certificate"});
   CalibratedModel model;
   model.job = file.at("job").text();
   model.version = file.at("version").text();
@@ -235,6 +268,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
     const YamlNode* target = tool.find("target");
     model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
   }
+  read_stations(file.find("stations"), model.stations);
   check_estimates(file.find("estimates"));
   model.functions = read_functions(file.find("shared_functions"));
   read_corrections(file.at("corrections"), model);

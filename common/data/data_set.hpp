@@ -42,6 +42,7 @@ struct MeasuredPose {
   std::string target;                             ///< which point on the tool; empty: the robot's own tool
   std::string contact{};                          ///< what the tool touches; empty: nothing
   ContactKind contact_kind = ContactKind::point;  ///< that of DataSet::contacts
+  std::string station{};                          ///< where it was measured from; empty: the first, or only one
   std::size_t line = 0;                           ///< where it stands in its file
 };
 
@@ -73,6 +74,14 @@ struct Robot {
   std::optional<UrdfSource> urdf{};   ///< the file that `drawing` was made from
 };
 
+/// A further place that instruments measured from. Its poses are given in the first station's frame, as near as base
+/// and tool alone of each tell the one from the other; what that is wrong by is fitted with the rest.
+struct Station {
+  std::string name;
+  std::string sha256;  ///< of the data set it is
+  Eigen::Isometry3d first_from_own = Eigen::Isometry3d::Identity();
+};
+
 struct DataSet {
   std::string name;
   Robot robot;
@@ -82,9 +91,10 @@ struct DataSet {
   std::map<std::string, Eigen::Vector3d> tools_m;  ///< nominal tool point of each target; empty: the robot's tool
   std::vector<Eigen::Vector3d> anchors_m;          ///< known fixed points of the distances
   bool anchors_unknown = false;
-  Contacts contacts{};  ///< what is known of the contacts that the poses name
-  std::string file;     ///< of the poses, as named to the user
-  std::string sha256;   ///< of the bytes the poses were read from
+  Contacts contacts{};              ///< what is known of the contacts that the poses name
+  std::vector<Station> stations{};  ///< further ones; empty: all was measured from one place
+  std::string file;                 ///< of the poses, as named to the user
+  std::string sha256;               ///< of the bytes the poses were read from
 };
 
 /// Indices into poses, in their order.

@@ -44,7 +44,7 @@ void turn_tools(CorrectedRobot& robot, const DataSet& data, const std::vector<Ob
     if (!pose.orientation) continue;
     const Eigen::Matrix3d flange =
         robot.sensor_from_base.linear() * forward(robot.chain, observation.corrected).linear();
-    const Eigen::Matrix3d tool = flange.transpose() * pose.orientation->toRotationMatrix();
+    const Eigen::Matrix3d tool = flange.transpose() * measured_orientation(robot, pose);
     sums.try_emplace(pose.target, Eigen::Matrix3d::Zero()).first->second += tool;
   }
   for (const auto& [target, sum] : sums) robot.tools.at(target).linear() = nearest_rotation(sum);
@@ -142,7 +142,7 @@ RegisteredPoints measured_points(const DataSet& data, const std::vector<Observat
     points.in_base.conservativeResize(3, n + 1);
     points.in_sensor.conservativeResize(3, n + 1);
     points.in_base.col(n) = point_in_base(data, robot, observation);
-    points.in_sensor.col(n) = *pose.position_m;
+    points.in_sensor.col(n) = measured_point(robot, pose);
   }
   return points;
 }

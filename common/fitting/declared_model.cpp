@@ -97,6 +97,14 @@ void add_tools(std::vector<ParameterId>& ids, const DataSet& data) {
   }
 }
 
+/// Further stations that any pose was measured from, by name.
+std::set<std::string> stations_of(const DataSet& data) {
+  std::set<std::string> stations;
+  for (const MeasuredPose& pose : data.poses)
+    if (!pose.station.empty()) stations.insert(pose.station);
+  return stations;
+}
+
 /// "gear_harmonic joint 2 (ratio 107)": which law, where, with which settings.
 std::string effect_name(const Effect& effect) {
   std::ostringstream name;
@@ -111,9 +119,10 @@ std::string effect_name(const Effect& effect) {
   return name.str();
 }
 
+constexpr std::array<const char*, 7> kMotionNames{"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg", "radius_mm"};
+
 std::string contact_number_name(const ParameterId& id) {
-  constexpr std::array<const char*, 7> kMotions{"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg", "radius_mm"};
-  return "contact " + id.target + " " + kMotions.at(static_cast<std::size_t>(id.index));
+  return "contact " + id.target + " " + kMotionNames.at(static_cast<std::size_t>(id.index));
 }
 
 /// What of a joint is where the arm stands, which contacts leave open: a move of the base does the same.
@@ -160,6 +169,7 @@ std::string ParameterId::name() const {
   if (kind == Kind::link) return "joint " + std::to_string(index + 1) + " " + link_name(link);
   if (kind == Kind::effect) return effect;
   if (kind == Kind::contact) return contact_number_name(*this);
+  if (kind == Kind::station) return "station " + target + " " + kMotionNames.at(static_cast<std::size_t>(index));
   const std::string axis = kAxes.at(static_cast<std::size_t>(index));
   const std::string of_what = kind == Kind::base_translation || kind == Kind::base_rotation ? "base_" : "tool_";
   const std::string suffix = target.empty() ? "" : " of " + target;
@@ -169,6 +179,7 @@ std::string ParameterId::name() const {
 bool ParameterId::is_angle() const {
   if (kind == Kind::effect) return false;
   if (kind == Kind::contact) return index >= 3 && index != kRadiusMotion;
+  if (kind == Kind::station) return index >= 3;
   if (kind != Kind::link) return kind == Kind::base_rotation || kind == Kind::tool_rotation;
   return link == LinkParameter::theta || link == LinkParameter::alpha || link == LinkParameter::beta;
 }
@@ -195,6 +206,9 @@ std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredMode
   if (declared.registration && placed) {
     add_axes(ids, Kind::base_translation, {});
     add_axes(ids, Kind::base_rotation, {});
+    for (const std::string& station : stations_of(data))
+      for (int motion = 0; motion < 6; ++motion)
+        ids.push_back({.kind = Kind::station, .index = motion, .target = station});
   }
   add_links(ids, data.robot.chain, declared, options.near_parallel_rad);
   if (!placed) std::erase_if(ids, [&](const ParameterId& id) { return is_where_the_arm_stands(id, data.robot.chain); });

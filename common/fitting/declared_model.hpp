@@ -32,12 +32,12 @@ bool DeclaredModel::*declared_flag(std::string_view word);
 
 /// One number of the model that can be identified.
 struct ParameterId {
-  enum class Kind { base_translation, base_rotation, tool_translation, tool_rotation, link, effect, contact };
+  enum class Kind { base_translation, base_rotation, tool_translation, tool_rotation, link, effect, contact, station };
   Kind kind = Kind::link;
   int index = 0;  ///< axis 0..2 of base and tool parameters; joint (from 0) of links; which of the model's effects;
-                  ///< the motion of a contact's place
+                  ///< the motion of a contact's place, or of a station's frame: three shifts and three turns
   LinkParameter link = LinkParameter::theta;
-  std::string target{};                ///< of tool parameters; of a contact's place, its name
+  std::string target{};                ///< of tool parameters; of a contact's or station's place, its name
   int coefficient = 0;                 ///< of an effect's parameters
   std::string effect{};                ///< what the coefficient is called, with unit: "backlash joint 2 width_rad"
   PoseSet set = PoseSet::calibration;  ///< of a contact's place: whose poses

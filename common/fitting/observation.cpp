@@ -78,6 +78,7 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
   const MeasuredPose& pose = data.poses[observation.pose];
   space.move_tool(point, observation.corrected, observation.motions, pose.target, rows.motion);
   if (!pose.contact.empty()) space.move_contact(point, group_of(pose), rows.motion);
+  if (!pose.station.empty()) space.move_station(point, pose.station, rows.motion);
   scale_residual(residual(point.robot, rows.motion.predicted, data, pose), pose, scales, rows);
   const auto measured = measurement_jacobian(point.robot, rows.motion.predicted, data, pose);
   rows.jacobian.resize(rows.residual.size(), space.size());

@@ -17,10 +17,10 @@ namespace {
 using Kind = ParameterId::Kind;
 using Twist = SmallMotion;
 
-/// The rotation vectors a change holds, of the base and of each target's tool.
+/// The rotation vectors a change holds, of the base, of each target's tool and of each station.
 struct RotationVectors {
   Eigen::Vector3d base = Eigen::Vector3d::Zero();
-  std::map<std::string, Eigen::Vector3d> tools;
+  std::map<std::string, Eigen::Vector3d> tools, stations;
 };
 
 RotationVectors rotation_vectors_of(const std::vector<ParameterId>& ids, const Eigen::VectorXd& change) {
@@ -30,6 +30,9 @@ RotationVectors rotation_vectors_of(const std::vector<ParameterId>& ids, const E
     if (ids[i].kind == Kind::base_rotation) turns.base[ids[i].index] = value;
     if (ids[i].kind == Kind::tool_rotation) {
       turns.tools.try_emplace(ids[i].target, Eigen::Vector3d::Zero()).first->second[ids[i].index] = value;
+    }
+    if (ids[i].kind == Kind::station && ids[i].index >= 3) {
+      turns.stations.try_emplace(ids[i].target, Eigen::Vector3d::Zero()).first->second[ids[i].index - 3] = value;
     }
   }
   return turns;
@@ -57,6 +60,9 @@ void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
       return;
     case Kind::contact:
       move_place(robot.contacts.at({id.target, id.set}), id.index, change);
+      return;
+    case Kind::station:
+      if (id.index < 3) robot.stations.at(id.target).translation()[id.index] += change;
       return;
     case Kind::base_rotation:
     case Kind::tool_rotation:
@@ -95,6 +101,7 @@ Twist twist_of(const ParameterId& id, const ModelPoint& point, const TwistFrames
     }
     case Kind::effect:   // added by motion, since one coefficient may move several places
     case Kind::contact:  // added for the poses that touch it
+    case Kind::station:  // added for the poses measured from it
       break;
   }
   return twist;
@@ -173,6 +180,7 @@ ParameterSpace::ParameterSpace(CorrectedRobot reference, std::vector<ParameterId
     : reference_(std::move(reference)), ids_(std::move(ids)), effect_columns_(reference_.effects.size()) {
   for (int i = 0; i < size(); ++i) {
     const ParameterId& id = ids_[static_cast<std::size_t>(i)];
+    if (id.kind == Kind::station) reference_.stations.try_emplace(id.target, Eigen::Isometry3d::Identity());
     if (id.kind != Kind::effect) continue;
     DEMECAL_CHECK(id.index < std::ssize(reference_.effects), id.name() << " of " << reference_.effects.size());
     const auto effect = static_cast<std::size_t>(id.index), coefficient = static_cast<std::size_t>(id.coefficient);
@@ -194,6 +202,10 @@ ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
   for (const auto& [target, turn] : turns.tools) {
     point.robot.tools.at(target).linear() = rotation_of(turn) * reference_.tool(target).linear();
     point.tool_turns[target] = left_jacobian(turn);
+  }
+  for (const auto& [station, turn] : turns.stations) {
+    point.robot.stations.at(station).linear() = rotation_of(turn) * reference_.stations.at(station).linear();
+    point.station_turns[station] = left_jacobian(turn);
   }
   for (int i = 0; i < size(); ++i) {
     const ParameterId& id = ids_[static_cast<std::size_t>(i)];
@@ -217,6 +229,24 @@ void ParameterSpace::move_contact(const ModelPoint& point, const ContactGroup& g
     const ParameterId& id = ids_[static_cast<std::size_t>(i)];
     if (id.kind != Kind::contact || id.set != group.set || id.target != group.contact) continue;
     motion.twists.col(i).head<3>() += equivalent_motion(place->second, id.index, turn, motion.predicted.translation());
+  }
+}
+
+void ParameterSpace::move_station(const ModelPoint& point, const std::string& station, ToolMotion& motion) const {
+  const auto turns = point.station_turns.find(station);
+  if (turns == point.station_turns.end()) return;
+  const Eigen::Vector3d lever_m = motion.predicted.translation() - point.robot.stations.at(station).translation();
+  for (int i = 0; i < size(); ++i) {
+    const ParameterId& id = ids_[static_cast<std::size_t>(i)];
+    if (id.kind != Kind::station || id.target != station) continue;
+    auto twist = motion.twists.col(i);  // of the tool the other way, which reads the same
+    if (id.index < 3) {
+      twist[id.index] -= 1.0;
+    } else {
+      const Eigen::Vector3d turn = turns->second.col(id.index - 3);
+      twist.head<3>() -= turn.cross(lever_m);
+      twist.tail<3>() -= turn;
+    }
   }
 }
 
@@ -257,6 +287,11 @@ double parameter_value(const CorrectedRobot& robot, const ParameterId& id) {
       return robot.chain.joints[static_cast<std::size_t>(id.index)].parameter(id.link);
     case Kind::contact:
       return 0.0;
+    case Kind::station: {
+      const auto found = robot.stations.find(id.target);
+      if (found == robot.stations.end()) return 0.0;
+      return id.index < 3 ? found->second.translation()[id.index] : vector_of(found->second.linear())[id.index - 3];
+    }
     case Kind::effect:
       return static_cast<std::size_t>(id.index) < robot.effects.size()
                  ? robot.effects[static_cast<std::size_t>(id.index)].value(static_cast<std::size_t>(id.coefficient))
@@ -272,10 +307,12 @@ Eigen::MatrixXd value_jacobian(const ParameterSpace& space, const ModelPoint& po
   };
   for (int i = 0; i < space.size(); ++i) {
     const ParameterId& id = space.ids()[static_cast<std::size_t>(i)];
-    if (!(id.is_angle() && id.kind != Kind::link && id.kind != Kind::contact) || id.index != 0) continue;
-    jacobian.block<3, 3>(i, i) = id.kind == Kind::base_rotation
-                                     ? turned(point.robot.sensor_from_base, point.base_turns)
-                                     : turned(point.robot.tool(id.target), point.tool_turns.at(id.target));
+    if (id.kind == Kind::base_rotation && id.index == 0)
+      jacobian.block<3, 3>(i, i) = turned(point.robot.sensor_from_base, point.base_turns);
+    if (id.kind == Kind::tool_rotation && id.index == 0)
+      jacobian.block<3, 3>(i, i) = turned(point.robot.tool(id.target), point.tool_turns.at(id.target));
+    if (id.kind == Kind::station && id.index == 3)
+      jacobian.block<3, 3>(i, i) = turned(point.robot.stations.at(id.target), point.station_turns.at(id.target));
   }
   return jacobian;
 }

@@ -20,6 +20,8 @@ struct ModelPoint {
   Eigen::Matrix3d base_turns = Eigen::Matrix3d::Identity();
   /// The same of each target's tool, in the flange frame.
   std::map<std::string, Eigen::Matrix3d> tool_turns;
+  /// As the base's, of each further station's frame.
+  std::map<std::string, Eigen::Matrix3d> station_turns{};
   /// Of each contact's place: the rotation vector by which it is turned, in its reference's frame.
   std::map<ContactGroup, Eigen::Vector3d> contact_turns{};
 };
@@ -32,8 +34,8 @@ struct ToolMotion {
 
 /// Changes (rad, m) of a reference robot's parameters. Link parameters and translations add; rotations are rotation
 /// vectors applied before the reference's: the base's in the measurements' frame about the base's origin, the tools'
-/// in the flange frame about the tool point. Coefficients of effects add too. Contacts' places move along and about
-/// their reference's axes.
+/// in the flange frame about the tool point; stations' frames as the base, about the measurements' origin. Coefficients
+/// of effects add too. Contacts' places move along and about their reference's axes.
 class ParameterSpace {
  public:
   ParameterSpace(CorrectedRobot reference, std::vector<ParameterId> ids);
@@ -53,6 +55,9 @@ class ParameterSpace {
   /// Adds to a tool's motion, whose pose touches a contact of `group`, what moving the contact's place would have the
   /// tool seem to do.
   void move_contact(const ModelPoint& point, const ContactGroup& group, ToolMotion& motion) const;
+
+  /// The same of a pose measured from a further station, and of moving that station's frame.
+  void move_station(const ModelPoint& point, const std::string& station, ToolMotion& motion) const;
 
  private:
   CorrectedRobot reference_;

@@ -50,7 +50,30 @@ std::string lengths(const Report& report) {
                      rows, report.length_errors.size());
 }
 
+void add_station_row(const StationEntry& station, const char* set, const SetErrors ErrorBySet::*errors,
+                     std::string& rows) {
+  if (!(station.after.*errors).rms_mm) return;
+  rows += table_row(escaped(station.name),
+                    {set, fixed((station.registered.*errors).rms_mm, 3), fixed((station.before.*errors).rms_mm, 3),
+                     fixed((station.after.*errors).rms_mm, 3), fixed((station.after.*errors).max_mm, 3)});
+}
+
 }  // namespace
+
+std::string stations_section(const Report& report) {
+  if (report.stations.empty()) return {};
+  std::string rows;
+  for (const StationEntry& one : report.stations) {
+    add_station_row(one, "calibration", &ErrorBySet::calibration, rows);
+    add_station_row(one, "validation", &ErrorBySet::validation, rows);
+    add_station_row(one, "accept", &ErrorBySet::accept, rows);
+  }
+  return section("stations", "Stations",
+                 table_panel("stations",
+                             "<th>station</th><th>set</th><th>tool fitted, mm rms</th><th>before, mm rms</th>"
+                             "<th>after, mm rms</th><th>after, largest, mm</th>",
+                             rows, report.stations.size()));
+}
 
 std::string contacts_section(const Report& report) {
   if (report.contacts.empty()) return {};

@@ -145,8 +145,8 @@ std::optional<double> noise_mean_mm(const Report& report) {
 }
 
 std::string report_html(const Report& report, const FitnessHistory& history) {
-  return head(report) + "<body>\n<main>\n" + opening(report) + loop_section(report) + contacts_section(report) +
-         where_section(report) + stages_section(report) + poses_section(report) +
+  return head(report) + "<body>\n<main>\n" + opening(report) + loop_section(report) + stations_section(report) +
+         contacts_section(report) + where_section(report) + stages_section(report) + poses_section(report) +
          folded("Corrections of the joints", joints_section(report, history)) +
          folded("Identified numbers", parameters_section(report)) + folded("The run", run_section(report)) +
          "</main>\n</body>\n</html>\n";

@@ -14,6 +14,8 @@ namespace demecal::inline html {
 std::string stages_section(const Report& report);
 /// What was touched: the spread of every contact before and after, known lengths, and what contacts cannot tell.
 std::string contacts_section(const Report& report);
+/// The errors of each station's poses, where there are several.
+std::string stations_section(const Report& report);
 /// What the closed loop tried, found and could not find.
 std::string loop_section(const Report& report);
 /// Every joint's error, correction and evolution.

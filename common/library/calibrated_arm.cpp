@@ -113,16 +113,18 @@ std::string CalibratedArm::correct_program(const std::string& text, const std::s
 PositionErrors CalibratedArm::errors(const Measurements& measured, PoseUse use) const {
   const CalibratedModel& model = implementation_->model;
   const DataSet& data = measured.implementation().data;
-  require_same_arm(model, data);
-  const ErrorFigures figures = error_figures(model.robot, data, poses_of(data, to_pose_set(use)));
+  const CorrectedRobot robot = seen_from_stations(model.robot, model.stations, data);
+  require_same_arm(robot, data);
+  const ErrorFigures figures = error_figures(robot, data, poses_of(data, to_pose_set(use)));
   return {figures.mean_mm, figures.rms_mm, figures.p95_mm, figures.max_mm};
 }
 
 std::vector<PoseError> CalibratedArm::pose_errors(const Measurements& measured) const {
   const CalibratedModel& model = implementation_->model;
   const DataSet& data = measured.implementation().data;
-  require_same_arm(model, data);
-  const std::vector<PoseErrorEntry> entries = demecal::pose_errors(data, model, model.robot, nullptr);
+  const CorrectedRobot robot = seen_from_stations(model.robot, model.stations, data);
+  require_same_arm(robot, data);
+  const std::vector<PoseErrorEntry> entries = demecal::pose_errors(data, model, robot, nullptr);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<PoseError> errors;
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -63,6 +63,7 @@ double belief_of(const ParameterId& id, const FitOptions& options) {
     case ParameterId::Kind::base_rotation:
     case ParameterId::Kind::tool_rotation:
     case ParameterId::Kind::contact:
+    case ParameterId::Kind::station:
       return kPlace;
     case ParameterId::Kind::tool_translation:
       return kUsualTool_m;

@@ -81,6 +81,8 @@ struct CorrectedRobot {
   Robot described{};  ///< the arm as its maker describes it; needed where there are effects
   /// Where contacts are taken to be, in the measurements' frame: estimates beside the arm, none of its numbers.
   std::map<ContactGroup, ContactPlace> contacts{};
+  /// What takes points of a further station, as the data set gives them, to where the first station would measure them.
+  std::map<std::string, Eigen::Isometry3d> stations{};
 
   /// flange_from_tool of a target; the robot must have it.
   const Eigen::Isometry3d& tool(const std::string& target) const;

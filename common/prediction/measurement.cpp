@@ -49,6 +49,13 @@ const ContactPlace* place_of(const CorrectedRobot& robot, const MeasuredPose& po
   return found == robot.contacts.end() ? nullptr : &found->second;
 }
 
+/// Null: the first station, or one that the robot has no place for.
+const Eigen::Isometry3d* station_of(const CorrectedRobot& robot, const MeasuredPose& pose) {
+  if (pose.station.empty()) return nullptr;
+  const auto found = robot.stations.find(pose.station);
+  return found == robot.stations.end() ? nullptr : &found->second;
+}
+
 Eigen::Vector3d tool_point(const CorrectedRobot& robot, const MeasuredPose& pose) {
   return robot.predict(Stop(pose), pose.target).translation();
 }
@@ -66,6 +73,17 @@ MeasurementRows rows_of(const MeasuredPose& pose) {
           static_cast<int>(pose.distances_m.size())};
 }
 
+Eigen::Vector3d measured_point(const CorrectedRobot& robot, const MeasuredPose& pose) {
+  const Eigen::Isometry3d* const station = station_of(robot, pose);
+  return station == nullptr ? *pose.position_m : Eigen::Vector3d(*station * *pose.position_m);
+}
+
+Eigen::Matrix3d measured_orientation(const CorrectedRobot& robot, const MeasuredPose& pose) {
+  const Eigen::Matrix3d own = pose.orientation->toRotationMatrix();
+  const Eigen::Isometry3d* const station = station_of(robot, pose);
+  return station == nullptr ? own : Eigen::Matrix3d(station->linear() * own);
+}
+
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
   return residual(robot, robot.predict(Stop(pose), pose.target), data, pose);
 }
@@ -74,7 +92,7 @@ Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& p
                          const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
   Eigen::VectorXd result(rows.total());
-  if (pose.position_m) result.head<3>() = *pose.position_m - predicted.translation();
+  if (pose.position_m) result.head<3>() = measured_point(robot, pose) - predicted.translation();
   if (rows.contact > 0) {
     const ContactPlace* const place = place_of(robot, pose);
     auto own = result.segment(rows.position, rows.contact);
@@ -82,7 +100,7 @@ Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& p
     if (place != nullptr) own = contact_residual(*place, predicted.translation());
   }
   if (pose.orientation) {
-    result.segment<3>(rows.points()) = rotation_between(predicted.linear(), pose.orientation->toRotationMatrix());
+    result.segment<3>(rows.points()) = rotation_between(predicted.linear(), measured_orientation(robot, pose));
   }
   result.tail(rows.distances) = distance_errors(predicted.translation(), data, pose);
   return result;
@@ -145,6 +163,7 @@ std::vector<double> tool_errors_m(const CorrectedRobot& robot, const std::vector
     if (!data.poses[poses[i]].contact.empty())
       points[group_of(data.poses[poses[i]])].push_back(predicted[i].translation());
   CorrectedRobot placed;
+  placed.stations = robot.stations;
   if (points.empty()) placed.contacts = robot.contacts;
   for (const auto& [group, touched] : points)
     placed.contacts[group] = contact_place(data.contacts.form_of(group.contact), touched);
@@ -165,7 +184,7 @@ double tool_error_m(const CorrectedRobot& robot, const Eigen::Isometry3d& predic
     const ContactPlace* const place = place_of(robot, pose);
     return place == nullptr ? kNone : contact_residual(*place, point).norm();
   }
-  if (pose.position_m) return (*pose.position_m - point).norm();
+  if (pose.position_m) return (measured_point(robot, pose) - point).norm();
   if (pose.distances_m.empty()) return kNone;
   return distance_errors(point, data, pose).norm() / std::sqrt(static_cast<double>(pose.distances_m.size()));
 }

@@ -30,6 +30,10 @@ struct MeasurementRows {
 };
 MeasurementRows rows_of(const MeasuredPose& pose);
 
+/// Where the first station would have measured the pose's point, which must be measured; its orientation likewise.
+Eigen::Vector3d measured_point(const CorrectedRobot& robot, const MeasuredPose& pose);
+Eigen::Matrix3d measured_orientation(const CorrectedRobot& robot, const MeasuredPose& pose);
+
 /// Measured minus predicted, rows as above; the orientation part is the rotation vector from predicted to measured. A
 /// contact that `robot` has no place for says nothing: its rows are zero.
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);

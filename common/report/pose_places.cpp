@@ -47,8 +47,8 @@ PosePlace pose_place(const DataSet& data, const MeasuredPose& pose, const Correc
   if (!pose.position_m) return place;
   const Stop stop(pose);
   place.position_mm = in_mm(*pose.position_m);
-  place.before_error_mm = in_mm(*pose.position_m - before.predict(stop, pose.target).translation());
-  place.after_error_mm = in_mm(*pose.position_m - after.predict(stop, pose.target).translation());
+  place.before_error_mm = in_mm(measured_point(before, pose) - before.predict(stop, pose.target).translation());
+  place.after_error_mm = in_mm(measured_point(after, pose) - after.predict(stop, pose.target).translation());
   return place;
 }
 

@@ -179,6 +179,13 @@ struct NoiseEntry {
   std::optional<double> joint_repeatability_mrad, shared_by_repeats_mm, shared_in_order_mm, correlation_in_order;
 };
 
+/// The errors of the poses that one station measured.
+struct StationEntry {
+  std::string name;
+  std::uint64_t poses = 0;
+  ErrorBySet registered, before, after;
+};
+
 struct JointEntry {
   std::uint64_t joint = 0;
   bool kept = false;  ///< whether the model corrects it
@@ -245,6 +252,7 @@ struct Report {
   ErrorBySet after;                                      ///< with the effects that the closed loop added
   std::vector<std::string> fitted_sets;                  ///< `last_fit.poses`
   std::optional<BeforeAfter> unseen_validation_rms_mm;   ///< where validation poses had a part in the last fit
+  std::vector<StationEntry> stations{};                  ///< where the data are of several
   std::vector<PoseErrorEntry> pose_errors;               ///< of all poses; empty where nothing was fitted
   std::optional<ArmEntry> arm{};                         ///< where something was fitted
   std::vector<LengthErrorEntry> length_errors{};         ///< of known lengths between contacts

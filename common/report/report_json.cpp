@@ -191,6 +191,13 @@ void fields(auto& visit, Like<ContactEntry> auto& contact) {
         contact.after_rms_mm);
 }
 
+void fields(auto& visit, Like<StationEntry> auto& station) {
+  visit("name", station.name, "poses", station.poses);
+  visit.within("error_mm", [&](auto& stage) {
+    stage("registered", station.registered, "before", station.before, "after", station.after);
+  });
+}
+
 bool has_figures(const ErrorBySet& errors) {
   return errors.calibration.mean_mm || errors.validation.mean_mm || errors.accept.mean_mm;
 }
@@ -217,6 +224,7 @@ void fields(auto& visit, Like<Report> auto& report) {
           report.before, "after", report.after);
     stage.when(has_figures(report.as_evolved), "as_evolved", report.as_evolved);
   });
+  visit.when(!report.stations.empty(), "stations", report.stations);
   visit.within("last_fit", [&](auto& fit) {
     fit("poses", report.fitted_sets);
     fit.when(report.unseen_validation_rms_mm.has_value(), "unseen_validation_rms_mm", report.unseen_validation_rms_mm);

@@ -81,6 +81,26 @@ std::string lengths(const std::vector<LengthErrorEntry>& all) {
   return text;
 }
 
+/// The rms error of each station's poses in a set.
+std::string stations(const Report& report) {
+  if (report.stations.empty()) return {};
+  const auto number = [](const std::optional<double>& mm) { return mm ? fmt::format("{:.3f}", *mm) : "–"; };
+  std::string text =
+      fmt::format("\n  {:<40}{:>10}{:>9}{:>9}{:>9}\n", "stations, rms in mm", "poses", "tool fit", "before", "after");
+  for (const StationEntry& one : report.stations) {
+    const auto line = [&](const char* set, const SetErrors ErrorBySet::*errors) {
+      if (!(one.after.*errors).rms_mm) return;
+      text += fmt::format("    {:<38}{:>10}{:>9}{:>9}{:>9}\n", fmt::format("{} ({})", one.name, set), one.poses,
+                          number((one.registered.*errors).rms_mm), number((one.before.*errors).rms_mm),
+                          number((one.after.*errors).rms_mm));
+    };
+    line("calibration", &ErrorBySet::calibration);
+    line("validation", &ErrorBySet::validation);
+    line("accept", &ErrorBySet::accept);
+  }
+  return text;
+}
+
 /// What was touched: what contacts tell, their spread, and the lengths between them.
 std::string contacts(const Report& report) {
   if (report.contacts.empty()) return {};
@@ -184,7 +204,7 @@ std::string excluded(const Report& report) {
 }  // namespace
 
 std::string to_terminal(const Report& report) {
-  std::string text = data_check(report) + stages(report) + contacts(report) + structure(report);
+  std::string text = data_check(report) + stages(report) + stations(report) + contacts(report) + structure(report);
   if (!report.joints.empty()) text.append("\n").append(joints(report)).append(shared_functions(report));
   if (const std::string loop = loop_to_terminal(report); !loop.empty()) text.append("\n").append(loop).append("\n");
   text += named("suspected outliers (down-weighted in the fit, included in all errors)", report.poses.outliers);

@@ -25,7 +25,7 @@ constexpr double kKnownWithin_rad = 3e-5;     ///< to which a joint is known at 
 bool is_place(const ParameterId& id) {
   using Kind = ParameterId::Kind;
   return id.kind == Kind::base_translation || id.kind == Kind::base_rotation || id.kind == Kind::tool_translation ||
-         id.kind == Kind::tool_rotation;
+         id.kind == Kind::tool_rotation || id.kind == Kind::station;
 }
 
 std::vector<ParameterId> numbers_of(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data,

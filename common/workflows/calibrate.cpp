@@ -30,6 +30,7 @@
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/posterior.hpp"
+#include "fitting/stations.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
 #include "random/random_purpose.hpp"
@@ -172,6 +173,11 @@ Eigen::Isometry3d as_files_have_it(Eigen::Isometry3d placement) {
   return placement;
 }
 
+std::vector<Station> as_files_have_it(std::vector<Station> stations) {
+  for (Station& station : stations) station.first_from_own = as_files_have_it(station.first_from_own);
+  return stations;
+}
+
 CorrectedRobot as_files_have_it(CorrectedRobot robot) {
   robot.sensor_from_base = as_files_have_it(robot.sensor_from_base);
   for (auto& [target, tool] : robot.tools) tool = as_files_have_it(tool);
@@ -192,6 +198,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .interval = interval_of(data, job.declared, calibration),
           .measured = measured_ranges(data, calibration),
           .certificate = job.certificate,
+          .stations = as_files_have_it(stations_as_found(calibration.robot, data)),
           .data_name = data.name,
           .data_sha256 = data.sha256,
           .seed = job.seed,

@@ -22,6 +22,7 @@
 #include "errors/input_error.hpp"
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/stations.hpp"
 #include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
@@ -42,10 +43,11 @@ bool determines(const DataSet& data, const DeclaredModel& declared) {
 
 Preparation start_of(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {
   if (!known) return prepare(data, job);
-  require_same_nominal_arm(*known, data);
-  CorrectedRobot model = known->robot;
-  model.described = data.robot;
-  return prepare_from(data, job.declared, model, job.targets);
+  CalibratedModel model = *known;
+  model.robot = with_tools_of_stations(std::move(model.robot), data);
+  require_same_nominal_arm(model, data);
+  model.robot.described = data.robot;
+  return prepare_from(data, job.declared, model.robot, job.targets);
 }
 
 bool same_link(const Joint& one, const Joint& other) {
@@ -65,20 +67,20 @@ bool same_place(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
 
 }  // namespace
 
-void require_same_arm(const CalibratedModel& model, const DataSet& data) {
-  if (data.robot.chain.size() != model.robot.chain.size()) {
+void require_same_arm(const CorrectedRobot& robot, const DataSet& data) {
+  if (data.robot.chain.size() != robot.chain.size()) {
     throw InputError({data.file, 0}, std::to_string(data.robot.chain.size()),
-                     fmt::format("is not the number of joints of the model ({})", model.robot.chain.size()));
+                     fmt::format("is not the number of joints of the model ({})", robot.chain.size()));
   }
   for (const MeasuredPose& pose : data.poses) {
-    if (!model.robot.tools.contains(pose.target)) {
+    if (!robot.tools.contains(pose.target)) {
       throw InputError({data.file, pose.line}, pose.target, "is a target that the model has no tool for");
     }
   }
 }
 
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data) {
-  require_same_arm(model, data);
+  require_same_arm(model.robot, data);
   const Chain &one = model.nominal.chain, &other = data.robot.chain;
   for (std::size_t i = 0; i < one.joints.size(); ++i) {
     if (one.convention == other.convention && same_link(one.joints[i], other.joints[i])) continue;

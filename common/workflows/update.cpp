@@ -10,6 +10,7 @@
 #include "diagnosis/loop.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/stations.hpp"
 #include "prediction/measurement.hpp"
 #include "updating/update.hpp"
 #include "workflows/workflows.hpp"
@@ -56,10 +57,12 @@ double unseen_rms_mm(const DataSet& data, const CalibrateResult& result) {
 
 }  // namespace
 
-CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& prior,
+CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& found_before,
                              const RoundWatcher& watch) {
   constexpr std::size_t kManyPoses = 150;
   const auto begin = std::chrono::steady_clock::now();
+  CalibratedModel prior = found_before;
+  prior.robot = with_tools_of_stations(std::move(prior.robot), data);
   require_same_nominal_arm(prior, data);
   const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
   CorrectedRobot old = prior.robot;
@@ -93,6 +96,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
                   .posterior = update.fitted.posterior,
                   .interval = interval,
                   .measured = measured_ranges(data, result.calibration),
+                  .stations = stations_as_found(update.robot, data),
                   .data_name = data.name,
                   .data_sha256 = data.sha256,
                   .seed = job.seed,

@@ -132,7 +132,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
                              const RoundWatcher& watch);
 
 /// Throws InputError where the model has another number of joints than the data set's arm, or no tool for a target.
-void require_same_arm(const CalibratedModel& model, const DataSet& data);
+void require_same_arm(const CorrectedRobot& robot, const DataSet& data);
 
 /// The same, and where its maker's figures are not those that the model was made from.
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data);

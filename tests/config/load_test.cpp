@@ -75,7 +75,7 @@ TEST(LoadJob, ReadsEveryKey) {
   const Samples samples;
   const Job job = load_job(samples.job);
   EXPECT_EQ(job.name, "demo");
-  EXPECT_EQ(job.data_file, samples.data_set.string());
+  EXPECT_EQ(job.data_files, std::vector{samples.data_set.string()});
   EXPECT_EQ(job.method, Method::distal);
   EXPECT_EQ(job.seed, 7u);
   EXPECT_EQ(job.distal.form, DistalForm::sequential);

@@ -28,7 +28,7 @@ TEST(StudyGrid, HasTheJobAloneWithoutAxes) {
   const std::vector<GridCell> cells = grid_cells(job_file, {});
   ASSERT_EQ(cells.size(), 1U);
   EXPECT_EQ(cells.front().job.gp, load_job(job_file).gp);
-  EXPECT_EQ(cells.front().job.data_file, load_job(job_file).data_file);
+  EXPECT_EQ(cells.front().job.data_files, load_job(job_file).data_files);
   EXPECT_EQ(cells.front().job.name, "job");
 }
 

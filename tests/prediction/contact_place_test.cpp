@@ -95,7 +95,9 @@ TEST(ContactPlace, IsFoundFromPointsThatTouchIt) {
     for (int i = 0; i < 12; ++i) points.push_back(touching(stream, place));
     const ContactPlace found = contact_place({kind, {}}, points);
     for (const Eigen::Vector3d& point : points) EXPECT_LT(contact_residual(found, point).norm(), 1e-9);
-    if (kind == ContactKind::sphere) EXPECT_NEAR(found.radius_m, place.radius_m, 1e-9);
+    if (kind == ContactKind::sphere) {
+      EXPECT_NEAR(found.radius_m, place.radius_m, 1e-9);
+    }
   }
 }
 

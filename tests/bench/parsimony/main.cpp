@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 10;
   }
   const Job job = load_job(options.job);
-  const DataSet data = load_data_set(job.data_file);
+  const DataSet data = load_data_set(job.data_files.front());
   if (!options.json)
     std::cout << "                 nodes                validation rms, mm\n"
                  "  seed  reported      best     ratio     reported      best     ratio\n";
