@@ -11,11 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "config/draft_data_set.hpp"
 #include "config/input_files.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "data_check/pendant.hpp"
+#include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/controller_angles.hpp"
 #include "kinematics/drawn_arm.hpp"
@@ -47,7 +50,7 @@ ExitCode run(ImportOptions options) {
 }
 
 struct ShowOptions {
-  std::string file, at;
+  std::string file, at, compare;
   bool json = false;
 };
 
@@ -189,8 +192,44 @@ std::string pose_json(const Robot& robot, const JointVector& q, const Eigen::Iso
   return json.dump();
 }
 
+void print_comparison(const DataSet& data, const PendantComparison& comparison) {
+  fmt::print("{}: {} poses read off the controller; the description is off by {:.3f} mm at most.\n", data.file,
+             data.poses.size(), millimetres(*std::ranges::max_element(comparison.errors_m)));
+  if (comparison.agrees) {
+    fmt::print("It agrees with the controller.\n");
+    return;
+  }
+  for (const std::string& finding : comparison.findings) fmt::print("  {}\n", finding);
+  fmt::print("\n  {:12} {:>10}\n", "pose", "off by, mm");
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    fmt::print("  {:12} {:10.3f}\n", data.poses[i].pose_id, millimetres(comparison.errors_m[i]));
+}
+
+std::string comparison_json(const DataSet& data, const PendantComparison& comparison) {
+  nlohmann::ordered_json json{{"agrees", comparison.agrees},
+                              {"explained", comparison.explained},
+                              {"findings", comparison.findings},
+                              {"poses", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    json["poses"].push_back({{"id", data.poses[i].pose_id}, {"off_by_mm", millimetres(comparison.errors_m[i])}});
+  return json.dump();
+}
+
+ExitCode compare(const ShowOptions& options, const Robot& robot) {
+  const DataSet data = read_pendant_poses(options.compare, robot);
+  if (data.poses.empty()) throw InputError({options.compare, 0}, "", "holds no poses");
+  const PendantComparison comparison = compare_with_pendant(data);
+  if (options.json) {
+    fmt::print("{}\n", comparison_json(data, comparison));
+  } else {
+    print_comparison(data, comparison);
+  }
+  return comparison.agrees ? ExitCode::done : ExitCode::contradiction;
+}
+
 ExitCode run(const ShowOptions& options) {
   const Robot robot = load_robot(options.file);
+  if (!options.compare.empty()) return compare(options, robot);
   const JointVector q =
       options.at.empty() && robot.home.size() > 0 ? robot.home : joints_asked(options.at, robot.chain);
   const Eigen::Isometry3d flange = forward(robot.chain, q);
@@ -225,14 +264,19 @@ void add_show(CLI::App& robot, ExitCode& exit_code) {
   command->add_option("robot", options->file, "ROBOT.yaml")->required();
   command->add_option("--at", options->at,
                       "joints q1,q2,... in deg, mm where one slides (default: home_deg of the file, or all 0)");
-  command->add_flag("--json", options->json, "one line of JSON: the pose");
+  command
+      ->add_option("--compare", options->compare,
+                   "POSES.csv: joints and the positions that the controller shows for them; what of the description "
+                   "does not fit is named, and the exit code is 12")
+      ->excludes("--at");
+  command->add_flag("--json", options->json, "one line of JSON: the pose, or the comparison");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace
 
 void add_robot(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("robot", "arms: import from a URDF, show");
+  CLI::App* command = app.add_subcommand("robot", "arms: import from a URDF, show, compare with a controller");
   command->require_subcommand(1);
   add_import(*command, exit_code);
   add_show(*command, exit_code);

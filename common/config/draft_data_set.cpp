@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "data/columns.hpp"
+#include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "tables/join.hpp"
@@ -186,6 +187,31 @@ std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::pat
     given.columns = guess_columns(given.read.table, count, {});
   }
   return tables;
+}
+
+DataSet read_pendant_poses(const std::filesystem::path& path, const Robot& robot) {
+  const GivenTable given = read_given_tables({path}, robot.chain.joints.size(), {}).front();
+  const CsvTable& table = given.read.table;
+  const auto named = [&](const std::vector<std::size_t>& group) {
+    std::vector<ColumnName> names;
+    for (const std::size_t column : group) names.push_back({table.columns[column], {path.string(), 0}, column + 1});
+    return names;
+  };
+  if (given.columns.joints.empty() || given.columns.position.empty())
+    throw InputError({path.string(), table.header_line}, "",
+                     "needs a column for each of the " + std::to_string(robot.chain.size()) +
+                         " joints (q1 ..., j1 ..., A1 ...) and the positions that the controller shows (x, y, z)");
+  ColumnMap columns;
+  columns.where = {path.string(), table.header_line};
+  columns.joints = named(given.columns.joints);
+  columns.position = named(given.columns.position);
+  DataSet data;
+  data.name = path.stem().string();
+  data.file = path.string();
+  data.robot = robot;
+  data.frame = Frame::base;
+  data.poses = read_poses(table, columns, {find_unit("deg"), find_unit("mm")}, robot.chain, {});
+  return data;
 }
 
 std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_tables,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "tables/guess_columns.hpp"
 #include "tables/layout.hpp"
 #include "tables/read_table.hpp"
@@ -34,5 +35,10 @@ struct DataSetDraft {
 /// InputError where no table has joints, or none has anything measured.
 std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& tables, const std::filesystem::path& folder,
                                           const std::string& robot, std::size_t joints, const ToldLayout& told);
+
+/// Joints and the positions that a controller shows for them, as people note them down: columns as guess_columns()
+/// knows them, mm and deg where headings state no unit. All poses are for calibration, in the base's frame. Throws
+/// InputError where the table has no joints or no positions.
+DataSet read_pendant_poses(const std::filesystem::path& path, const Robot& robot);
 
 }  // namespace demecal::inline config

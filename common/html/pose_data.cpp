@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,9 +87,13 @@ std::string arm_text(const Report& report) {
     joints += (joints.empty() ? "" : ",") + fmt::format("{{\"type\":{},\"placement\":[{}]}}", script_text(joint.type),
                                                         joined(joint.placement, kDecimals));
   }
-  return fmt::format("{{\"base\":[{}],\"joints\":[{}],\"flange\":[{}],\"tool\":[{}]}}",
+  std::string couplings;
+  for (const ArmCouplingEntry& one : report.arm->couplings)
+    couplings +=
+        fmt::format("{}[{},{},{}]", couplings.empty() ? "" : ",", one.joint, one.from, number(one.factor, kDecimals));
+  return fmt::format("{{\"base\":[{}],\"joints\":[{}],\"flange\":[{}],\"tool\":[{}],\"couplings\":[{}]}}",
                      joined(report.arm->base, kDecimals), joints, joined(report.arm->flange, kDecimals),
-                     joined(report.arm->tool_mm, kDecimals));
+                     joined(report.arm->tool_mm, kDecimals), couplings);
 }
 
 /// Whether the numbers are as many as a picture of the arm takes.
@@ -96,7 +101,10 @@ bool is_drawable(const Report& report) {
   constexpr std::size_t kPlacement = 12;
   if (!report.arm || report.arm->base.size() != kPlacement || report.arm->flange.size() != kPlacement) return false;
   const std::vector<ArmJointEntry>& joints = report.arm->joints;
+  const auto within = [&](std::uint64_t joint) { return joint >= 1 && joint <= joints.size(); };
   return report.arm->tool_mm.size() == 3 &&
+         std::ranges::all_of(report.arm->couplings,
+                             [&](const ArmCouplingEntry& one) { return within(one.joint) && within(one.from); }) &&
          std::ranges::all_of(joints, [](const ArmJointEntry& one) { return one.placement.size() == kPlacement; }) &&
          std::ranges::all_of(report.pose_errors,
                              [&](const PoseErrorEntry& pose) { return pose.place.joints.size() == joints.size(); });

@@ -27,10 +27,12 @@ const armAt = i => {
   let frame = data.arm.base;
   const note = () => points.push([frame[3], frame[7], frame[11]]);
   note();
+  const commanded = data.q.slice(i * joints.length, (i + 1) * joints.length), driven = commanded.slice();
+  for (const [joint, from, factor] of data.arm.couplings) driven[joint - 1] += factor * commanded[from - 1];
   joints.forEach((joint, k) => {
     frame = times(frame, joint.placement);
     note();
-    frame = times(frame, motion(joint.type, data.q[i * joints.length + k]));
+    frame = times(frame, motion(joint.type, driven[k]));
   });
   frame = times(frame, data.arm.flange);
   note();

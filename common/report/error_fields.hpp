@@ -43,8 +43,13 @@ void fields(auto& visit, Like<ArmJointEntry> auto& joint) {
   visit("type", joint.type, "placement", joint.placement);
 }
 
+void fields(auto& visit, Like<ArmCouplingEntry> auto& coupling) {
+  visit("joint", coupling.joint, "from", coupling.from, "factor", coupling.factor);
+}
+
 void fields(auto& visit, Like<ArmEntry> auto& arm) {
   visit("base", arm.base, "joints", arm.joints, "flange", arm.flange, "tool_mm", arm.tool_mm);
+  visit.when(!arm.couplings.empty(), "couplings", arm.couplings);
 }
 
 void fields(auto& visit, Like<UncertaintyContribution> auto& one) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
 
 #include "effects/arm_state.hpp"
 #include "kinematics/forward.hpp"
@@ -69,6 +70,9 @@ ArmEntry arm_entry(const CorrectedRobot& robot, const std::string& target) {
         const bool turns = robot.chain.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
         arm.joints.push_back({turns ? "revolute" : "prismatic", here});
       });
+  for (const CommandCoupling& coupling : robot.chain.couplings)
+    arm.couplings.push_back({static_cast<std::uint64_t>(coupling.joint) + 1,
+                             static_cast<std::uint64_t>(coupling.from) + 1, coupling.factor});
   return arm;
 }
 

@@ -26,12 +26,19 @@ struct ArmJointEntry {
   PlacementNumbers placement{};  ///< of its axis in the link before it, at value 0
 };
 
+/// A joint that turns by `factor` of what another is commanded, beside its own command.
+struct ArmCouplingEntry {
+  std::uint64_t joint = 0, from = 0;
+  double factor = 0.0;
+};
+
 /// The calibrated arm without corrections and effects: enough to draw it.
 struct ArmEntry {
   PlacementNumbers base{};  ///< in the frame of the measurements
   std::vector<ArmJointEntry> joints{};
   PlacementNumbers flange{};      ///< in the last link
   std::vector<double> tool_mm{};  ///< in the flange
+  std::vector<ArmCouplingEntry> couplings{};
 };
 
 /// One pose (one row of the data set).

@@ -49,10 +49,10 @@ TEST(Stations, OfAWrongArmAreFittedAsOneToTheLastDigit) {
   for (const Chain& chain : {parallel_arm(), modified_arm(), seven_joint_arm()}) {
     const KnownArm arm = misbuilt(stream, chain);
     const bool orientation = stream.index(2) == 0;
-    const DataSet joined = joined_stations({measured_at(arm, stream, "A", 25, orientation),
-                                            measured_at(arm, stream, "B", 25, orientation),
-                                            measured_at(arm, stream, "C", 25, orientation)},
-                                           StationTools::own);
+    const DataSet joined =
+        joined_stations({measured_at(arm, stream, "A", 25, orientation), measured_at(arm, stream, "B", 25, orientation),
+                         measured_at(arm, stream, "C", 25, orientation)},
+                        StationTools::own);
     ASSERT_EQ(joined.poses.size(), 75U);
     const Fit fit = fit_of(joined);
     EXPECT_EQ(fit.status, FitStatus::converged) << fit.sentence;

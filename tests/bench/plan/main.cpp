@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "config/input_files.hpp"
 #include "planning/candidates.hpp"
@@ -23,6 +25,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   int seeds = 5, cases = 20;
   std::vector<int> poses{15, 30};
+  std::string only;
   bool json = false;
 };
 
@@ -199,43 +202,66 @@ bool answered(const ChangeReport& report, Change change, int joint) {
   return is(&DeclaredModel::joint_offset, first) && first.effect.joint == joint;
 }
 
-void bench_changes(const Robot& robot, const Options& options) {
+/// An arm, its model and the few poses that are to tell whether it has changed.
+struct Watched {
+  CorrectedRobot truth;
+  CalibratedModel model;
+  std::vector<PlannedPose> poses;
+};
+
+Watched watched(const Robot& robot, int seed) {
   constexpr int kPoses = 12;
-  RandomStream random{781};
+  RandomStream random{781, static_cast<std::uint64_t>(seed)};
   const CorrectedRobot truth = truth_of(robot, random);
-  const CalibratedModel model = model_of(robot, truth, 1);
-  const Plan plan = make_plan(request_for(robot, kPoses, 3));
-  for (const Change change : {Change::none, Change::offset, Change::tool, Change::base}) {
-    int right = 0, powerless = 0;
-    for (int i = 0; i < options.cases; ++i) {
-      CorrectedRobot now = truth;
-      const int joint =
-          1 + i % (robot.chain.size() - 2);  // the first cannot be told from the base, the last from the tool
-      const Eigen::Vector3d way = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-      if (change == Change::offset) now.chain.joints[static_cast<std::size_t>(joint)].theta_rad += 3e-4;
-      if (change == Change::tool) now.tools.at("").translation() += 2e-4 * way;
-      if (change == Change::base) now.sensor_from_base.translation() += 1e-3 * way;
-      const ChangeReport report = find_change(model, measured(robot, now, calibration_poses(plan), random));
-      if (answered(report, change, joint)) ++right;
-      for (const ChangeCause& cause : report.tried)
-        if (change == Change::offset && cause.effect.joint == joint && cause.power < 0.9 &&
-            declared_flag(cause.effect.kind) == &DeclaredModel::joint_offset)
-          ++powerless;
+  return {truth, model_of(robot, truth, seed), calibration_poses(make_plan(request_for(robot, kPoses, 100 + seed)))};
+}
+
+/// What was answered of many arms with one kind of change.
+struct Answers {
+  int cases = 0, right = 0, powerless = 0;
+};
+
+void ask(const Robot& robot, const Watched& arm, Change change, int i, RandomStream& random, Answers& answers) {
+  CorrectedRobot now = arm.truth;
+  const int joint = 1 + i % (robot.chain.size() - 2);  // the first cannot be told from the base, the last from the tool
+  const Eigen::Vector3d way = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+  if (change == Change::offset) now.chain.joints[static_cast<std::size_t>(joint)].theta_rad += 3e-4;
+  if (change == Change::tool) now.tools.at("").translation() += 2e-4 * way;
+  if (change == Change::base) now.sensor_from_base.translation() += 1e-3 * way;
+  const ChangeReport report = find_change(arm.model, measured(robot, now, arm.poses, random));
+  ++answers.cases;
+  if (answered(report, change, joint)) ++answers.right;
+  for (const ChangeCause& cause : report.tried)
+    if (change == Change::offset && cause.effect.joint == joint && cause.power < 0.9 &&
+        declared_flag(cause.effect.kind) == &DeclaredModel::joint_offset)
+      ++answers.powerless;
+}
+
+void bench_changes(const Robot& robot, const Options& options) {
+  constexpr int kCasesOfAModel = 10;
+  constexpr const char* kNames[] = {"none", "joint_offset_0.3_mrad", "tool_0.2_mm", "base_1_mm"};
+  std::array<Answers, 4> all;
+  std::optional<Watched> arm;
+  for (int i = 0; i < options.cases; ++i) {
+    if (i % kCasesOfAModel == 0) arm = watched(robot, 1 + i / kCasesOfAModel);
+    for (const Change change : {Change::none, Change::offset, Change::tool, Change::base}) {
+      RandomStream random{782 + static_cast<std::uint64_t>(change), static_cast<std::uint64_t>(i)};
+      ask(robot, *arm, change, i, random, all[static_cast<std::size_t>(change)]);
     }
-    constexpr const char* kNames[] = {"none", "joint_offset_0.3_mrad", "tool_0.2_mm", "base_1_mm"};
-    const char* name = kNames[static_cast<int>(change)];
+  }
+  for (std::size_t change = 0; change < all.size(); ++change) {
+    const Answers& answers = all[change];
     if (options.json) {
       fmt::print("{}\n", Json{{"workload", "check"},
                               {"robot", robot.name},
-                              {"change", name},
-                              {"poses", kPoses},
-                              {"cases", options.cases},
-                              {"right", right},
-                              {"said_to_lack_power", powerless}}
+                              {"change", kNames[change]},
+                              {"cases", answers.cases},
+                              {"right", answers.right},
+                              {"said_to_lack_power", answers.powerless}}
                              .dump());
     } else {
-      fmt::print("{:<14} {:<22} {:>4} of {:>4} answered rightly ({} said to lack power)\n", robot.name, name, right,
-                 options.cases, powerless);
+      fmt::print("{:<14} {:<22} {:>4} of {:>4} answered rightly ({} said to lack power)\n", robot.name, kNames[change],
+                 answers.right, answers.cases, answers.powerless);
     }
   }
 }
@@ -248,13 +274,17 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", options.seeds, "of truth, noise and plan")->capture_default_str();
   app.add_option("--cases", options.cases, "of each change")->capture_default_str();
   app.add_option("--poses", options.poses, "numbers of poses, LIST")->delimiter(',')->capture_default_str();
+  app.add_option("--only", options.only, "plan or check")->check(CLI::IsMember({"plan", "check"}));
   app.add_flag("--json", options.json, "one JSON object a line");
   CLI11_PARSE(app, argc, argv);
-  if (!options.json)
+  const bool plans = options.only != "check", checks = options.only != "plan";
+  if (!options.json && plans)
     fmt::print("{:<14} {:>5} {:>28} {:>22} {:>9}\n", "robot", "poses", "error / of twice as random",
                "found / predicted", "seconds");
   for (const Robot& robot : arms())
-    for (const int poses : options.poses) bench_plans(robot, poses, options);
-  for (const Robot& robot : arms()) bench_changes(robot, options);
+    for (const int poses : options.poses)
+      if (plans) bench_plans(robot, poses, options);
+  for (const Robot& robot : arms())
+    if (checks) bench_changes(robot, options);
   return 0;
 }

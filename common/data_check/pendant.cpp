@@ -1,0 +1,153 @@
+#include "data_check/pendant.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "data_check/explanations.hpp"
+#include "data_check/finding.hpp"
+#include "data_check/trial_fit.hpp"
+#include "effects/arm_state.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal::inline data_check {
+namespace {
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::ranges::max_element(values);
+}
+
+std::string triple(const Eigen::Vector3d& vector_m) {
+  const auto rounded = [](double metres_value) { return std::round(1e2 * millimetres(metres_value)) / 1e2 + 0.0; };
+  return fmt::format("[{:g}, {:g}, {:g}] mm", rounded(vector_m.x()), rounded(vector_m.y()), rounded(vector_m.z()));
+}
+
+Trial trial_of(const DataSet& data) {
+  Trial trial{data.robot.chain, {data.robot.chain.tool_m}, {}, 1};
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    trial.rows.push_back({data.poses[i].joints, *data.poses[i].position_m, 0, 0, i});
+  return trial;
+}
+
+/// Where tool and base of a fit stand otherwise than described, a sentence each.
+std::vector<std::string> tool_and_base(const TrialFit& fit, const Chain& chain) {
+  std::vector<std::string> sentences;
+  const Eigen::Vector3d& tool_m = fit.tools_m.front();
+  if ((tool_m - chain.tool_m).norm() > kPendantRounding_m) {
+    sentences.push_back(fmt::format(
+        "The tool: the controller's tool point is at {} on the flange, {} is described{}.", triple(tool_m),
+        triple(chain.tool_m), tool_m.norm() < 2.0 * kPendantRounding_m ? "; it shows the flange itself (tool 0)" : ""));
+  }
+  const Eigen::Isometry3d& base = fit.sensor_from_base.front();
+  const Eigen::Vector3d turn = vector_of(base.linear());
+  constexpr double kTurned_rad = 1e-3;
+  if (base.translation().norm() > kPendantRounding_m || turn.norm() > kTurned_rad) {
+    std::string turned;
+    if (turn.norm() > kTurned_rad)
+      turned = fmt::format(", turned by {:.2f} deg about [{:.2f}, {:.2f}, {:.2f}]", degrees(turn.norm()),
+                           turn.normalized().x(), turn.normalized().y(), turn.normalized().z());
+    sentences.push_back(
+        fmt::format("The base: the described base stands at {}{} in the frame that the controller "
+                    "counts in (`base:` of the robot file, or another frame is active).",
+                    triple(base.translation()), turned));
+  }
+  return sentences;
+}
+
+class PendantSearch {
+ public:
+  PendantSearch(const DataSet& data, PendantComparison& result)
+      : data_(data), trial_(trial_of(data)), result_(result) {}
+
+  void run() {
+    const TrialFit placed = fit_base_and_tools(trial_);
+    if (settles(placed, {})) return;
+    if (const auto best = best_explanation(trial_, placed, kPendantRounding_m)) {
+      std::vector<std::string> readings;
+      for (const Explanation& one : best->explanations) readings.push_back("It fits if " + one.clause + ".");
+      for (const Explanation& one : best->equals)
+        readings.push_back("As well, and these poses cannot tell which, it fits if " + one.clause + ".");
+      Trial read = trial_;
+      for (const Explanation& one : best->explanations) one.apply(read);
+      if (settles(fit_base_and_tools(read), readings, read.chain)) return;
+    }
+    if (try_numbers({.registration = true, .tool = true, .joint_offset = true}, false)) return;
+    try_numbers({.registration = true, .tool = true, .joint_offset = true, .geometry = true}, true);
+  }
+
+ private:
+  bool settles(const TrialFit& fit, std::vector<std::string> readings) {
+    return settles(fit, std::move(readings), data_.robot.chain);
+  }
+
+  bool settles(const TrialFit& fit, std::vector<std::string> readings, const Chain& described) {
+    if (largest(fit.error_m) > kPendantRounding_m) return false;
+    std::ranges::move(tool_and_base(fit, described), std::back_inserter(readings));
+    result_.findings = std::move(readings);
+    result_.explained = true;
+    return true;
+  }
+
+  /// Whether other numbers of the links make it fit; those that differ most are named.
+  bool try_numbers(const DeclaredModel& declared, bool links) {
+    constexpr std::size_t kMostNamed = 6;
+    std::vector<std::size_t> all(data_.poses.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    FitOptions options;
+    options.prior_m = 1.0;  // a description may be of another arm altogether
+    options.prior_rad = 3.0;
+    options.robust = false;
+    const Fit fit = fit_declared(data_, all, declared, nominal_robot(data_), options);
+    if (fit.status != FitStatus::converged || largest(tool_errors_m(fit.robot, data_, all)) > kPendantRounding_m)
+      return false;
+    std::vector<std::pair<double, std::string>> named;
+    for (const ParameterEstimate& estimate : fit.estimates) {
+      if (estimate.id.kind != ParameterId::Kind::link) continue;
+      const double difference = estimate.value - estimate.nominal;
+      const bool is_angle = estimate.id.is_angle();
+      if (std::abs(difference) < (is_angle ? 1e-3 : kPendantRounding_m)) continue;
+      named.emplace_back(std::abs(difference) * (is_angle ? 1.0 : 1.0 / 0.5),
+                         fmt::format("{} differs by {:.2f}.", estimate.id.name(),
+                                     is_angle ? degrees(difference) : millimetres(difference)));
+    }
+    if (named.empty()) return false;
+    std::ranges::sort(named, [](const auto& one, const auto& other) { return one.first > other.first; });
+    result_.findings.push_back(links ? "The arm has other links than described:" : "Zeros of joints are elsewhere:");
+    for (std::size_t i = 0; i < std::min(kMostNamed, named.size()); ++i)
+      result_.findings.push_back(std::move(named[i].second));
+    result_.explained = true;
+    return true;
+  }
+
+  const DataSet& data_;
+  Trial trial_;
+  PendantComparison& result_;
+};
+
+}  // namespace
+
+PendantComparison compare_with_pendant(const DataSet& data) {
+  PendantComparison result;
+  const CorrectedRobot nominal = nominal_robot(data);
+  for (const MeasuredPose& pose : data.poses) result.errors_m.push_back(tool_error_m(nominal, data, pose));
+  result.agrees = result.explained = largest(result.errors_m) <= kPendantRounding_m;
+  if (result.agrees) return result;
+  if (data.poses.size() < kFewestPendantPoses) {
+    result.findings.push_back(fmt::format(
+        "{} poses cannot tell what differs: read off {} at least, with every joint well turned in some of them.",
+        data.poses.size(), kFewestPendantPoses));
+    return result;
+  }
+  PendantSearch(data, result).run();
+  if (!result.explained)
+    result.findings.emplace_back(
+        "No sign, exchange, convention, unit, zero or link length explains it: another robot, or poses that were not "
+        "read off as they stand (another tool or user frame for some of them).");
+  return result;
+}
+
+}  // namespace demecal::inline data_check
