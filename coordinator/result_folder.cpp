@@ -23,6 +23,7 @@
 #include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/stations.hpp"
 #include "html/page.hpp"
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
@@ -139,6 +140,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
     std::filesystem::remove(folder + "/model-best.yaml");
   }
   CalibratedModel written = load_model(model_path);
+  written.robot = seen_from_stations(std::move(written.robot), written.stations, data);
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
   DataCheck check = result.check;

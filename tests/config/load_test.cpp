@@ -71,6 +71,20 @@ TEST(LoadDataSet, TakesUnknownAnchors) {
   EXPECT_TRUE(load_data_set(path).anchors_unknown);
 }
 
+TEST(LoadJob, TakesADataSetOfEveryStation) {
+  const Samples samples;
+  const std::string file = samples.data_set.filename().string();
+  const std::string list = "demecal_job: 1\ndata: [" + file + ", " + file + "]\n";
+  const Job job = load_job(samples.folder.write("stations.yaml", list));
+  EXPECT_EQ(job.data_files.size(), 2U);
+  EXPECT_EQ(job.station_tools, StationTools::own);
+  const std::string shared = "demecal_job: 1\ndata: {stations: [" + file + ", " + file + "], tool: shared}\n";
+  EXPECT_EQ(load_job(samples.folder.write("shared.yaml", shared)).station_tools, StationTools::shared);
+  EXPECT_THROW(load_job(samples.folder.write("none.yaml", "demecal_job: 1\ndata: []\n")), InputError);
+  EXPECT_THROW(load_job(samples.folder.write("wrong.yaml", "demecal_job: 1\ndata: {stations: [a], tool: mine}\n")),
+               InputError);
+}
+
 TEST(LoadJob, ReadsEveryKey) {
   const Samples samples;
   const Job job = load_job(samples.job);

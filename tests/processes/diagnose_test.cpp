@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "program.hpp"
@@ -87,6 +89,42 @@ TEST(Diagnose, IsTheSameEveryTimeAndDoesNotReadTheTruth) {
   ASSERT_EQ(run("demecal", diagnose(job, "without")).code, 0);
   EXPECT_FALSE(job.text("with/model.yaml").empty());
   EXPECT_EQ(job.text("with/model.yaml"), job.text("without/model.yaml"));
+}
+
+/// The scenario of the job measured from another place; returns the data set.
+std::string second_station(const SmallJob& job) {
+  std::string scenario = job.text("scenario.yaml");
+  const std::string place = "[1850, -640, 420], rotation_deg: [4, -7, 115]";
+  scenario.replace(scenario.find(place), place.size(), "[-900, 1400, 210], rotation_deg: [0, 3, -40]");
+  scenario.replace(scenario.find("seed: 5"), 7, "seed: 6");
+  std::ofstream(job.path("south.yaml")) << scenario;
+  const Ended simulated = run("demecal", {"simulate", job.path("south.yaml"), "--out", job.path("south")});
+  if (simulated.code != 0) throw std::runtime_error(simulated.err);
+  return job.path("south/dataset.yaml");
+}
+
+TEST(Diagnose, FitsTwoStationsAsOneAndKnowsThemAgain) {
+  const SmallJob job(20, 2, kBacklash);
+  const std::string south = second_station(job);
+  const Ended ended = run("demecal", diagnose(job, "out", {south, "--declare", "registration,tool,joint_corrections"}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json report = report_of(job, "out");
+  ASSERT_EQ(report["stations"].size(), 2U);
+  for (const Json& station : report["stations"]) {
+    EXPECT_EQ(station["poses"], 80);
+    EXPECT_LT(station["error_mm"]["after"]["accept"]["rms"], 0.25) << station;
+  }
+  const std::string model = job.path("out/model.yaml");
+  const Ended both = run("demecal", {"evaluate", model, job.data(), south, "--json"});
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_EQ(Json::parse(both.out)["error_mm"], report["error_mm"]["after"]);
+  for (const std::string& data : {job.data(), south}) {
+    const Ended one = run("demecal", {"evaluate", model, data, "--json"});
+    ASSERT_EQ(one.code, 0) << one.err;
+    const double rms_mm = Json::parse(one.out)["error_mm"]["accept"]["rms"];
+    const Json& station = report["stations"][data == south ? 1 : 0];
+    EXPECT_NEAR(rms_mm, station["error_mm"]["after"]["accept"]["rms"], 1e-6) << data;
+  }
 }
 
 TEST(Diagnose, PrintsItsReportAsJson) {
