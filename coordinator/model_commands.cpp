@@ -67,18 +67,24 @@ CorrectedRobot as_drawn(const Robot& robot) {
   return nominal_robot(none);
 }
 
-Listing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
-                         const std::string& title) {
+/// What is exported: the listing, and what of its inverse follows in C.
+struct ExportedListing {
+  Listing listing;
+  std::string inverse_in_c{};
+};
+
+ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
+                                 const std::string& title) {
   require_target(request, robot);
   const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
   for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
-  return listing_of(arm, robot, title);
+  return {listing_of(arm, robot, title), inverse_in_c(described_listing(algebra, robot, request.target))};
 }
 
 /// By what the file says that it is: a model, a robot, or matrices.
-Listing listing_asked(Algebra& algebra, const ExportRequest& request) {
+ExportedListing listing_asked(Algebra& algebra, const ExportRequest& request) {
   const YamlNode file = read_yaml(request.file);
-  if (file.find("demecal_matrices") != nullptr) return load_matrices(algebra, request.file);
+  if (file.find("demecal_matrices") != nullptr) return {load_matrices(algebra, request.file)};
   if (file.find("demecal_robot") != nullptr) {
     const Robot robot = load_robot(request.file);
     return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it");
@@ -117,13 +123,14 @@ ExitCode run_links(const ExportRequest& request) {
 ExitCode run(const ExportRequest& request) {
   if (!code_languages().contains(request.format)) return run_links(request);
   Algebra algebra;
-  Listing listing = listing_asked(algebra, request);
+  auto [listing, inverse] = listing_asked(algebra, request);
   if (request.derivative > static_cast<int>(listing.actual.size())) {
     throw InputError({request.file, 0}, std::to_string(request.derivative),
                      "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
   }
   if (request.derivative > 0) listing = derivative(listing, request.derivative);
-  write_or_print(request, code_of(listing, code_languages().at(request.format)));
+  const bool with_inverse = request.format == "c" && request.derivative == 0;
+  write_or_print(request, code_of(listing, code_languages().at(request.format)) + (with_inverse ? inverse : ""));
   return ExitCode::done;
 }
 

@@ -155,6 +155,16 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
   return listing;
 }
 
+Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const std::string& target) {
+  CorrectedRobot nominal;
+  nominal.chain = robot.described.chain;
+  nominal.described = robot.described;
+  nominal.sensor_from_base = robot.sensor_from_base;
+  nominal.tools = robot.tools;
+  nominal.corrections.resize(nominal.chain.joints.size());
+  return listing_of(corrected_arm(algebra, nominal, target), nominal, "As described");
+}
+
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;

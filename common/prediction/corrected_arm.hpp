@@ -29,6 +29,10 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
 /// The listing of the formulas with the remarks that a reader needs: what it is, units, frames, and the notes.
 Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title);
 
+/// The listing of the arm as `robot.described` has it, in the base and with the tool of `robot`: what inverse_in_c()
+/// corrects for.
+Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const std::string& target);
+
 /// As wrap_near().
 inline Expression wrapped_near(Expression angle, double centre_rad) {
   constexpr double kTurn = 2.0 * std::numbers::pi;

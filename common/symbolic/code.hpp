@@ -30,4 +30,9 @@ Listing derivative(const Listing& listing, int joint);
 /// share is computed once, in t1, t2 ...
 std::string code_of(const Listing& listing, CodeLanguage language);
 
+/// What follows an arm's listing in C: functions `inverse` (a pose of the tool to the joints to command) and
+/// `corrected` (joints as the maker's description has them to the joints to command), by Newton's steps on `forward`.
+/// `nominal` is the arm as its maker describes it with the same base and tool.
+std::string inverse_in_c(const Listing& nominal);
+
 }  // namespace demecal::inline symbolic

@@ -11,6 +11,7 @@
 #include <regex>
 #include <sstream>
 
+#include "kinematics/forward.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "prediction/random_effects.hpp"
 
@@ -137,6 +138,59 @@ TEST(Code, InCCompilesWithoutWarningsAndAgreesWithTheModel) {
                                      code);
   ASSERT_EQ(code, 0) << said;
   expect_agreement(judged, output_of(program, code));
+}
+
+TEST(Code, InCInvertsTheModel) {
+  if (!there_is("cc")) GTEST_SKIP() << "there is no C compiler called cc";
+  RandomStream stream{642};
+  for (const int joints : {6, 7}) {
+    const Chain nominal = random_arm(stream, joints, Convention::modified_dh, 0.2);
+    CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
+    robot.described = heavy(stream, nominal);
+    robot.effects = random_effects(robot.described, stream, 5e-4, 1);
+    robot.corrections.assign(nominal.joints.size(), {});
+    constexpr int kStops = 200;
+    std::vector<JointVector> stops;
+    for (int i = 0; i < kStops; ++i) stops.push_back(random_joints(stream, nominal));
+    const std::string n = std::to_string(joints);
+    std::ostringstream main;
+    main << "#include <stdio.h>\ndouble corrected(const double nominal[" << n << "], double command[" << n
+         << "]);\nstatic const double stops[][" << n << "] = {";
+    for (const JointVector& q : stops) main << '{' << numbers(q, ",") << "},\n";
+    main << "};\nint main(void) {\n  for (int i = 0; i < " << kStops << "; ++i) {\n    double command[" << n
+         << "];\n    printf(\"%.17g\", corrected(stops[i], command));\n    for (int k = 0; k < " << n
+         << "; ++k) printf(\" %.17g\", command[k]);\n    printf(\"\\n\");\n  }\n  return 0;\n}\n";
+    Algebra algebra;
+    const std::string code = code_in(robot, CodeLanguage::c) + inverse_in_c(described_listing(algebra, robot, ""));
+    const Folder folder;
+    const std::string program = folder.path("inverse");
+    int failed = 0;
+    const std::string said =
+        output_of("cc -std=c99 -O1 -Wall -Wextra -Wno-missing-prototypes -Werror -o " + program + ' ' +
+                      folder.write("arm.c", code) + ' ' + folder.write("main.c", main.str()) + " -lm",
+                  failed);
+    ASSERT_EQ(failed, 0) << said;
+    CorrectedRobot known = robot;  // what formulas hold: effects that depend on more than joints are left out
+    std::erase_if(known.effects, [&](const Effect& effect) {
+      const Needs needs = law_of(effect).needs(effect, robot.described);
+      return needs.approach || needs.payload || needs.temperature || needs.time;
+    });
+    std::istringstream printed(output_of(program, failed));
+    int reached = 0;
+    for (const JointVector& stop : stops) {
+      double left = 0.0;
+      ASSERT_TRUE(printed >> left);
+      JointVector command(joints);
+      for (double& value : command) ASSERT_TRUE(printed >> value);
+      if (left > 1e-6) continue;
+      ++reached;
+      const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, stop) * robot.tool("");
+      const Eigen::Isometry3d there = known.predict(Stop(command), "");
+      EXPECT_LT((there.translation() - goal.translation()).norm(), 1.1e-6);
+      EXPECT_LT((there.linear() - goal.linear()).norm(), 1e-5);
+    }
+    EXPECT_GE(reached, kStops * 97 / 100) << joints << " joints: others are near singular";
+  }
 }
 
 TEST(Code, InPythonAgreesWithTheModel) {
