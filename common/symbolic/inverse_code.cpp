@@ -33,8 +33,9 @@ std::string nominal_forward(const Listing& nominal) {
   return out.str();
 }
 
-// Newton's steps with the described arm's Jacobian: a calibrated arm's differs from it by thousandths, so that every
-// step takes away all but thousandths of the error. Turns weigh as a lever of LEVER metres. Damping keeps steps bounded
+// Newton's steps with the described arm's Jacobian, which is cheap: a calibrated arm's differs from it by thousandths,
+// so that every step takes away all but thousandths of the error, but near singular postures, where its own Jacobian
+// takes over. Turns weigh as a lever of LEVER metres. Damping keeps steps bounded
 // where the Jacobian is singular.
 constexpr const char* kSolver =
     R"code(/* What takes the tool from `pose` to `goal`: metres, and turns times LEVER; exact to second order of the turn. */
@@ -51,14 +52,15 @@ static void pose_error(const double goal[16], const double pose[16], double erro
   }
 }
 
-/* The lower triangle of a root of J'J + damping, at joints q. */
-static void factorize(const double q[N], double jacobian[6][N], double root[N][N]) {
+/* The lower triangle of a root of J'J + damping, of an arm at joints q. */
+static void factorize(void (*arm)(const double[N], double[16]), const double q[N], double jacobian[6][N],
+                      double root[N][N]) {
   double here[16], there[16], moved[N], column[6], trace = 0.0;
-  nominal_forward(q, here);
+  arm(q, here);
   for (int k = 0; k < N; ++k) {
     for (int i = 0; i < N; ++i) moved[i] = q[i];
     moved[k] += STEP;
-    nominal_forward(moved, there);
+    arm(moved, there);
     pose_error(there, here, column);
     for (int i = 0; i < 6; ++i) jacobian[i][k] = column[i]/STEP;
   }
@@ -84,7 +86,7 @@ static void factorize(const double q[N], double jacobian[6][N], double root[N][N
    and is overwritten. At most 32 steps, no memory is allocated. Returns how far the tool then is from the goal, in m,
    turns counted at a lever of a quarter of a metre: above 1e-6 it was not reached. */
 double inverse(const double goal[16], double q[N]) {
-  double jacobian[6][N], root[N][N], pose[16], error[6], step[N], left = 0.0;
+  double jacobian[6][N], root[N][N], pose[16], error[6], step[N], left = 0.0, before = 1e300;
   for (int round = 0; round <= 32; ++round) {
     double square = 0.0, largest = 0.0;
     forward(q, pose);
@@ -92,7 +94,12 @@ double inverse(const double goal[16], double q[N]) {
     for (int i = 0; i < 6; ++i) square += error[i]*error[i];
     left = sqrt(square);
     if (left < 1e-10 || round == 32) break;
-    if (round % 4 == 0) factorize(q, jacobian, root);
+    if (round % 8 == 0) {
+      if (left > 0.9*before) break; /* beyond its reach */
+      before = left;
+    }
+    if (round == 0) factorize(nominal_forward, q, jacobian, root);
+    if (round > 3 && round % 2 == 0) factorize(forward, q, jacobian, root);
     for (int r = 0; r < N; ++r) {
       step[r] = 0.0;
       for (int i = 0; i < 6; ++i) step[r] += jacobian[i][r]*error[i];
