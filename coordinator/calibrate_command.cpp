@@ -73,14 +73,12 @@ Job job_of(const CalibrateRequest& request) {
 
 void print_head(const CalibrateRequest& request, const Job& job, const DataSet& data) {
   if (request.quiet) return;
-  if (job.method == Method::structural) {
-    fmt::print(stderr, "{}: {} on {} ({} poses), a search for transforms between the links, seed {}\n", job.name,
-               data.robot.name, data.name, data.poses.size(), job.seed);
-    return;
-  }
-  if (job.method == Method::diagnose) {
-    fmt::print(stderr, "{}: {} on {} ({} poses), the closed loop without evolution, seed {}\n", job.name,
-               data.robot.name, data.name, data.poses.size(), job.seed);
+  if (!has_islands(job.method)) {
+    fmt::print(stderr, "{}: {} on {} ({} poses), {}, seed {}\n", job.name, data.robot.name, data.name,
+               data.poses.size(),
+               job.method == Method::structural ? "a search for transforms between the links"
+                                                : "the closed loop without evolution",
+               job.seed);
     return;
   }
   fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
@@ -210,12 +208,7 @@ ExitCode run(CalibrateRequest request) {
   const Job job = job_of(request);
   const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
   const DataSet& data = checked.data;
-  if (job.method == Method::structural) {
-    require_instrument(data, "the method structural");
-    if (!data.stations.empty())
-      throw InputError({request.job_file, 0}, "data",
-                       "names several stations, and the method structural learns from one");
-  }
+  if (job.method == Method::structural) require_instrument(data, "the method structural");
   std::vector<std::string> files = result_files(job.method);
   files.emplace_back("events.jsonl");
   make_writable(request.out, files, request.force);

@@ -73,6 +73,8 @@ bool refuses(const CheckedData& checked, bool force) {
 }
 
 void require_instrument(const DataSet& data, const std::string& what) {
+  if (!data.stations.empty())
+    throw InputError({data.file, 0}, data.name, what + " learns from one station: give a single data set");
   if (!has_contacts(data)) return;
   throw InputError({data.file, 0}, "contact",
                    what + " learns from measured points alone: use calibrate with the method direct, or diagnose");

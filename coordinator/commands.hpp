@@ -70,7 +70,8 @@ CheckedData load_checked(std::span<const std::string> paths, StationTools tools,
 /// Whether the data contradict the robot's description, and nobody forces the command to go on: said on standard error.
 bool refuses(const CheckedData& checked, bool force);
 
-/// Throws InputError where poses touch something and `what` learns from measured points alone.
+/// Throws InputError where poses touch something or were measured from several stations: `what` learns from measured
+/// points of one alone.
 void require_instrument(const DataSet& data, const std::string& what);
 
 /// The option --force of a command that fits or judges data.

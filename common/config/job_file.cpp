@@ -108,18 +108,12 @@ ClosedLoopOptions read_closed_loop(const YamlNode& node) {
 
 /// A data set, or a list of them: one a station.
 void read_data(const YamlNode& data, const std::filesystem::path& job_path, Job& job) {
-  const bool several = data.kind == YamlNode::Kind::list || data.kind == YamlNode::Kind::map;
-  if (!several) {
+  if (data.kind != YamlNode::Kind::list) {
     job.data_files = {resolve(job_path, data.text()).string()};
     return;
   }
-  const bool described = data.kind == YamlNode::Kind::map;
-  if (described) data.with_keys({"stations", "tool"});
-  const YamlNode& stations = described ? data.at("stations") : data;
-  for (const YamlNode& station : stations.list()) job.data_files.push_back(resolve(job_path, station.text()).string());
-  if (job.data_files.empty()) stations.fail("", "names no data set");
-  if (const YamlNode* tool = described ? data.find("tool") : nullptr)
-    job.station_tools = tool->one_of<StationTools>({{"own", StationTools::own}, {"shared", StationTools::shared}});
+  for (const YamlNode& station : data.list()) job.data_files.push_back(resolve(job_path, station.text()).string());
+  if (job.data_files.empty()) data.fail("", "names no data set");
 }
 
 ExplanationSearch read_explanations(const YamlNode& node) {
@@ -140,12 +134,14 @@ Job load_job(const std::filesystem::path& path) {
 
 Job read_job(const YamlNode& root) {
   const std::filesystem::path path = root.file;
-  root.with_version("job", 1).with_keys({"demecal_job", "data", "method", "seed", "model", "gp", "islands",
-                                         "closed_loop", "explanations", "distal", "targets", "joint_error_mrad",
-                                         "certificate"});
+  root.with_version("job", 1).with_keys({"demecal_job", "data", "station_tools", "method", "seed", "model", "gp",
+                                         "islands", "closed_loop", "explanations", "distal", "targets",
+                                         "joint_error_mrad", "certificate"});
   Job job;
   job.name = path.stem().string();
   read_data(root.at("data"), path, job);
+  if (const YamlNode* tools = root.find("station_tools"))
+    job.station_tools = tools->one_of<StationTools>({{"own", StationTools::own}, {"shared", StationTools::shared}});
   if (const YamlNode* method = root.find("method")) {
     job.method = method->one_of<Method>({{"direct", Method::direct},
                                          {"distal", Method::distal},

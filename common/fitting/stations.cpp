@@ -83,7 +83,7 @@ void bring_tools(const DataSet& set, const Station& station, StationTools tools,
     if ((known == joined.tools_m.end() && !target.empty()) || (there - point_m).norm() > kSame_m)
       throw InputError({set.file, 0}, target.empty() ? "tool_mm" : target,
                        "is another tool point than at the first station: stations that share a tool describe it alike; "
-                       "leave `tool: shared` out where it was changed in between");
+                       "leave `station_tools: shared` out where it was changed in between");
   }
 }
 

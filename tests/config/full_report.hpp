@@ -32,8 +32,12 @@ inline Report full_report() {
   report.unseen_validation_rms_mm = {0.37, 0.17};
   report.pose_errors = {{"P01", "A", "calibration", 0.5, 0.3, 0.8, {"outlier"}}};
   report.pose_errors.front().place = {{10, 20}, {1, 2, 3}, {0.3, 0, 0.4}, {0.3, 0, 0}, 21.5, 60.0};
-  report.arm =
-      ArmEntry{std::vector<double>(12), {{"revolute", std::vector<double>(12)}}, std::vector<double>(12), {0, 0, 50}};
+  report.arm = ArmEntry{std::vector<double>(12),
+                        {{"revolute", std::vector<double>(12)}},
+                        std::vector<double>(12),
+                        {0, 0, 50},
+                        {{3, 2, 1.0}}};
+  report.stations = {{"north", 30, report.registered, report.before, report.after}};
   report.length_errors = {{{"left", "right"}, "accept", 50.0, 0.05, 0.4, 0.06}};
   report.contacts = {{"left", "accept", "point", 30, 8.1, 0.7, 0.5}};
   report.contact_notes = {"No length is known."};

@@ -78,10 +78,10 @@ TEST(LoadJob, TakesADataSetOfEveryStation) {
   const Job job = load_job(samples.folder.write("stations.yaml", list));
   EXPECT_EQ(job.data_files.size(), 2U);
   EXPECT_EQ(job.station_tools, StationTools::own);
-  const std::string shared = "demecal_job: 1\ndata: {stations: [" + file + ", " + file + "], tool: shared}\n";
+  const std::string shared = "demecal_job: 1\nstation_tools: shared\ndata: [" + file + ", " + file + "]\n";
   EXPECT_EQ(load_job(samples.folder.write("shared.yaml", shared)).station_tools, StationTools::shared);
   EXPECT_THROW(load_job(samples.folder.write("none.yaml", "demecal_job: 1\ndata: []\n")), InputError);
-  EXPECT_THROW(load_job(samples.folder.write("wrong.yaml", "demecal_job: 1\ndata: {stations: [a], tool: mine}\n")),
+  EXPECT_THROW(load_job(samples.folder.write("wrong.yaml", "demecal_job: 1\ndata: [a]\nstation_tools: mine\n")),
                InputError);
 }
 

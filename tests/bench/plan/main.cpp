@@ -23,7 +23,7 @@ using namespace demecal;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  int seeds = 5, cases = 20;
+  int seeds = 5, cases = 60;
   std::vector<int> poses{15, 30};
   std::string only;
   bool json = false;
