@@ -243,7 +243,7 @@ Language csv_language() {
           .title = "CSV",
           .file_endings = {"csv"},
           .signs = {"q1_", "x_mm"},
-          .comment = '#',
+          .comment = "#",
           .read = [](std::string_view text, const std::string& file,
                      const Chain& arm) { return CsvTargets(text, file, arm).read(); },
           .write = csv_text};

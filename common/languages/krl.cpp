@@ -232,7 +232,7 @@ Language krl_language() {
           .title = "KUKA KRL",
           .file_endings = {"src", "krl"},
           .signs = {"e6pos", "e6axis", "defdat", "&access", "ptp {", "lin {"},
-          .comment = ';',
+          .comment = ";",
           .headers = {"def ", "defdat", "deffct", "global def"},
           .read = [](std::string_view text, const std::string& file,
                      const Chain& arm) { return KrlReader(text, file, arm).read(); },

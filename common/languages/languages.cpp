@@ -6,16 +6,22 @@
 
 namespace demecal::inline languages {
 
-// One row a language, defined in its own file. Signs of CSV are words of any program: it comes last.
+// One row a language, defined in its own file. Programs have signs of several: those of Kawasaki's those of VAL II,
+// too, and words of any program may be signs of CSV, which comes last.
+Language kawasaki_as_language();
 Language val2_language();
+Language val3_language();
+Language fanuc_ls_language();
+Language yaskawa_jbi_language();
 Language rapid_language();
 Language krl_language();
 Language urscript_language();
 Language csv_language();
 
 std::span<const Language> all_languages() {
-  static const std::vector<Language> all{val2_language(), rapid_language(), krl_language(), urscript_language(),
-                                         csv_language()};
+  static const std::vector<Language> all{kawasaki_as_language(), val2_language(),        val3_language(),
+                                         fanuc_ls_language(),    yaskawa_jbi_language(), rapid_language(),
+                                         krl_language(),         urscript_language(),    csv_language()};
   return all;
 }
 
@@ -48,6 +54,37 @@ std::size_t place_of_mark(std::string_view text, const Language& language) {
   return behind_lines;
 }
 
+/// Without blanks and the numbers of lines.
+std::string squeezed(std::string_view text) {
+  std::string letters(text);
+  std::erase_if(letters,
+                [](char letter) { return letter == ' ' || letter == '\t' || (letter >= '0' && letter <= '9'); });
+  return letters;
+}
+
+/// The mark as comments are that must end with something: without what would end them early.
+std::string within_comment(std::string mark, const Language& language) {
+  if (language.comment_end.empty()) return mark;
+  for (std::size_t i = 0; i < mark.size(); ++i) {
+    const bool second_dash = mark[i] == '-' && i > 0 && mark[i - 1] == '-';
+    if (second_dash || mark[i] == ';' || mark[i] == '<' || mark[i] == '>') mark[i] = ' ';
+  }
+  return mark;
+}
+
+/// Parts of at most `longest` letters, between words where there are any.
+std::vector<std::string> parts_of_mark(std::string mark, std::size_t longest) {
+  std::vector<std::string> parts;
+  while (mark.size() > longest) {
+    const std::size_t blank = mark.rfind(' ', longest);
+    const std::size_t size = blank == std::string::npos || blank == 0 ? longest : blank;
+    parts.push_back(mark.substr(0, mark.find_last_not_of(' ', size - 1) + 1));
+    mark.erase(0, mark.find_first_not_of(' ', size));
+  }
+  parts.push_back(mark);
+  return parts;
+}
+
 template <typename Match>
 const Language* first_of(std::span<const Language> among, const Match& match) {
   const auto found = std::find_if(among.begin(), among.end(), match);
@@ -63,15 +100,22 @@ const Language* find_language(std::string_view name, std::span<const Language> a
 const Language* recognize_language(std::string_view text, const std::string& file, std::span<const Language> among) {
   const std::size_t point = file.rfind('.');
   const std::string ending = point == std::string::npos ? "" : lower_case(file.substr(point + 1));
-  const Language* const by_ending = first_of(among, [&](const Language& language) {
-    return std::find(language.file_endings.begin(), language.file_endings.end(), ending) != language.file_endings.end();
-  });
-  if (by_ending != nullptr) return by_ending;
   const std::string words = lower_case(text);
-  return first_of(among, [&](const Language& language) {
+  const auto has_sign = [&](const Language& language) {
     return std::any_of(language.signs.begin(), language.signs.end(),
                        [&](std::string_view sign) { return words.find(sign) != std::string::npos; });
-  });
+  };
+  const auto has = [&](const std::vector<std::string_view>& endings) {
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  };
+  if (const Language* found = first_of(
+          among, [&](const Language& language) { return has(language.other_endings) && has_sign(language); })) {
+    return found;
+  }
+  if (const Language* found = first_of(among, [&](const Language& language) { return has(language.file_endings); })) {
+    return found;
+  }
+  return first_of(among, has_sign);
 }
 
 std::string_view written_ending(const Language& language) {
@@ -99,18 +143,22 @@ std::string with_mark(const std::string& text, const Language& language, const s
       break_at != std::string::npos && break_at > 0 && text[break_at - 1] == '\r' ? "\r\n" : "\n";
   const std::size_t place = place_of_mark(text, language);
   const bool open_line = place > 0 && place == text.size() && text.back() != '\n';
-  const std::string line = std::string(1, language.comment) + ' ' + mark + line_break;
-  return text.substr(0, place) + (open_line ? line_break : "") + line + text.substr(place);
+  std::string lines;
+  for (const std::string& part : parts_of_mark(within_comment(mark, language), language.longest_comment))
+    lines += std::string(language.comment) + ' ' + part + std::string(language.comment_end) + line_break;
+  return text.substr(0, place) + (open_line ? line_break : "") + lines + text.substr(place);
 }
 
 std::optional<std::size_t> marked_line(std::string_view text, std::span<const Language> among) {
   const std::size_t at = text.find(kMark);
   if (at == std::string_view::npos) return std::nullopt;
   const std::size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
-  const std::string_view before = text.substr(begin, at - begin);
-  const std::size_t first = std::min(before.find_first_not_of("\xEF\xBB\xBF \t"), before.size());
-  const auto comments = [&](const Language& language) { return before[first] == language.comment; };
-  if (first == before.size() || std::none_of(among.begin(), among.end(), comments)) return std::nullopt;
+  std::string_view before = text.substr(begin, at - begin);
+  if (before.starts_with("\xEF\xBB\xBF")) before.remove_prefix(3);
+  const auto comments = [&](const Language& language) {
+    return squeezed(before).starts_with(squeezed(language.comment));
+  };
+  if (std::none_of(among.begin(), among.end(), comments)) return std::nullopt;
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 

@@ -17,12 +17,15 @@ namespace demecal::inline languages {
 /// What correction needs to know of a language. It is defined in the language's own file and listed in languages.cpp;
 /// nothing else knows one language from another. Corrected numbers replace the bytes of the old ones.
 struct Language {
-  std::string_view name;                         ///< for --language and in results; small letters
-  std::string_view title;                        ///< as people call it
-  std::vector<std::string_view> file_endings{};  ///< in small letters, without the point
-  std::vector<std::string_view> signs{};         ///< what only this language's programs hold, in small letters
-  char comment = '#';                            ///< begins what is a comment up to the end of its line
-  std::vector<std::string_view> headers{};       ///< how lines begin, in small letters, that comments must stand behind
+  std::string_view name;                          ///< for --language and in results; small letters
+  std::string_view title;                         ///< as people call it
+  std::vector<std::string_view> file_endings{};   ///< in small letters, without the point
+  std::vector<std::string_view> signs{};          ///< what only this language's programs hold, in small letters
+  std::vector<std::string_view> other_endings{};  ///< endings of another language's, where a text has one of the signs
+  std::string_view comment = "#";                 ///< begins a line that is a comment
+  std::string_view comment_end{};                 ///< what a comment must end with; empty: the end of its line
+  std::size_t longest_comment = 1000;             ///< letters that a comment may have; longer ones take several lines
+  std::vector<std::string_view> headers{};  ///< how lines begin, in small letters, that comments must stand behind
   /// A function of the text alone. Throws InputError with file, line, column, value and rule where a target is
   /// malformed; what cannot be known it says in Target::frames or Program::uncorrected, and never guesses. `arm` says
   /// how many joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing

@@ -52,6 +52,31 @@ std::vector<double> angles_of(const Eigen::Matrix3d& rotation, const std::vector
   return distance(other, written) < distance(one, written) ? other : one;
 }
 
+std::vector<double> reversed(const std::vector<double>& angles, double sign) {
+  return {sign * angles[2], sign * angles[1], sign * angles[0]};
+}
+
+/// The same about z, y and z again; where the second angle is zero the first keeps its value.
+std::vector<double> zyz_angles_of(const Eigen::Matrix3d& rotation, const std::vector<double>& written) {
+  const double sine = std::hypot(rotation(0, 2), rotation(1, 2));
+  const double first = sine > 1e-12 ? std::atan2(rotation(1, 2), rotation(0, 2)) : written[0];
+  const double second = std::atan2(sine, rotation(2, 2));
+  const Eigen::Matrix3d rest =
+      (Eigen::AngleAxisd(first, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(second, Eigen::Vector3d::UnitY()))
+          .toRotationMatrix()
+          .transpose() *
+      rotation;
+  const double third = std::atan2(rest(1, 0), rest(0, 0));
+  std::vector<double> nearest;
+  for (const double side : {1.0, -1.0}) {
+    const double turned = side > 0.0 ? 0.0 : std::numbers::pi;
+    const std::vector<double> angles{wrap_near(first + turned, written[0]), wrap_near(side * second, written[1]),
+                                     wrap_near(third + turned, written[2])};
+    if (nearest.empty() || distance(angles, written) < distance(nearest, written)) nearest = angles;
+  }
+  return nearest;
+}
+
 /// Vectors of one direction that differ by whole turns turn the same way; the nearest of those within one turn.
 std::vector<double> vector_numbers(const Eigen::Matrix3d& rotation, const std::vector<double>& written) {
   const Eigen::Vector3d shortest = vector_of(rotation);
@@ -79,6 +104,15 @@ Eigen::Matrix3d rotation_from(OrientationForm form, const std::vector<double>& n
               Eigen::AngleAxisd(numbers[1], Eigen::Vector3d::UnitY()) *
               Eigen::AngleAxisd(numbers[2], Eigen::Vector3d::UnitX()))
           .toRotationMatrix();
+    case OrientationForm::fixed_xyz_angles:
+      return rotation_from(OrientationForm::zyx_angles, reversed(numbers, 1.0));
+    case OrientationForm::xyz_angles:
+      return rotation_from(OrientationForm::zyx_angles, reversed(numbers, -1.0)).transpose();
+    case OrientationForm::zyz_angles:
+      return (Eigen::AngleAxisd(numbers[0], Eigen::Vector3d::UnitZ()) *
+              Eigen::AngleAxisd(numbers[1], Eigen::Vector3d::UnitY()) *
+              Eigen::AngleAxisd(numbers[2], Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
     case OrientationForm::rotation_vector:
       return rotation_of({numbers[0], numbers[1], numbers[2]});
     case OrientationForm::unknown:
@@ -92,6 +126,10 @@ std::vector<double> numbers_of(const Eigen::Matrix3d& rotation, OrientationForm 
                                const std::vector<double>& written) {
   if (form == OrientationForm::quaternion) return quaternion_of(rotation, written);
   if (form == OrientationForm::zyx_angles) return angles_of(rotation, written);
+  if (form == OrientationForm::fixed_xyz_angles) return reversed(angles_of(rotation, reversed(written, 1.0)), 1.0);
+  if (form == OrientationForm::xyz_angles)
+    return reversed(angles_of(rotation.transpose(), reversed(written, -1.0)), -1.0);
+  if (form == OrientationForm::zyz_angles) return zyz_angles_of(rotation, written);
   DEMECAL_CHECK(form == OrientationForm::rotation_vector, "a form that is kept");
   return vector_numbers(rotation, written);
 }

@@ -8,11 +8,14 @@ namespace demecal::inline languages {
 
 /// How a file writes the tool's orientation.
 enum class OrientationForm {
-  unknown,          ///< not at all
-  columns,          ///< nine numbers, the frame's x, y and z axes one after the other; they are read and kept
-  quaternion,       ///< w, x, y, z
-  zyx_angles,       ///< about z, then the new y, then the new x
-  rotation_vector,  ///< axis times angle
+  unknown,           ///< not at all
+  columns,           ///< nine numbers, the frame's x, y and z axes one after the other; they are read and kept
+  quaternion,        ///< w, x, y, z
+  zyx_angles,        ///< about z, then the new y, then the new x
+  fixed_xyz_angles,  ///< about x, then y, then z, all of them axes that stay
+  xyz_angles,        ///< about x, then the new y, then the new z
+  zyz_angles,        ///< about z, then the new y, then the new z
+  rotation_vector,   ///< axis times angle
 };
 
 /// The rotation (base from tool) that the numbers write; `form` is not unknown. Numbers are as Cell::inside() gives

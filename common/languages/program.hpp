@@ -24,7 +24,10 @@ struct ArmHint {
   JointVector near{};                           ///< joints close by; empty: unknown
   std::vector<std::optional<int>> quadrants{};  ///< of each joint: 0 from 0 to 90 degrees, -1 from -90 to 0, ...
   std::vector<std::optional<bool>> negative{};  ///< of each joint: whether its angle is below 0
-  bool empty() const { return near.size() == 0 && quadrants.empty() && negative.empty(); }
+  /// The words that state it, where makers do not say the same by them: all that is known is that targets with the same
+  /// words are reached in the same configuration. Empty: none.
+  std::string configuration{};
+  bool empty() const { return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty(); }
 };
 
 /// How a program comes to a target.

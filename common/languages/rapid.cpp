@@ -182,7 +182,7 @@ Language rapid_language() {
           .title = "ABB RAPID",
           .file_endings = {"mod", "modx", "sys", "sysx", "rapid"},
           .signs = {"robtarget", "jointtarget", "endmodule"},
-          .comment = '!',
+          .comment = "!",
           .headers = {"module"},
           .read = [](std::string_view text, const std::string& file,
                      const Chain& arm) { return RapidReader(text, file, arm).read(); },

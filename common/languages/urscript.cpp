@@ -225,7 +225,7 @@ Language urscript_language() {
           .title = "URScript",
           .file_endings = {"script", "urscript"},
           .signs = {"movej", "movel(", "movep("},
-          .comment = '#',
+          .comment = "#",
           .read = [](std::string_view text, const std::string& file,
                      const Chain& arm) { return UrReader(text, file, arm).read(); },
           .write = urscript_text};

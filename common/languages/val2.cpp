@@ -275,7 +275,7 @@ Language val2_language() {
           .title = "VAL II",
           .file_endings = {"v2", "val", "val2", "pg", "lc"},
           .signs = {".locations", ".program"},
-          .comment = ';',
+          .comment = ";",
           .headers = {".program", ".locations"},
           .read = [](std::string_view text, const std::string& file,
                      const Chain& arm) { return Val2Reader(text, file, arm).read(); },

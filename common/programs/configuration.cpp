@@ -9,6 +9,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "programs/nominal_joints.hpp"
+#include "programs/posture.hpp"
 
 namespace demecal::inline programs {
 namespace {
@@ -104,6 +105,31 @@ void keep_nearest(std::vector<JointVector>& joints, const JointVector& reference
   std::erase_if(joints, [&](const JointVector& candidate) { return farthest_joint(candidate, reference) > allowed; });
 }
 
+/// Leaves the one that is so near to `reference` that no other can be meant, where there is one.
+bool keep_adjacent(std::vector<JointVector>& joints, const JointVector& reference) {
+  constexpr double kNear = 0.5, kFactor = 2.0, kMargin = 0.6;  ///< rad or m
+  std::stable_sort(joints.begin(), joints.end(), [&](const JointVector& one, const JointVector& other) {
+    return farthest_joint(one, reference) < farthest_joint(other, reference) - 1e-9;
+  });
+  const double nearest = farthest_joint(joints.front(), reference);
+  if (nearest > kNear || farthest_joint(joints[1], reference) <= kFactor * nearest + kMargin) return false;
+  joints.resize(1);
+  return true;
+}
+
+/// Leaves those of the posture of `known`, where postures can be told.
+bool keep_posture(const Chain& arm, std::vector<JointVector>& joints, const JointVector& known) {
+  std::vector<JointVector> kept;
+  for (const JointVector& candidate : joints) {
+    const std::optional<bool> same = same_posture(arm, candidate, known);
+    if (!same) return false;
+    if (*same) kept.push_back(candidate);
+  }
+  if (kept.size() != 1) return false;
+  joints = std::move(kept);
+  return true;
+}
+
 /// Leaves those that contradict what is stated least.
 void keep_stated(std::vector<JointVector>& joints, const ArmHint& hint) {
   int least = kMaxJoints;
@@ -167,14 +193,37 @@ std::string_view to_string(JointsFrom from) {
   return "none";
 }
 
+void ConfigurationFinder::arrive(std::optional<JointVector> joints, const std::string& configuration) {
+  if (joints && !configuration.empty()) worded_.insert_or_assign(configuration, *joints);
+  present_ = std::move(joints);
+  present_words_ = configuration;
+}
+
+Configurations ConfigurationFinder::find_worded(const Chain& arm, const std::string& words,
+                                                const Eigen::Isometry3d& tool) const {
+  const auto known = worded_.find(words);
+  const bool present = present_ && (present_words_.empty() || present_words_ == words);
+  const bool given = !present_ && near_.size() == arm.size();
+  const JointVector& reference = present ? *present_ : known != worded_.end() ? known->second : given ? near_ : middle_;
+  std::vector<JointVector> joints = joints_reaching(arm, tool, reference);
+  if (joints.size() <= 1) return settled(std::move(joints), JointsFrom::only);
+  if (known != worded_.end() && keep_posture(arm, joints, known->second)) return {JointsFrom::stated, joints};
+  if (present && keep_adjacent(joints, *present_)) return {JointsFrom::before, joints};
+  if (known != worded_.end() && keep_adjacent(joints, known->second)) return {JointsFrom::stated, joints};
+  if (given && keep_adjacent(joints, near_)) return {JointsFrom::given, joints};
+  return {JointsFrom::undetermined, joints};
+}
+
 Configurations ConfigurationFinder::find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const {
   const ArmHint& hint = target.hint;
   const bool named = hint.near.size() == arm.size();
   const bool given = near_.size() == arm.size();
   const bool states = !hint.quadrants.empty() || !hint.negative.empty();
-  if (!named && !states && present_ && target.motion == Motion::line) {
+  const bool other_words = !present_words_.empty() && present_words_ != hint.configuration;
+  if (!named && !states && present_ && target.motion == Motion::line && !other_words) {
     if (auto end = joints_after_line(arm, *present_, tool)) return {JointsFrom::line, {std::move(*end)}};
   }
+  if (!hint.configuration.empty()) return find_worded(arm, hint.configuration, tool);
   const JointVector& reference = named ? hint.near : present_ ? *present_ : given ? near_ : middle_;
   std::vector<JointVector> joints = joints_reaching(arm, tool, reference);
   for (JointVector& candidate : joints) candidate = in_hinted_turns(arm, candidate, hint, reference);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -48,15 +50,21 @@ class ConfigurationFinder {
   ConfigurationFinder(JointVector near, JointVector middle) : near_(std::move(near)), middle_(std::move(middle)) {}
 
   /// For a target whose tool point (axes of the flange, base frame) is to stand at `tool`. What a target states comes
-  /// first, then a straight line from known joints, then nearness to known joints, then to the user's.
+  /// first, then a straight line from known joints, then nearness to known joints, then to the user's. Words that state
+  /// a configuration tell it where a target before had the same; otherwise only joints right before, or the user's, do
+  /// that are so near that no other configuration can be meant.
   Configurations find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
 
-  /// Tells where the arm is now; nothing: unknown.
-  void arrive(std::optional<JointVector> joints) { present_ = std::move(joints); }
+  /// Tells where the arm is now, nothing: unknown; and in what words that configuration was stated, empty: in none.
+  void arrive(std::optional<JointVector> joints, const std::string& configuration);
 
  private:
+  Configurations find_worded(const Chain& arm, const std::string& words, const Eigen::Isometry3d& tool) const;
+
   JointVector near_, middle_;
   std::optional<JointVector> present_;
+  std::string present_words_{};
+  std::map<std::string, JointVector> worded_{};  ///< joints last reached in a configuration of these words
 };
 
 }  // namespace demecal::inline programs

@@ -57,11 +57,11 @@ class Corrector {
     const CommandModel& model = model_for(target);
     CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
     if (!corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined) {
-      finder_.arrive(corrected.nominal);
+      finder_.arrive(corrected.nominal, target.hint.configuration);
     } else if (target.is_pose()) {
-      finder_.arrive(std::nullopt);
+      finder_.arrive(std::nullopt, "");
     } else {
-      finder_.arrive(joints_of(target));
+      finder_.arrive(joints_of(target), "");
     }
     corrected.texts = cell_texts(target, corrected);
     return corrected;
@@ -83,7 +83,9 @@ class Corrector {
   CorrectedTarget refused(const Target& target) const {
     CorrectedTarget corrected;
     corrected.outcome = CorrectionOutcome::uncorrected;
-    corrected.remarks.push_back(unknown(target) + "; this line was not corrected");
+    const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
+    corrected.remarks.push_back(unknown(target) + "; this line was not corrected" +
+                                (frame ? "" : "; --tool-mm states the tool"));
     return corrected;
   }
 
@@ -109,7 +111,7 @@ class Corrector {
     corrected.from = found.from;
     for (std::size_t i = 1; i < alternatives.size(); ++i) {
       if (agree(corrected, alternatives[i])) continue;
-      leave_undetermined(model.nominal.chain, alternatives, i, corrected);
+      leave_undetermined(target, model.nominal.chain, alternatives, i, corrected);
       break;
     }
     return corrected;
@@ -129,14 +131,19 @@ class Corrector {
     return difference.head<3>().norm() <= kTolerance_m && difference.tail<3>().norm() <= kTolerance_rad;
   }
 
-  static void leave_undetermined(const Chain& arm, const std::vector<CorrectedTarget>& alternatives, std::size_t other,
+  static void leave_undetermined(const Target& target, const Chain& arm,
+                                 const std::vector<CorrectedTarget>& alternatives, std::size_t other,
                                  CorrectedTarget& corrected) {
+    const std::string& words = target.hint.configuration;
     const PoseError difference = pose_error(corrected.command_tool, alternatives[other].command_tool);
-    corrected.remarks = {"the arm's configuration is not known (" +
-                         difference_of(arm, corrected.nominal, alternatives[other].nominal) +
-                         "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
-                         " mm: " + moved_text(corrected) + " or " + moved_text(alternatives[other]) +
-                         "; this line was not corrected; a joint move before it or --near tells"};
+    corrected.remarks = {
+        "the arm's configuration" +
+        (words.empty() ? "" : ", stated as '" + words + "', which does not mean the same on all arms,") +
+        " is not known (" + difference_of(arm, corrected.nominal, alternatives[other].nominal) +
+        "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
+        " mm: " + moved_text(corrected) + " or " + moved_text(alternatives[other]) + "; this line was not corrected; " +
+        (words.empty() ? "a joint move before it or --near tells"
+                       : "joints within 0.5 rad of its own tell, before it or by --near")};
     corrected.outcome = CorrectionOutcome::uncorrected;
   }
 

@@ -38,6 +38,21 @@ inline std::string ur_pose(const Eigen::Isometry3d& pose) {
   return "p[" + listed({pose.translation().data(), 3}, kDecimals) + ", " + listed({turn.data(), 3}, kDecimals) + "]";
 }
 
+/// Three letters for the sides on which the arm of cell_arm() has its shoulder, elbow and wrist.
+inline std::string configuration_words(const Chain& arm, const JointVector& joints) {
+  const auto frame_of = [&](int size) {
+    Chain part = arm;
+    part.joints.resize(static_cast<std::size_t>(size));
+    return forward(part, joints.head(size));
+  };
+  const Eigen::Isometry3d shoulder = frame_of(1);
+  const Eigen::Vector3d elbow = frame_of(2).translation(), wrist = frame_of(4).translation();
+  const Eigen::Vector3d upper = elbow - shoulder.translation(), fore = wrist - elbow;
+  std::string words = wrist.dot(shoulder.linear().col(0)) > 0.0 ? "F" : "R";
+  words += upper.cross(fore).dot(shoulder.linear().col(2)) > 0.0 ? " U" : " D";
+  return words + (joints[4] > 0.0 ? " P" : " N");
+}
+
 /// Writes one motion after another.
 class ProgramWriter {
  public:
@@ -75,6 +90,22 @@ class ProgramWriter {
         text_ << "def t():\n";
         if (meant.states_tool) text_ << " set_tcp(" << ur_pose(meant.tool) << ")\n";
         break;
+      case WrittenIn::fanuc_ls:
+        text_ << "/PROG  T\n/MN\n";
+        break;
+      case WrittenIn::yaskawa_jbi:
+        text_ << "/JOB\n//POS\n///POSTYPE BASE\n///RECTAN\n";
+        break;
+      case WrittenIn::kawasaki_as:
+        text_ << ".PROGRAM t()\n";
+        break;
+      case WrittenIn::val3:
+        text_ << "<?xml version=\"1.0\"?>\n<Datas>\n";
+        if (meant.states_tool)
+          text_ << "<Data name=\"t1\" type=\"tool\"><Value" << val3_numbers(meant.tool) << " /></Data>\n";
+        if (meant.states_frame)
+          text_ << "<Data name=\"f1\" type=\"frame\"><Value" << val3_numbers(meant.frame) << " /></Data>\n";
+        break;
       case WrittenIn::csv:
         break;
     }
@@ -100,6 +131,20 @@ class ProgramWriter {
         break;
       case WrittenIn::urscript:
         text_ << " movej([" << listed({joints.data(), 6}, kDecimals) << "], a=1)\n";
+        break;
+      case WrittenIn::fanuc_ls:
+        text_ << ":J P[" << number << "] 100% FINE ;\n";
+        data_ << fanuc_position(number, "", {"J1", "J2", "J3", "J4", "J5", "J6"}, angles, kDecimals) << '\n';
+        break;
+      case WrittenIn::yaskawa_jbi:
+        break;
+      case WrittenIn::kawasaki_as:
+        text_ << " JMOVE #PPOINT(" << listed(angles, kDecimals) << ")\n";
+        break;
+      case WrittenIn::val3:
+        text_ << "<Data name=\"j" << number << "\" type=\"jointRx\">"
+              << enclosed({"<Value j1=\"", " j2=\"", " j3=\"", " j4=\"", " j5=\"", " j6=\""}, angles, kDecimals, "\"")
+              << " /></Data>\n";
         break;
     }
     meant.joints.push_back(joints);
@@ -128,6 +173,26 @@ class ProgramWriter {
       case WrittenIn::urscript:
         text_ << (line ? " movel(" : " movej(") << ur_pose(pose) << ", a=1)\n";
         break;
+      case WrittenIn::fanuc_ls:
+        text_ << (line ? ":L P[" : ":J P[") << meant.joints.size() + 1 << "] 100% FINE ;\n";
+        data_ << fanuc_position(std::to_string(meant.joints.size() + 1),
+                                " CONFIG : '" + configuration_words(cell_.nominal.chain, joints) + ", 0, 0, 0',",
+                                {"X", "Y", "Z", "W", "P", "R"}, six_numbers(pose, about_fixed_xyz(pose)), kDecimals)
+              << '\n';
+        break;
+      case WrittenIn::yaskawa_jbi:
+        text_ << "///RCONF " << configuration_words(cell_.nominal.chain, joints) << "\nC" << meant.joints.size() + 1
+              << '=' << listed(six_numbers(pose, about_fixed_xyz(pose)), kDecimals, ",") << '\n';
+        data_ << (line ? "MOVL C" : "MOVJ C") << meant.joints.size() + 1 << '\n';
+        break;
+      case WrittenIn::kawasaki_as:
+        text_ << (line ? " LMOVE TRANS(" : " JMOVE TRANS(")
+              << listed(six_numbers(pose, pose.linear().eulerAngles(2, 1, 2)), kDecimals) << ")\n";
+        break;
+      case WrittenIn::val3:
+        text_ << "<Data name=\"p" << meant.joints.size() + 1 << "\" type=\"pointRx\"><Value" << val3_numbers(pose)
+              << (meant.states_frame ? " fatherId=\"f1[0]\"" : "") << val3_words(joints) << " /></Data>\n";
+        break;
     }
     meant.joints.push_back(joints);
   }
@@ -137,6 +202,10 @@ class ProgramWriter {
     if (meant.language == WrittenIn::krl) text_ << "END\n";
     if (meant.language == WrittenIn::rapid) text_ << " ENDPROC\nENDMODULE\n";
     if (meant.language == WrittenIn::urscript) text_ << "end\n";
+    if (meant.language == WrittenIn::fanuc_ls) text_ << "/POS\n" << data_.str() << "/END\n";
+    if (meant.language == WrittenIn::yaskawa_jbi) text_ << "//INST\nNOP\n" << data_.str() << "END\n";
+    if (meant.language == WrittenIn::kawasaki_as) text_ << ".END\n";
+    if (meant.language == WrittenIn::val3) text_ << "</Datas>\n";
     meant.text = text_.str();
     return meant;
   }
@@ -151,6 +220,16 @@ class ProgramWriter {
 
   std::string tool_name() const { return "t1"; }
 
+  static std::string val3_numbers(const Eigen::Isometry3d& pose) {
+    return enclosed({" x=\"", " y=\"", " z=\"", " rx=\"", " ry=\"", " rz=\""},
+                    six_numbers(pose, pose.linear().eulerAngles(0, 1, 2)), kDecimals, "\"");
+  }
+
+  std::string val3_words(const JointVector& joints) const {
+    const std::string words = configuration_words(cell_.nominal.chain, joints);
+    return std::string(" shoulder=\"") + words[0] + "\" elbow=\"" + words[2] + "\" wrist=\"" + words[4] + '"';
+  }
+
   void csv_header(const std::string& kind, Eigen::Index joints) {
     if (!meant.joints.empty()) return;
     if (kind == "x") text_ << "x_mm,y_mm,z_mm,qw,qx,qy,qz\n";
@@ -159,7 +238,7 @@ class ProgramWriter {
   }
 
   const CalibratedCell& cell_;
-  std::ostringstream text_;
+  std::ostringstream text_, data_;
 };
 
 }  // namespace demecal

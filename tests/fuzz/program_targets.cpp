@@ -54,7 +54,32 @@ std::vector<Target> program_targets() {
       target_of(WrittenIn::urscript,
                 {"def one():\n  q = [0.1, -1.2, 1.3, 0, 1.57, d2r(20)]\n  movej(q, a=1.4, v=1.05)\n"
                  "  movel(p[0.1, -0.2, 0.3, 0, 3.14, 0], 1.2, 0.25)\n  "
-                 "movej(get_inverse_kin(p[0.1,0.2,0.3,0,0,1]))\nend\n"})};
+                 "movej(get_inverse_kin(p[0.1,0.2,0.3,0,0,1]))\nend\n"}),
+      target_of(
+          WrittenIn::fanuc_ls,
+          {"/PROG  A\n/MN\n   1:J P[1] 100% FINE    ;\n   2:C P[2:up]    \n    :  P[3] 100mm/sec FINE INC ;\n/POS\n"
+           "P[1:\"home\"]{\n   GP1:\n\tUF : 0, UT : 2,\tCONFIG : 'N U T, 0, 0, 0',\n\tX = 1.5 mm,\tY = -.5 mm,\tZ = 3 "
+           "mm,\n\tW = 4 deg,\tP = 5 deg,\tR = 6 deg,\n\tE1= 7 mm\n};\n/END\n",
+           "/POS\nP[2]{\n   GP1:\n\tUF : F, UT : 0,\n\tJ1= ***** deg,\tJ2= 2 deg,\tJ3= 3 deg,\n\tJ4= 4 deg,\tJ5= 5 "
+           "deg,\tJ6= 6 deg\n   GP2:\n\tJ1= 1 mm\n};\n/END\n"}),
+      target_of(
+          WrittenIn::yaskawa_jbi,
+          {"/JOB\n//POS\n///TOOL 1\n///POSTYPE PULSE\n///PULSE\nC00000=1,2,3,4,5,6\nBC00000=9\n///USER 2\n///POSTYPE "
+           "USER\n///RECTAN\n///RCONF 1,0,0\nC00001=1.5,2,3,4,5,6\n//INST\nNOP\nMOVL C00001 V=50.0\nEND\n",
+           "//POS\n///POSTYPE ROBOT\n///RECTAN\nP002=1,2,3,4,5,6\n//INST\nSFTON P2\nMOVJ P00002\nSFTOF\nSMOVL C1\n"}),
+      target_of(
+          WrittenIn::kawasaki_as,
+          {".SYSDATA\nBASE 0 0 1 0 0 0\n.END\n.PROGRAM a()\n 10 TOOL t\n BASE NULL\n LMOVE f+p\n.END\n.TRANS\nt 0 0 "
+           "150 0 0 0\np[1] 10, 20, 30, 1, 2, 3, 99\n.END\n.JOINTS\n#h 1 2 3 4 5 6\n.END\n",
+           ".PROGRAM a()\n POINT q = TRANS(1,2,3,4,5,6)\n JMOVE #PPOINT(1,2,3,4,5,6) ; x\n LMOVE SHIFT(p BY "
+           "0,0,-5)\n LEFTY\n.END\n"}),
+      target_of(
+          WrittenIn::val3,
+          {"<?xml version=\"1.0\"?>\n<Datas><Data name=\"f\" type=\"frame\"><Value key=\"0\" x=\"500\"/></Data>\n<Data "
+           "name='p' type='pointRx'><Value key='1' x='1' y='2' z='3' rx='4' ry='5' rz='6' "
+           "fatherId='f[0]'/></Data></Datas>\n",
+           "<Data name=\"j\" type=\"jointRx\"><Value j1=\"1\" j2=\"2\" j3=\"3\" j4=\"4\" j5=\"5\" j6=\"6\"/></Data>"
+           "<!-- --><![CDATA[ < ]]>"})};
 }
 
 }  // namespace demecal::fuzz

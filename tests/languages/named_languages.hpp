@@ -5,14 +5,21 @@
 
 namespace demecal {
 
-enum class WrittenIn { val2, csv, krl, rapid, urscript };
+enum class WrittenIn { val2, csv, krl, rapid, urscript, fanuc_ls, yaskawa_jbi, kawasaki_as, val3 };
 
-inline constexpr WrittenIn kLanguages[] = {WrittenIn::val2, WrittenIn::csv, WrittenIn::krl, WrittenIn::rapid,
-                                           WrittenIn::urscript};
+inline constexpr WrittenIn kLanguages[] = {WrittenIn::val2,        WrittenIn::csv,         WrittenIn::krl,
+                                           WrittenIn::rapid,       WrittenIn::urscript,    WrittenIn::fanuc_ls,
+                                           WrittenIn::yaskawa_jbi, WrittenIn::kawasaki_as, WrittenIn::val3};
 
 inline std::string to_string(WrittenIn language) {
-  constexpr const char* kNames[] = {"val2", "csv", "krl", "rapid", "urscript"};
+  constexpr const char* kNames[] = {"val2",     "csv",         "krl",         "rapid", "urscript",
+                                    "fanuc_ls", "yaskawa_jbi", "kawasaki_as", "val3"};
   return kNames[static_cast<std::size_t>(language)];
+}
+
+/// Whether its targets may be joints; a Yaskawa job has them in pulses only.
+inline bool has_joint_targets(WrittenIn language) {
+  return language != WrittenIn::yaskawa_jbi;
 }
 
 inline const Language& row_of(WrittenIn language) {

@@ -2,39 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "errors/input_error.hpp"
 #include "kinematics/random_arm.hpp"
 #include "kinematics/units.hpp"
-#include "languages/named_languages.hpp"
+#include "languages/reading_checks.hpp"
 
 namespace demecal {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-std::vector<std::string> names(const Program& program) {
-  std::vector<std::string> found;
-  for (const Target& target : program.targets) found.push_back(target.name);
-  return found;
-}
-
-std::vector<double> values(const std::vector<Cell>& cells) {
-  std::vector<double> found;
-  for (const Cell& cell : cells) found.push_back(cell.value);
-  return found;
-}
-
-void expect_fault(WrittenIn language, const std::string& text, std::size_t line, const std::string& sentence) {
-  SCOPED_TRACE(text);
-  try {
-    read_program(language, text, "p", wrist_arm());
-    ADD_FAILURE() << "no fault";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.where().line, line) << error.what();
-    EXPECT_THAT(error.what(), HasSubstr(sentence));
-  }
-}
 
 TEST(Val2, ReadsBothKindsOfPointsOfSeveralPrograms) {
   const Program program =
@@ -191,7 +167,8 @@ TEST(UrScript, NamesTheFault) {
 TEST(Readers, RefuseArmsOfAnotherNumberOfJoints) {
   RandomStream stream{7301};
   const Chain arm = random_arm(stream, 5, Convention::standard_dh);
-  for (const WrittenIn language : {WrittenIn::krl, WrittenIn::rapid, WrittenIn::urscript}) {
+  for (const WrittenIn language : kLanguages) {
+    if (language == WrittenIn::val2 || language == WrittenIn::csv) continue;
     EXPECT_THROW(read_program(language, "", "p", arm), InputError);
   }
 }
@@ -208,6 +185,13 @@ TEST(Language, IsToldByEndingOrWords) {
   EXPECT_EQ(recognized("CONST robtarget p", "a.prg"), "rapid");
   EXPECT_EQ(recognized("DECL E6POS P", "a.dat"), "krl");
   EXPECT_EQ(recognized("  movej([1", "a.txt"), "urscript");
+  EXPECT_EQ(recognized("", "A.LS"), "fanuc_ls");
+  EXPECT_EQ(recognized("/PROG  A\n/MN\n", "a.txt"), "fanuc_ls");
+  EXPECT_EQ(recognized("/JOB\n//POS\n///NPOS 1,0,0,0,0,0\n", "a.txt"), "yaskawa_jbi");
+  EXPECT_EQ(recognized(".PROGRAM a()\n.END\n.JOINTS\n", "a.txt"), "kawasaki_as");
+  EXPECT_EQ(recognized(".PROGRAM a()\n.END\n.TRANS\n", "a.pg"), "kawasaki_as");
+  EXPECT_EQ(recognized(".PROGRAM a()\n.END\n.LOCATIONS\n", "a.pg"), "val2");
+  EXPECT_EQ(recognized("<Database xmlns=\"http://www.staubli.com/robotics/VAL3/Data/2\">", "a.xml"), "val3");
   EXPECT_EQ(recognized("hello", "a.txt"), "");
 }
 

@@ -55,6 +55,38 @@ inline std::vector<double> wxyz(const Eigen::Isometry3d& pose) {
   return {turn.w(), turn.x(), turn.y(), turn.z()};
 }
 
+/// Every number between the text before it and the text behind it.
+inline std::string enclosed(const std::vector<std::string>& before, const std::vector<double>& values, int decimals,
+                            const std::string& behind) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) text += before[i] + listed({&values[i], 1}, decimals) + behind;
+  return text;
+}
+
+/// FANUC's position of so many deg and mm.
+inline std::string fanuc_position(const std::string& number, const std::string& words,
+                                  const std::vector<std::string>& names, const std::vector<double>& values,
+                                  int decimals) {
+  std::string text = "P[" + number + "]{\n   GP1:\n\tUF : 0," + words;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool length = names[i] == "X" || names[i] == "Y" || names[i] == "Z";
+    text +=
+        (i == 0 ? "\n\t" : ",\t") + names[i] + " =  " + listed({&values[i], 1}, decimals) + (length ? "  mm" : " deg");
+  }
+  return text + "\n   GP2:\n\tUF : 0, UT : 2,\n\tJ1=   100.000  mm\n};";
+}
+
+/// x, y, z in mm and three angles in degrees.
+inline std::vector<double> six_numbers(const Eigen::Isometry3d& pose, const Eigen::Vector3d& angles_rad) {
+  std::vector<double> values = in_mm(pose);
+  for (const double angle : angles_rad) values.push_back(degrees(angle));
+  return values;
+}
+/// W, P, R of FANUC and Rx, Ry, Rz of Yaskawa, rad.
+inline Eigen::Vector3d about_fixed_xyz(const Eigen::Isometry3d& pose) {
+  return pose.linear().eulerAngles(2, 1, 0).reverse();
+}
+
 /// One target's text in its language; `index` makes its name.
 inline std::string joints_line(WrittenIn language, const JointVector& joints, int index, int decimals) {
   const std::vector<double> angles = in_degrees(joints);
@@ -72,6 +104,15 @@ inline std::string joints_line(WrittenIn language, const JointVector& joints, in
              "],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];";
     case WrittenIn::urscript:
       return "movej([" + listed({joints.data(), 6}, decimals) + "], a=1.4, v=0.5)";
+    case WrittenIn::fanuc_ls:
+      return fanuc_position(number, "", {"J1", "J2", "J3", "J4", "J5", "J6"}, angles, decimals);
+    case WrittenIn::yaskawa_jbi:
+      return "C0000" + number + "=1000,-2000,3000,0,5000,-6000";
+    case WrittenIn::kawasaki_as:
+      return "#p" + number + "  " + listed(angles, decimals, "  ");
+    case WrittenIn::val3:
+      return "      <Value key=\"" + number + '"' +
+             enclosed({" j1=\"", " j2=\"", " j3=\"", " j4=\"", " j5=\"", " j6=\""}, angles, decimals, "\"") + " />";
   }
   return "";
 }
@@ -118,8 +159,28 @@ inline std::string pose_line(WrittenIn language, const Eigen::Isometry3d& pose, 
       return "movel(p[" + listed({pose.translation().data(), 3}, decimals) + ", " + listed({turn.data(), 3}, decimals) +
              "], a=1.2, v=0.25)";
     }
+    case WrittenIn::fanuc_ls:
+      return fanuc_position(number, "", {"X", "Y", "Z", "W", "P", "R"}, six_numbers(pose, about_fixed_xyz(pose)),
+                            decimals);
+    case WrittenIn::yaskawa_jbi:
+      return "C0000" + number + '=' + listed(six_numbers(pose, about_fixed_xyz(pose)), decimals, ",");
+    case WrittenIn::kawasaki_as:
+      return "p" + number + "   " + listed(six_numbers(pose, pose.linear().eulerAngles(2, 1, 2)), decimals, "   ") +
+             "   1.5";
+    case WrittenIn::val3:
+      return "      <Value key=\"" + number + '"' +
+             enclosed({" x=\"", " y=\"", " z=\"", " rx=\"", " ry=\"", " rz=\""},
+                      six_numbers(pose, pose.linear().eulerAngles(0, 1, 2)), decimals, "\"") +
+             " fatherId=\"world[0]\" />";
   }
   return "";
+}
+
+/// A motion to each of the first nine targets, the number between the two texts.
+inline std::string motions(const std::string& before, const std::string& behind) {
+  std::string text;
+  for (int target = 1; target <= 9; ++target) text += before + std::to_string(target) + behind;
+  return text;
 }
 
 /// What stands before and behind the targets: languages that state tools state that of elbow_arm().
@@ -137,6 +198,20 @@ inline std::string opening(WrittenIn language, bool of_poses) {
              " PERS tooldata t_test:=[TRUE,[[150,2,56],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
     case WrittenIn::urscript:
       return "def prog(): # movej([1,2,3,4,5,6])\n  set_tcp(p[0.15,0.002,0.056,0.0,0.0,0.0])\n";
+    case WrittenIn::fanuc_ls:
+      return "/PROG  T\n/ATTR\nCOMMENT\t\t= \"P[1]{J1=1 deg}\";\n/MN\n   1:  !J P[1] 100% FINE INC ;\n" +
+             motions("   :" + std::string(of_poses ? "L" : "J") + " P[", "] 100% FINE    ;\n") + "/POS\n";
+    case WrittenIn::yaskawa_jbi:
+      return "/JOB\n//NAME T\n//POS\n///NPOS 9,0,0,0,0,0\n" +
+             std::string(of_poses ? "///POSTYPE BASE\n///RECTAN\n" : "///POSTYPE PULSE\n///PULSE\n");
+    case WrittenIn::kawasaki_as:
+      return ".PROGRAM t()\n  ; JMOVE #p1\n" + motions(of_poses ? "  LMOVE p" : "  JMOVE #p", "\n") +
+             (of_poses ? ".END\n.TRANS\n" : ".END\n.JOINTS\n");
+    case WrittenIn::val3:
+      return "<?xml version=\"1.0\" encoding=\"utf-8\" ?>\n<Database>\n  <Datas>\n    <!-- <Value key=\"0\" j1=\"2\" "
+             "/> "
+             "-->\n    <Data name=\"p\" access=\"public\" xsi:type=\"array\" type=\"" +
+             std::string(of_poses ? "pointRx" : "jointRx") + "\" size=\"9\">\n";
   }
   return "";
 }
@@ -151,6 +226,14 @@ inline std::string closing(WrittenIn language) {
       return "ENDMODULE";
     case WrittenIn::urscript:
       return "end";
+    case WrittenIn::fanuc_ls:
+      return "/END";
+    case WrittenIn::yaskawa_jbi:
+      return "//INST\n///DATE 2024/01/01 12:00\nNOP\n'MOVL C00001\n" + motions("MOVL C0000", " V=50.0\n") + "END";
+    case WrittenIn::kawasaki_as:
+      return ".END";
+    case WrittenIn::val3:
+      return "    </Data>\n  </Datas>\n</Database>";
     case WrittenIn::csv:
       break;
   }

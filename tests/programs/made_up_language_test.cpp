@@ -32,7 +32,7 @@ const Language kDawdle{.name = "dawdle",
                        .title = "Dawdle",
                        .file_endings = {"daw"},
                        .signs = {"dawdling"},
-                       .comment = '%',
+                       .comment = "%",
                        .headers = {"to "},
                        .read = read_dawdle};
 const std::span<const Language> kTable{&kDawdle, 1};

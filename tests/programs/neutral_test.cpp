@@ -35,6 +35,7 @@ void on_random_programs(std::uint64_t seed, int repetitions, const Model& make_m
     const CommandModel model = make_model(stream, nominal);
     for (const WrittenIn language : kLanguages) {
       for (const bool of_poses : {false, true}) {
+        if (!of_poses && !has_joint_targets(language)) continue;
         SCOPED_TRACE(to_string(language) + (of_poses ? " of poses" : " of joints"));
         JointVector first;
         const std::string text = random_program(stream, model, language, of_poses, first);

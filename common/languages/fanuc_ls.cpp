@@ -1,0 +1,276 @@
+// FANUC TP programs as .LS listings: the positions of the section /POS, of joints (J1 to J6) or Cartesian (X, Y, Z and
+// W, P, R: turns about x, y, z that stay), each with the numbers of its user frame (UF) and tool (UT). Groups of motion
+// after the first and external axes (E1, ...) are kept.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data/text.hpp"
+#include "kinematics/chain.hpp"
+#include "languages/fanuc_ls_motions.hpp"
+#include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+constexpr std::array<std::string_view, 6> kJointNames{"j1", "j2", "j3", "j4", "j5", "j6"};
+constexpr std::array<std::string_view, 6> kPoseNames{"x", "y", "z", "w", "p", "r"};
+constexpr CellUnit kWprAngle{std::numbers::pi / 180.0, kDecimalsDeg};
+
+/// What stands behind a name in a position: a number and its unit, or a word.
+struct PositionPart {
+  BracketItem value;
+  std::string unit{};
+};
+using PositionParts = std::map<std::string, PositionPart>;
+
+class FanucReader {
+ public:
+  FanucReader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {}), code_(text_.code()), arm_(arm) {
+    require_six_joints(arm, file, "FANUC's TP");
+    program_.file = file;
+  }
+
+  Program read() {
+    const std::size_t instructions = section("/mn"), positions = section("/pos");
+    if (instructions < positions) motions_.read(text_, instructions, positions);
+    for (const std::size_t begin : motions_.to_registers())
+      skip_target(program_, {.name = "", .place = text_.place(begin)},
+                  "the motion goes to a register, whose value is not in this file");
+    for (std::size_t at = positions; at < code_.size(); ++at) {
+      if (!text_.begins_word(at) || text_.word_at(at) != "p" || text_.next(text_.word_end(at)) != '[') continue;
+      at = read_position(at, text_.skip_spaces(text_.word_end(at)));
+    }
+    return std::move(program_);
+  }
+
+ private:
+  /// Past the line that is this section's heading; the end where there is none.
+  std::size_t section(std::string_view heading) const {
+    for (std::size_t begin = 0; begin < code_.size();) {
+      const std::size_t end = std::min(code_.find('\n', begin), code_.size());
+      std::size_t first = begin;
+      if (lower_case(text_.trimmed(first, end)) == heading) return end;
+      begin = end + 1;
+    }
+    return code_.size();
+  }
+
+  /// Reads P[n]{...}, whose bracket opens at `open`; returns the last byte that was read.
+  std::size_t read_position(std::size_t begin, std::size_t open) {
+    const std::size_t close = std::min(code_.find(']', open), code_.size());
+    const std::size_t brace = close < code_.size() ? text_.skip_spaces(close + 1) : code_.size();
+    if (brace >= code_.size() || code_[brace] != '{') return std::min(close, code_.size() - 1);
+    const std::size_t end = code_.find('}', brace);
+    if (end == std::string_view::npos) text_.fail(begin, 1, "opens a position that is never closed");
+    const int number = position_number(text_, open);
+    Target target{.name = "P[" + std::to_string(number) + ']', .place = text_.place(begin)};
+    if (number < 0) text_.fail(open, close + 1 - open, "must be the number of a position");
+    const auto [first, last] = first_group(brace + 1, end);
+    make_target(number, components(first, last), std::move(target));
+    return end;
+  }
+
+  /// What stands between "GP1:" and the next group or the position's end; all of it where no group is named.
+  std::pair<std::size_t, std::size_t> first_group(std::size_t begin, std::size_t end) const {
+    std::size_t first = begin;
+    bool named = false;
+    for (std::size_t at = begin; at < end; ++at) {
+      if (!text_.begins_word(at)) continue;
+      const std::string word = text_.word_at(at);
+      if (word.size() == 3 && word.starts_with("gp") && is_digit(word[2])) {
+        if (named) return {first, at};
+        if (word == "gp1") first = text_.word_end(at);
+        named = word == "gp1";
+      }
+      at = text_.word_end(at) - 1;
+    }
+    return {first, end};
+  }
+
+  /// "NAME = number unit," and "NAME : word," of [begin, end).
+  PositionParts components(std::size_t begin, std::size_t end) const {
+    PositionParts found;
+    for (std::size_t at = begin; at < end; ++at) {
+      if (!text_.begins_word(at)) continue;
+      const std::size_t word_end = std::min(text_.word_end(at), end), sign = text_.skip_spaces(word_end);
+      const std::string name = lower_case(code_.substr(at, word_end - at));
+      at = word_end - 1;
+      if (sign >= end || (code_[sign] != '=' && code_[sign] != ':')) continue;
+      const PositionPart component = value_at(text_.skip_spaces(sign + 1), end, at);
+      found.try_emplace(name, component);
+    }
+    return found;
+  }
+
+  /// The value that begins at `begin`; `last` becomes its last byte.
+  PositionPart value_at(std::size_t begin, std::size_t end, std::size_t& last) const {
+    begin = std::min(begin, end);
+    if (begin < end && code_[begin] == '\'') {
+      const std::size_t close = std::min(code_.find('\'', begin + 1), end);
+      last = close < end ? close : end - 1;
+      return {{begin + 1, close - begin - 1, false, {}}};
+    }
+    const std::size_t stop = std::min(code_.find_first_of(" \t\r\n,;", begin), end);
+    PositionPart component{{begin, stop - begin, false, {}}, ""};
+    const std::size_t unit = text_.skip_spaces(stop);
+    if (unit < end && (stop == begin || code_[stop] != ',')) component.unit = text_.word_at(unit);
+    last = stop > begin ? stop - 1 : begin;
+    return component;
+  }
+
+  void make_target(int number, const PositionParts& components, Target target) {
+    const std::string why = motions_.not_sent_to(number);
+    if (!why.empty()) return skip_target(program_, target, why);
+    set_frames(components, target);
+    const auto joints = items(components, kJointNames), parts = items(components, kPoseNames);
+    const bool of_joints = joints.size() == kJointNames.size() && parts.empty();
+    if (!of_joints && parts.size() != kPoseNames.size()) {
+      return skip_target(program_, target, "it names neither J1 to J6 nor X, Y, Z, W, P and R");
+    }
+    const std::vector<BracketItem>& used = of_joints ? joints : parts;
+    if (std::any_of(used.begin(), used.end(), [&](const BracketItem& item) { return is_untaught(item); })) {
+      return skip_target(program_, target, "it is not taught");
+    }
+    if (!has_units(components, of_joints)) {
+      return skip_target(program_, target, "its numbers are not in mm and deg, in which the arm's are");
+    }
+    of_joints ? joint_target(target, joints) : pose_target(target, parts, components);
+    if (target.joints.empty() && target.position.empty()) return;
+    motions_.complete(number, target);
+    program_.targets.push_back(std::move(target));
+  }
+
+  bool is_untaught(const BracketItem& item) const { return code_.substr(item.begin, item.size).starts_with("***"); }
+
+  bool has_units(const PositionParts& components, bool of_joints) const {
+    const auto has = [&](std::string_view name, std::string_view unit) {
+      const auto found = components.find(std::string(name));
+      return found != components.end() && found->second.unit == unit;
+    };
+    for (std::size_t i = 0; i < kJointNames.size(); ++i) {
+      const bool angle = of_joints ? is_revolute(arm_, static_cast<int>(i)) : i >= 3;
+      if (!has(of_joints ? kJointNames[i] : kPoseNames[i], angle ? "deg" : "mm")) return false;
+    }
+    return true;
+  }
+
+  static std::vector<BracketItem> items(const PositionParts& components, std::span<const std::string_view> names) {
+    std::vector<BracketItem> found;
+    for (const std::string_view name : names) {
+      if (const auto part = components.find(std::string(name)); part != components.end())
+        found.push_back(part->second.value);
+    }
+    return found;
+  }
+
+  void joint_target(Target& target, const std::vector<BracketItem>& joints) {
+    if (const auto cells = cells_of(text_, joints, joint_units(arm_), Numbers::required, program_, target))
+      target.joints = *cells;
+  }
+
+  void pose_target(Target& target, const std::vector<BracketItem>& parts, const PositionParts& components) {
+    constexpr std::array<CellUnit, 6> kUnits{kMillimetres, kMillimetres, kMillimetres, kWprAngle, kWprAngle, kWprAngle};
+    const auto cells = cells_of(text_, parts, kUnits, Numbers::required, program_, target);
+    if (!cells) return;
+    target.position.assign(cells->begin(), cells->begin() + 3);
+    target.orientation.assign(cells->begin() + 3, cells->end());
+    target.form = OrientationForm::fixed_xyz_angles;
+    for (const char* name : {"config", "konfig"}) {
+      const auto words = components.find(name);
+      if (words == components.end()) continue;
+      const BracketItem& value = words->second.value;
+      target.hint.configuration = text_.text().substr(value.begin, value.size);
+      std::erase_if(target.hint.configuration, [](char letter) { return letter == ' ' || letter == '\t'; });
+    }
+  }
+
+  std::string word_of(const PositionParts& components, const std::string& name) const {
+    const auto found = components.find(name);
+    if (found == components.end()) return "";
+    return std::string(code_.substr(found->second.value.begin, found->second.value.size));
+  }
+
+  /// UF 0 is the arm's base, UT 0 its flange; others are set in the controller.
+  void set_frames(const PositionParts& components, Target& target) const {
+    const std::string frame = word_of(components, "uf"), tool = word_of(components, "ut");
+    const auto known = [](const std::string& word, const std::string& number) {
+      if (number == "0") return KnownFrame{word + " 0", Eigen::Isometry3d::Identity(), ""};
+      if (lower_case(number) == "f") return KnownFrame::computed(word);
+      return KnownFrame{word + ' ' + number, Eigen::Isometry3d::Identity(),
+                        word + ' ' + number + " is not given in this file"};
+    };
+    if (!frame.empty()) set_frame(target.frames, known("UF", frame));
+    if (!tool.empty()) set_tool(target.frames, known("UT", tool));
+    for (const auto& [name, component] : components) {
+      const bool external = name.size() == 2 && name.front() == 'e' && is_digit(name.back());
+      if (!external || component.unit != "mm") continue;
+      const auto cell = cell_at(text_.text(), component.value.begin, component.value.size, {});
+      if (cell && cell->value == 0.0) continue;
+      target.frames.unknown_frame = "an external axis that slides, " + name + ", may carry the arm";
+    }
+  }
+
+  ProgramText text_;
+  std::string_view code_;
+  const Chain& arm_;
+  Program program_;
+  FanucMotions motions_;
+};
+
+std::string fanuc_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  if (!has_six_revolute_joints(arm)) return {};
+  std::string motions, positions;
+  int line = 0, number = 0;
+  const auto instruction = [&](const std::string& words) {
+    motions += "  " + std::to_string(++line) + ':' + words + " ;\n";
+  };
+  for (const ProgrammedStop& stop : stops) {
+    const std::string at = std::to_string(++number);
+    instruction("J P[" + at + "] 20% FINE");
+    if (stop.waits) instruction("  PAUSE");
+    positions += "P[" + at + ":\"" + stop.name + "\"]{\n   GP1:\n\tUF : 0, UT : 0,\n\t";
+    const std::string joints = joints_text(arm, stop.joints, ",");
+    std::size_t begin = 0;
+    for (int joint = 1; joint <= arm.size(); ++joint) {
+      const std::size_t end = std::min(joints.find(',', begin), joints.size());
+      positions +=
+          (joint > 1 ? ", J" : "J") + std::to_string(joint) + "= " + joints.substr(begin, end - begin) + " deg";
+      begin = end + 1;
+    }
+    positions += "\n};\n";
+  }
+  return "/PROG  MEASURE\n/ATTR\nDEFAULT_GROUP\t= 1,*,*,*,*;\n/MN\n" + motions + "/POS\n" + positions + "/END\n";
+}
+
+}  // namespace
+
+Language fanuc_ls_language() {
+  return {.name = "fanuc_ls",
+          .title = "FANUC LS",
+          .file_endings = {"ls"},
+          .signs = {"/prog "},
+          .comment = "   :  !",
+          .comment_end = " ;",
+          .longest_comment = 31,  // a remark has 32 letters at most
+          .headers = {"/mn"},
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return FanucReader(text, file, arm).read(); },
+          .write = fanuc_text};
+}
+
+}  // namespace demecal::inline languages

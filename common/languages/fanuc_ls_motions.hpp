@@ -1,0 +1,41 @@
+// FANUC .LS: which motions of the program's instructions name which positions, and how.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
+
+namespace demecal::inline languages {
+
+class FanucMotions {
+ public:
+  /// Takes instructions, [begin, end) of the code: what stands between /MN and /POS.
+  void read(const ProgramText& text, std::size_t begin, std::size_t end);
+
+  /// Where motions name a register and no position.
+  const std::vector<std::size_t>& to_registers() const { return to_registers_; }
+
+  /// Why position `number` is not what the arm is sent to; empty: it is, as far as the instructions tell.
+  std::string not_sent_to(int number) const;
+
+  /// Gives the position its place among the motions, and whether lines lead to it.
+  void complete(int number, Target& target) const;
+
+ private:
+  void read_statement(const ProgramText& text, std::size_t begin, std::size_t end);
+
+  std::map<int, std::vector<TargetUse>> uses_;
+  std::vector<std::size_t> to_registers_;
+  std::map<int, std::string> not_sent_to_;
+  std::string computed_numbers_{};  ///< why no position is certain; empty: all are
+};
+
+/// The number of a position whose bracket opens at `open`: 3 of [3] and of [3:name]; nothing, -1, where it is no
+/// number.
+int position_number(const ProgramText& text, std::size_t open);
+
+}  // namespace demecal::inline languages

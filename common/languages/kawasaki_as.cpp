@@ -1,0 +1,196 @@
+// Kawasaki AS: the locations of .TRANS (x, y, z in mm and O, A, T in degrees, turns about z, the new y and the new z)
+// and of .JOINTS (a number per joint), and those that programs write as TRANS(...) and #PPOINT(...). Numbers of
+// external axes behind them are kept.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data/text.hpp"
+#include "kinematics/chain.hpp"
+#include "languages/kawasaki_as_program.hpp"
+#include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
+#include "languages/program_writing.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+constexpr CellUnit kOatAngle{std::numbers::pi / 180.0, kDecimalsDeg};
+constexpr std::array<CellUnit, 6> kTransUnits{kMillimetres, kMillimetres, kMillimetres,
+                                              kOatAngle,    kOatAngle,    kOatAngle};
+
+enum class AsSection { none, program, transformations, joints, system };
+
+AsSection section_of(const std::string& word) {
+  if (word == ".program") return AsSection::program;
+  if (word == ".trans") return AsSection::transformations;
+  if (word == ".joints") return AsSection::joints;
+  return word == ".sysdata" ? AsSection::system : AsSection::none;
+}
+
+class AsReader {
+ public:
+  AsReader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {.comment = ';'}), code_(text_.code()), arm_(arm) {
+    require_six_joints(arm, file, "Kawasaki's AS");
+    program_.file = file;
+  }
+
+  Program read() {
+    for (std::size_t begin = 0; begin < code_.size();) {
+      const std::size_t end = std::min(code_.find('\n', begin), code_.size());
+      read_line(begin, end);
+      begin = end + 1;
+    }
+    for (const LocationLiteral& literal : statements_.literals()) read_literal(literal);
+    for (const auto& [begin, what] : statements_.computed())
+      skip_target(program_, {.name = "", .place = text_.place(begin)},
+                  '\'' + what + "' is computed when the program runs");
+    finish();
+    return std::move(program_);
+  }
+
+ private:
+  void read_line(std::size_t begin, std::size_t end) {
+    const std::string_view line = text_.trimmed(begin, end);
+    end = begin + line.size();
+    if (line.empty() || line.starts_with(".*")) return;
+    if (line.front() == '.' && (line.size() < 2 || !is_digit(line[1]))) {
+      section_ = section_of(lower_case(line.substr(0, line.find_first_of(" \t("))));
+      return;
+    }
+    if (section_ == AsSection::program) statements_.read_line(text_, begin, end);
+    if (section_ == AsSection::system) statements_.read_system_line(text_, begin, end);
+    if (section_ == AsSection::transformations || section_ == AsSection::joints) read_location(begin, end);
+  }
+
+  /// "NAME x y z o a t".
+  void read_location(std::size_t begin, std::size_t end) {
+    const std::string name = location_name(text_, begin, end);
+    if (name.empty()) return text_.fail(begin, end - begin, "must be a location: its name, then its numbers");
+    std::vector<BracketItem> numbers;
+    constexpr std::string_view kSeparators = " \t,=";
+    const std::string_view code = code_.substr(0, end);
+    for (std::size_t at = begin + name.size(); (at = code.find_first_not_of(kSeparators, at)) < end;) {
+      const std::size_t next = std::min(code.find_first_of(kSeparators, at), end);
+      numbers.push_back({at, next - at, false, {}});
+      at = next;
+    }
+    Target target{.name = name, .place = text_.place(begin)};
+    make_target(std::move(target), numbers, section_ == AsSection::joints, Numbers::required);
+  }
+
+  void read_literal(const LocationLiteral& literal) {
+    Target target{.name = literal.name, .place = text_.place(literal.begin)};
+    const std::size_t made = program_.targets.size();
+    make_target(std::move(target), literal.list.items, literal.of_joints, Numbers::or_expressions);
+    if (program_.targets.size() == made || !literal.use) return;
+    take_uses({*literal.use}, program_.targets.back());
+  }
+
+  void make_target(Target target, std::vector<BracketItem> numbers, bool of_joints, Numbers required) {
+    const std::size_t needed = of_joints ? arm_.joints.size() : kTransUnits.size();
+    if (numbers.size() < needed) {
+      const std::string rule = "has " + std::to_string(numbers.size()) + " numbers; a location " +
+                               (of_joints ? "of this arm's joints" : "(x, y, z, O, A, T)") + " has " +
+                               std::to_string(needed);
+      if (required == Numbers::or_expressions) return skip_target(program_, target, "it " + rule);
+      const std::size_t begin = numbers.empty() ? code_.size() : numbers.front().begin;
+      text_.fail(std::min(begin, code_.size()), 1, target.name + ' ' + rule);
+    }
+    numbers.resize(needed);
+    const std::vector<CellUnit> units =
+        of_joints ? joint_units(arm_) : std::vector<CellUnit>(kTransUnits.begin(), kTransUnits.end());
+    const auto cells = cells_of(text_, numbers, units, required, program_, target);
+    if (!cells) return;
+    if (of_joints) {
+      target.joints = *cells;
+    } else {
+      target.position.assign(cells->begin(), cells->begin() + 3);
+      target.orientation.assign(cells->begin() + 3, cells->end());
+      target.form = OrientationForm::zyz_angles;
+    }
+    target.order = target.begin();
+    program_.targets.push_back(std::move(target));
+  }
+
+  /// The pose of the only location of this name.
+  std::optional<Eigen::Isometry3d> location(const std::string& name) const {
+    const Target* found = nullptr;
+    for (const Target& target : program_.targets) {
+      if (!target.is_pose() || location_key(target.name) != name) continue;
+      if (found != nullptr) return std::nullopt;
+      found = &target;
+    }
+    if (found == nullptr || !statements_.not_sent_to(name).empty()) return std::nullopt;
+    return stated_tool_pose(*found);
+  }
+
+  /// Gives targets their frames and motions, and takes those out that are no places to go to.
+  void finish() {
+    const StatedFrames frames = statements_.frames([&](const std::string& name) { return location(name); });
+    std::vector<Target> targets = std::exchange(program_.targets, {});
+    std::stable_sort(targets.begin(), targets.end(),
+                     [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
+    for (Target& target : targets) {
+      const std::string name = location_key(target.name);
+      if (!name.empty() && statements_.is_tool(name)) continue;
+      std::string why = name.empty() ? "" : statements_.not_sent_to(name);
+      if (why.empty() && target.is_pose() && !statements_.sets_configuration().empty())
+        why = "the program sets the arm's configuration (" + statements_.sets_configuration() +
+              "), and where it holds is not followed";
+      if (!why.empty()) {
+        skip_target(program_, target, why);
+        continue;
+      }
+      target.frames = frames;
+      std::vector<TargetUse> uses = name.empty() ? std::vector<TargetUse>{} : statements_.uses(name);
+      for (TargetUse& use : uses) use.frames = frames;
+      if (!uses.empty()) take_uses(uses, target);
+      program_.targets.push_back(std::move(target));
+    }
+  }
+
+  ProgramText text_;
+  std::string_view code_;
+  const Chain& arm_;
+  Program program_;
+  AsSection section_ = AsSection::none;
+  AsStatements statements_;
+};
+
+std::string as_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
+  if (!has_six_revolute_joints(arm)) return {};
+  std::string motions, points;
+  for (const ProgrammedStop& stop : stops) {
+    motions += "  JMOVE #" + stop.name + "\n  BREAK\n" + (stop.waits ? "  PAUSE\n" : "");
+    points += '#' + stop.name + "  " + joints_text(arm, stop.joints, "  ") + '\n';
+  }
+  return ".PROGRAM measure()\n" + motions + ".END\n.JOINTS\n" + points + ".END\n";
+}
+
+}  // namespace
+
+Language kawasaki_as_language() {
+  return {.name = "kawasaki_as",
+          .title = "Kawasaki AS",
+          .file_endings = {"as"},
+          .signs = {".trans", ".joints"},
+          .other_endings = {"pg"},
+          .comment = ".*",
+          .read = [](std::string_view text, const std::string& file,
+                     const Chain& arm) { return AsReader(text, file, arm).read(); },
+          .write = as_text};
+}
+
+}  // namespace demecal::inline languages

@@ -1,0 +1,169 @@
+#include "languages/kawasaki_as_program.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "data/text.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "uwrist", "dwrist"};
+
+/// Motions to a location; those whose names begin with J and HMOVE move joint by joint.
+bool is_motion(const std::string& word) {
+  constexpr std::array<std::string_view, 9> kMotions{"jmove",  "lmove",  "hmove",  "xmove", "c1move",
+                                                     "c2move", "jappro", "lappro", "smove"};
+  return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
+}
+
+/// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.
+std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end) {
+  int depth = 0;
+  for (std::size_t at = begin; at < end; ++at) {
+    if (code[at] == ',' && depth == 0) return at;
+    depth += code[at] == '(' || code[at] == '[' ? 1 : code[at] == ')' || code[at] == ']' ? -1 : 0;
+  }
+  return end;
+}
+
+/// Whether + or - stand outside of parentheses.
+bool is_sum(std::string_view argument) {
+  int depth = 0;
+  for (const char letter : argument) {
+    if (depth == 0 && (letter == '+' || letter == '-')) return true;
+    depth += letter == '(' || letter == '[' ? 1 : letter == ')' || letter == ']' ? -1 : 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::string_view code = text.code();
+  std::size_t at = begin;
+  if (at < end && code[at] == '#') ++at;
+  const std::size_t first = at;
+  while (at < end && (is_word_letter(code[at]) || code[at] == '.')) ++at;
+  if (at == first || is_digit(code[first])) return "";
+  if (at < end && code[at] == '[') at = std::min(code.find(']', at), end - 1) + 1;
+  return std::string(code.substr(begin, at - begin));
+}
+
+std::string location_key(std::string_view name) {
+  std::string key = lower_case(name);
+  std::erase_if(key, [](char letter) { return letter == ' ' || letter == '\t'; });
+  return key;
+}
+
+void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
+  begin = text.skip_spaces(begin);
+  while (begin < end && is_digit(text.code()[begin])) ++begin;  // a label
+  begin = text.skip_spaces(begin);
+  if (begin >= end || !text.begins_word(begin)) return;
+  const std::string word = text.word_at(begin);
+  const std::size_t argument = text.skip_spaces(std::min(text.word_end(begin), end));
+  if (std::find(kConfigurations.begin(), kConfigurations.end(), word) != kConfigurations.end())
+    sets_configuration_ = word;
+  if (is_motion(word)) return read_motion(text, word, begin, end);
+  if (word == "point" && argument < end) return read_point(text, argument, end);
+  if (word == "here" && argument < end) {
+    not_sent_to_[location_key(location_name(text, argument, end))] = "it is taught anew when the program runs (HERE)";
+  }
+  if (word == "tool" || word == "base") {
+    std::size_t first = std::min(argument, end);
+    const std::string named = location_key(text.trimmed(first, end));
+    word == "tool" ? static_cast<void>(tools_.insert(named)) : static_cast<void>(moves_base_ |= named != "null");
+  }
+}
+
+void AsStatements::read_system_line(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::string word = text.word_at(begin);
+  if (word != "base" && word != "tool") return;
+  bool moved = false;
+  std::size_t at = text.word_end(text.skip_spaces(begin));
+  while ((at = text.skip_spaces(at)) < end) {
+    const std::size_t stop = std::min(text.code().find_first_of(" \t\r,", at), end);
+    const auto cell = cell_at(text.text(), at, stop - at, {});
+    moved = moved || !cell || cell->value != 0.0;
+    at = std::max(stop, at + 1);
+  }
+  if (word == "base") moves_base_ = moves_base_ || moved;
+  if (word == "tool" && moved) tools_.insert("of .SYSDATA");
+}
+
+void AsStatements::read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end) {
+  const std::string_view code = text.code();
+  const TargetUse use{begin, word.starts_with('j') || word == "hmove" ? Motion::joints : Motion::line, {}};
+  const std::size_t first = text.skip_spaces(text.word_end(begin)), last = end_of_argument(code, first, end);
+  if (first >= last) return;
+  std::size_t trimmed = first;
+  const std::string_view argument = text.trimmed(trimmed, last);
+  if (auto literal = literal_at(text, first, last)) {
+    literal->use = use;
+    literals_.push_back(*literal);
+    return;
+  }
+  const std::string name = location_name(text, first, last);
+  if (name.size() == argument.size()) {
+    uses_[location_key(name)].push_back(use);
+    return;
+  }
+  computed_.emplace_back(first, std::string(argument));
+  // SHIFT(p BY ...) and the like stay near p; a sum of transformations takes p as a frame or as a part of one.
+  for (std::size_t at = first; at < last && is_sum(argument); ++at) {
+    const std::string part = location_name(text, at, last);
+    if (part.empty()) continue;
+    not_sent_to_[location_key(part)] = "it is part of a sum of transformations";
+    at += part.size() - 1;
+  }
+}
+
+/// "p = TRANS(...)", or anything else that p is given.
+void AsStatements::read_point(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::string name = location_name(text, begin, end);
+  const std::size_t sign = std::min(text.code().find('=', begin), end);
+  if (name.empty() || sign >= end) return;
+  if (auto literal = literal_at(text, text.skip_spaces(sign + 1), end)) {
+    literal->name = name;
+    literals_.push_back(*literal);
+    return;
+  }
+  not_sent_to_[location_key(name)] = "it is computed when the program runs (POINT)";
+}
+
+/// TRANS(...) or #PPOINT(...) that is all of [begin, end).
+std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text, std::size_t begin,
+                                                        std::size_t end) const {
+  const std::string_view code = text.code();
+  const bool of_joints = begin < end && code[begin] == '#';
+  const std::size_t word = begin + (of_joints ? 1 : 0);
+  if (word >= end || !text.begins_word(word) || text.word_at(word) != (of_joints ? "ppoint" : "trans"))
+    return std::nullopt;
+  const std::size_t open = text.skip_spaces(text.word_end(word)), close = code.find(')', open);
+  if (open >= end || code[open] != '(' || close >= end || text.skip_spaces(close + 1) < end) return std::nullopt;
+  LocationLiteral literal{"", {open, close + 1 - open, true, {}}, begin, of_joints, std::nullopt};
+  for (std::size_t at = open + 1; at <= close;) {
+    const std::size_t stop = std::min(code.find(',', at), close);
+    std::size_t first = at;
+    const std::string_view item = text.trimmed(first, stop);
+    literal.list.items.push_back({first, item.size(), false, {}});
+    at = stop + 1;
+  }
+  return literal;
+}
+
+std::string AsStatements::not_sent_to(const std::string& name) const {
+  const auto found = not_sent_to_.find(name);
+  return found == not_sent_to_.end() ? "" : found->second;
+}
+
+std::vector<TargetUse> AsStatements::uses(const std::string& name) const {
+  const auto found = uses_.find(name);
+  return found == uses_.end() ? std::vector<TargetUse>{} : found->second;
+}
+
+}  // namespace demecal::inline languages

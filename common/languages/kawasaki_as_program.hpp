@@ -1,0 +1,81 @@
+// Kawasaki AS: what the statements of programs say of the locations that they name, and the frames that they set.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
+
+namespace demecal::inline languages {
+
+/// A location that a statement writes as numbers: TRANS(x, y, z, o, a, t) or #PPOINT(jt1, ...).
+struct LocationLiteral {
+  std::string name{};  ///< that POINT gives it; empty: none
+  BracketItem list{};
+  std::size_t begin = 0;
+  bool of_joints = false;
+  std::optional<TargetUse> use{};  ///< of the motion that holds it
+};
+
+class AsStatements {
+ public:
+  /// Takes a line of a program, [begin, end) of the code.
+  void read_line(const ProgramText& text, std::size_t begin, std::size_t end);
+  /// Takes a line of .SYSDATA: "BASE" and "TOOL" with six numbers.
+  void read_system_line(const ProgramText& text, std::size_t begin, std::size_t end);
+
+  const std::vector<LocationLiteral>& literals() const { return literals_; }
+  /// Where motions go to what is computed, and what that is.
+  const std::vector<std::pair<std::size_t, std::string>>& computed() const { return computed_; }
+  /// Why the location of this key (location_key) is not what the arm is sent to; empty: it is.
+  std::string not_sent_to(const std::string& name) const;
+  /// Why poses are not reached in a configuration that can be told; empty: nothing sets one.
+  const std::string& sets_configuration() const { return sets_configuration_; }
+  /// Whether TOOL names this location, so that nothing moves to it.
+  bool is_tool(const std::string& name) const { return tools_.contains(name); }
+  /// The frames of all locations; `location` finds the pose of one by its key.
+  template <typename Find>
+  StatedFrames frames(const Find& location) const {
+    StatedFrames frames;
+    if (tools_.size() == 1) {
+      const std::string& name = *tools_.begin();
+      const std::optional<Eigen::Isometry3d> pose = name == "null" ? Eigen::Isometry3d::Identity() : location(name);
+      set_tool(frames, pose ? KnownFrame{name == "null" ? "flange" : name, *pose, ""} : KnownFrame::computed("TOOL"));
+    } else if (tools_.size() > 1) {
+      set_tool(frames, {"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
+    }
+    if (moves_base_) set_frame(frames, {"BASE", Eigen::Isometry3d::Identity(), "the base is moved by BASE"});
+    return frames;
+  }
+  /// The motions to a location of this key.
+  std::vector<TargetUse> uses(const std::string& name) const;
+
+ private:
+  void read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);
+  void read_point(const ProgramText& text, std::size_t begin, std::size_t end);
+  std::optional<LocationLiteral> literal_at(const ProgramText& text, std::size_t begin, std::size_t end) const;
+
+  std::vector<LocationLiteral> literals_;
+  std::vector<std::pair<std::size_t, std::string>> computed_;
+  std::map<std::string, std::vector<TargetUse>> uses_;
+  std::map<std::string, std::string> not_sent_to_;
+  std::set<std::string> tools_;
+  bool moves_base_ = false;
+  std::string sets_configuration_{};
+};
+
+/// The name that begins at `begin` of the code, as written: a # before it and indices behind it belong to it; empty
+/// where none does.
+std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end);
+/// By which names are one: in small letters, without blanks.
+std::string location_key(std::string_view name);
+
+}  // namespace demecal::inline languages

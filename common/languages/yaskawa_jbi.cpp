@@ -1,0 +1,246 @@
+// Yaskawa (Motoman) jobs, .JBI: positions of //POS in Cartesian coordinates (///RECTAN: x, y, z in mm and Rx, Ry, Rz in
+// degrees, turns about x, y, z that stay), in the frame that ///POSTYPE names. Positions in pulses cannot be read, for
+// a job does not say how many pulses a degree has. Base axes (BC) and stations (EC) are kept.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data/text.hpp"
+#include "kinematics/chain.hpp"
+#include "languages/languages.hpp"
+#include "languages/orientation.hpp"
+#include "languages/program.hpp"
+#include "languages/program_text.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+/// Degrees have two decimals with some controllers, four with others.
+constexpr CellUnit kJobAngle{std::numbers::pi / 180.0, 2};
+constexpr std::size_t kPoseNumbers = 6;
+
+/// "C3" of C00003 and of C0003; empty where the word names no position of the arm.
+std::string position_name(std::string_view word) {
+  constexpr std::size_t kMostDigits = 9;
+  const std::string name = lower_case(word);
+  const bool named = name.size() > 1 && name.size() <= kMostDigits + 1 &&
+                     (name.front() == 'c' || name.front() == 'p') &&
+                     std::all_of(name.begin() + 1, name.end(), is_digit);
+  if (!named) return "";
+  const std::size_t first = std::min(name.find_first_not_of('0', 1), name.size() - 1);
+  return (name.front() == 'c' ? "C" : "P") + name.substr(first);
+}
+
+/// What the lines above a position say of it.
+struct JobSetting {
+  bool pulses = true;
+  std::string frame{}, user{}, tool{}, configuration{};
+};
+
+class JobReader {
+ public:
+  JobReader(std::string_view text, const std::string& file, const Chain& arm)
+      : text_(text, file, {}), code_(text_.text()) {
+    require_six_joints(arm, file, "Yaskawa's INFORM");
+    program_.file = file;
+  }
+
+  Program read() {
+    for (std::size_t begin = 0; begin < code_.size();) {
+      const std::size_t end = std::min(code_.find('\n', begin), code_.size());
+      read_line(begin, end);
+      begin = end + 1;
+    }
+    finish();
+    return std::move(program_);
+  }
+
+ private:
+  struct Position {
+    std::string key;
+    Target target;
+    std::string why{};  ///< it is not corrected; empty: it is
+  };
+  struct Uses {
+    std::vector<TargetUse> motions{};
+    std::string why{};
+    bool given = false;  ///< by a position of the file
+  };
+
+  void read_line(std::size_t begin, std::size_t end) {
+    begin = std::min(std::min(code_.find_first_not_of(" \t", begin), code_.size()), end);
+    end = begin + code_.substr(begin, end - begin).find_last_not_of(" \t\r") + 1;
+    if (begin == end || code_[begin] == '\'') return;
+    if (code_.substr(begin, end - begin).starts_with("//")) return read_heading(begin, end);
+    if (in_positions_) return read_position(begin, end);
+    if (in_instructions_) read_instruction(begin, end);
+  }
+
+  /// "//POS", "//INST", "///TOOL 1" and the like.
+  void read_heading(std::size_t begin, std::size_t end) {
+    const std::string line = lower_case(code_.substr(begin, end - begin));
+    const std::size_t blank = std::min(line.find_first_of(" \t"), line.size());
+    const std::string word = line.substr(0, blank);
+    std::string value = line.substr(blank);
+    std::erase_if(value, [](char letter) { return letter == ' ' || letter == '\t'; });
+    if (!word.starts_with("///")) {
+      in_positions_ = word == "//pos";
+      in_instructions_ = word == "//inst";
+    }
+    if (word == "///pulse") setting_.pulses = true;
+    if (word == "///rectan") setting_.pulses = false;
+    if (word == "///postype") setting_.frame = value;
+    if (word == "///user") setting_.user = value;
+    if (word == "///tool") setting_.tool = value;
+    if (word == "///rconf") setting_.configuration = value;
+    const bool second_robot = word.starts_with("///group") && word != "///group1" && value.find("rb") == 0;
+    several_robots_ = several_robots_ || second_robot;
+  }
+
+  /// "C00001=500.000,0.000,300.000,180.0000,0.0000,0.0000".
+  void read_position(std::size_t begin, std::size_t end) {
+    const std::size_t sign = code_.find('=', begin);
+    if (sign >= end) return text_.fail(begin, end - begin, "must be a position, NAME=NUMBERS");
+    std::size_t first = begin;
+    const std::string name(text_.trimmed(first, sign));
+    base_axes_ = base_axes_ || lower_case(name).starts_with('b');
+    const std::string key = position_name(name);
+    if (key.empty()) return;
+    Position position{key, {.name = name, .place = text_.place(begin)}};
+    if (setting_.pulses) {
+      position.why =
+          "it is in pulses, and a job does not say how many of them a degree has; write the job with "
+          "Cartesian positions (///POSTYPE BASE or ROBOT, ///RECTAN)";
+    } else {
+      read_pose(sign + 1, end, position);
+    }
+    positions_.push_back(std::move(position));
+  }
+
+  void read_pose(std::size_t begin, std::size_t end, Position& position) const {
+    constexpr std::array<CellUnit, kPoseNumbers> kUnits{kMillimetres, kMillimetres, kMillimetres,
+                                                        kJobAngle,    kJobAngle,    kJobAngle};
+    std::vector<Cell> cells;
+    for (std::size_t count = 0; begin <= end; ++count) {
+      const std::size_t stop = std::min(code_.find(',', begin), end);
+      std::size_t first = begin;
+      const std::string_view number = text_.trimmed(first, stop);
+      cells.push_back(text_.number(first, number.size(), kUnits[std::min(count, kPoseNumbers - 1)]));
+      begin = stop + 1;
+    }
+    Target& target = position.target;
+    if (cells.size() != kPoseNumbers) {
+      position.why = "it has " + std::to_string(cells.size()) + " numbers and not 6";
+      return;
+    }
+    target.position.assign(cells.begin(), cells.begin() + 3);
+    target.orientation.assign(cells.begin() + 3, cells.end());
+    target.form = OrientationForm::fixed_xyz_angles;
+    target.hint.configuration = setting_.configuration;
+    set_frames(target);
+  }
+
+  void set_frames(Target& target) const {
+    const auto unknown = [](const std::string& name, const std::string& why) {
+      return KnownFrame{name, Eigen::Isometry3d::Identity(), why};
+    };
+    if (!setting_.tool.empty()) {
+      const std::string name = "tool " + setting_.tool;
+      set_tool(target.frames, unknown(name, name + " is not given in this file"));
+    }
+    const std::string& frame = setting_.frame;
+    if (frame == "base" || frame.empty()) return;
+    if (frame == "robot") return set_frame(target.frames, unknown("robot", ""));
+    const std::string name = frame == "user" ? "user frame " + setting_.user : "frame " + frame;
+    set_frame(target.frames, unknown(name, name + " is not given in this file"));
+  }
+
+  /// An instruction with the positions that it names.
+  void read_instruction(std::size_t begin, std::size_t end) {
+    const std::string word = lower_case(code_.substr(begin, text_.word_end(begin) - begin));
+    if (word == "sfton") shifts_ = true;
+    if (word == "sftof") shifts_ = false;
+    const bool motion = word.starts_with("mov"), coordinated = word.starts_with("smov");
+    for (std::size_t at = begin; at < end; ++at) {
+      if (!text_.begins_word(at)) continue;
+      const std::size_t word_end = std::min(text_.word_end(at), end);
+      const std::string key = position_name(code_.substr(at, word_end - at));
+      at = word_end - 1;
+      if (key.empty()) continue;
+      Uses& uses = uses_[key];
+      if (motion && !shifts_) {
+        uses.motions.push_back({begin, word == "movj" ? Motion::joints : Motion::line, {}});
+      } else if (motion || coordinated) {
+        uses.why = shifts_ ? "it is moved to while a shift is on (SFTON)"
+                           : "it is moved to in the frame of a station (" + word + ')';
+      } else if (word != "refp") {
+        uses.why = "it is used by " + word + ", which moves by it or changes it";
+      }
+    }
+  }
+
+  /// Makes targets of the positions, now that it is known what uses them.
+  void finish() {
+    for (Position& position : positions_) {
+      Target& target = position.target;
+      Uses& uses = uses_[position.key];
+      uses.given = true;
+      if (position.why.empty()) position.why = uses.why;
+      if (position.why.empty() && several_robots_) position.why = "the job moves several robots";
+      if (position.why.empty() && uses.motions.empty() && position.key.starts_with('P'))
+        position.why = "no motion of this job goes to it";
+      if (!position.why.empty()) {
+        skip_target(program_, target, position.why);
+        continue;
+      }
+      if (base_axes_ && target.frames.frame.empty()) target.frames.unknown_frame = "base axes carry the arm";
+      complete(uses.motions, target);
+      program_.targets.push_back(std::move(target));
+    }
+    for (const auto& [key, uses] : uses_) {
+      if (uses.given || uses.motions.empty()) continue;
+      skip_target(program_, {.name = key, .place = text_.place(uses.motions.front().begin)},
+                  "it is not given in this file");
+    }
+  }
+
+  static void complete(std::vector<TargetUse> motions, Target& target) {
+    target.order = target.begin();
+    if (motions.empty()) return;
+    for (TargetUse& use : motions) use.frames = target.frames;
+    take_uses(motions, target);
+  }
+
+  ProgramText text_;
+  std::string_view code_;
+  Program program_;
+  JobSetting setting_;
+  bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false, shifts_ = false;
+  std::vector<Position> positions_;
+  std::map<std::string, Uses> uses_;  ///< by position_name
+};
+
+}  // namespace
+
+Language yaskawa_jbi_language() {
+  return {.name = "yaskawa_jbi",
+          .title = "Yaskawa JBI",
+          .file_endings = {"jbi"},
+          .signs = {"///npos", "///postype"},
+          .comment = "'",
+          .longest_comment = 31,  // a comment has 32 letters at most
+          .headers = {"nop"},
+          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
+            return JobReader(text, file, arm).read();
+          }};
+}
+
+}  // namespace demecal::inline languages

@@ -1,0 +1,84 @@
+#include "programs/posture.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "kinematics/forward.hpp"
+
+namespace demecal::inline programs {
+namespace {
+
+constexpr std::size_t kSix = 6;
+
+struct JointAxis {
+  Eigen::Vector3d point, direction;
+};
+
+std::array<JointAxis, kSix> axes_at(const Chain& arm, const JointVector& joints) {
+  Chain uncoupled = arm;
+  uncoupled.couplings.clear();
+  const JointVector turns = driven_joints(arm, joints);
+  const Eigen::Vector3d flange = forward(uncoupled, turns).translation();
+  const Jacobian jacobian = joint_jacobian(uncoupled, turns, Eigen::Vector3d::Zero());
+  std::array<JointAxis, kSix> axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto column = jacobian.col(static_cast<Eigen::Index>(i));
+    const Eigen::Vector3d velocity = column.head<3>(), direction = column.tail<3>();
+    axes[i] = {flange - velocity.cross(direction), direction};
+  }
+  return axes;
+}
+
+double distance(const JointAxis& axis, const Eigen::Vector3d& point) {
+  return (point - axis.point).cross(axis.direction).norm();
+}
+
+/// Where axes 4 and 5, which cross, come closest, on axis 5.
+Eigen::Vector3d wrist_of(const std::array<JointAxis, kSix>& axes) {
+  const JointAxis &fourth = axes[3], &fifth = axes[4];
+  const Eigen::Vector3d across = fourth.direction.cross(fifth.direction);
+  const double along =
+      (fourth.point - fifth.point).cross(fourth.direction).dot(across) / std::max(across.squaredNorm(), 1e-12);
+  return fifth.point - along * fifth.direction;
+}
+
+/// The sines of shoulder, elbow and wrist; nothing where the arm has none.
+std::optional<std::array<double, 3>> sides_of(const Chain& arm, const JointVector& joints) {
+  constexpr double kMeet_m = 1e-3, kParallel = 1e-3, kCross = 0.5;
+  const std::array<JointAxis, kSix> axes = axes_at(arm, joints);
+  const Eigen::Vector3d wrist = wrist_of(axes), forward_side = axes[0].direction.cross(axes[1].direction);
+  const bool spherical = distance(axes[3], wrist) < kMeet_m && distance(axes[5], wrist) < kMeet_m;
+  const bool planar = axes[1].direction.cross(axes[2].direction).norm() < kParallel && forward_side.norm() > kCross;
+  if (!spherical || !planar) return std::nullopt;
+  const auto in_plane = [&](const Eigen::Vector3d& way) {
+    return Eigen::Vector3d(way - way.dot(axes[1].direction) * axes[1].direction);
+  };
+  const Eigen::Vector3d upper = in_plane(axes[2].point - axes[1].point), fore = in_plane(wrist - axes[2].point);
+  const double lengths = std::max(upper.norm() * fore.norm(), 1e-12), reach = upper.norm() + fore.norm();
+  return std::array<double, 3>{(wrist - axes[0].point).dot(forward_side.normalized()) / std::max(reach, 1e-12),
+                               axes[1].direction.dot(upper.cross(fore)) / lengths,
+                               axes[3].direction.cross(axes[5].direction).dot(axes[4].direction)};
+}
+
+}  // namespace
+
+std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other) {
+  constexpr double kTold = 0.02;
+  const bool six = arm.joints.size() == kSix &&
+                   std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
+  if (!six) return std::nullopt;
+  const auto sides = sides_of(arm, one), others = sides_of(arm, other);
+  if (!sides || !others) return std::nullopt;
+  bool same = true;
+  for (std::size_t i = 0; i < sides->size(); ++i) {
+    if (std::abs((*sides)[i]) < kTold || std::abs((*others)[i]) < kTold) return std::nullopt;
+    same = same && ((*sides)[i] > 0.0) == ((*others)[i] > 0.0);
+  }
+  return same;
+}
+
+}  // namespace demecal::inline programs

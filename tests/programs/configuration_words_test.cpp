@@ -1,0 +1,150 @@
+// Configurations that programs state in words whose meaning differs between arms: the same words, the same sides.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "corrected_arm.hpp"
+#include "languages/written_program.hpp"
+#include "programs/configuration.hpp"
+#include "programs/posture.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The sides of wrist_arm()'s shoulder, elbow and wrist, from its lengths (Denavit-Hartenberg).
+std::array<bool, 3> sides(const JointVector& q) {
+  const double reach = 0.65 * std::cos(q[1]) + 0.6 * std::sin(q[1] + q[2]);
+  return {reach > 0.0, std::cos(q[2]) > 0.0, q[4] > 0.0};
+}
+
+/// Whether no side is near to changing.
+bool told(const JointVector& q) {
+  const double reach = 0.65 * std::cos(q[1]) + 0.6 * std::sin(q[1] + q[2]);
+  return std::abs(reach) > 0.1 && std::abs(std::cos(q[2])) > 0.1 && std::abs(std::sin(q[4])) > 0.1;
+}
+
+JointVector told_joints(RandomStream& stream, const Chain& arm) {
+  while (true) {
+    const JointVector joints = 0.9 * random_joints(stream, arm);
+    if (told(joints) && is_regular(arm, joints)) return joints;
+  }
+}
+
+TEST(SamePosture, IsThatOfTheSidesOfShoulderElbowAndWrist) {
+  RandomStream stream{7530};
+  const Chain arm = wrist_arm();
+  int same = 0;
+  for (int i = 0; i < 300; ++i) {
+    const JointVector one = told_joints(stream, arm), other = told_joints(stream, arm);
+    const std::optional<bool> found = same_posture(arm, one, other);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(*found, sides(one) == sides(other)) << one.transpose() << " | " << other.transpose();
+    same += *found ? 1 : 0;
+  }
+  EXPECT_GT(same, 10);
+}
+
+TEST(SamePosture, DoesNotDependOnCouplingsAndIsNotToldOfOtherArms) {
+  RandomStream stream{7531};
+  Chain arm = wrist_arm();
+  arm.couplings.push_back({2, 1, 1.0});
+  for (int i = 0; i < 50; ++i) {
+    const JointVector one = told_joints(stream, wrist_arm()), other = told_joints(stream, wrist_arm());
+    EXPECT_EQ(same_posture(arm, commanded_joints(arm, one), commanded_joints(arm, other)), sides(one) == sides(other));
+  }
+  const Chain any = random_arm(stream, 6, Convention::standard_dh);
+  EXPECT_EQ(same_posture(any, random_joints(stream, any), random_joints(stream, any)), std::nullopt);
+  JointVector singular = told_joints(stream, wrist_arm());
+  singular[4] = 0.0;
+  EXPECT_EQ(same_posture(wrist_arm(), singular, singular), std::nullopt);
+}
+
+struct Listing {
+  RandomStream stream{7532};
+  CommandModel model = erring_model(stream, elbow_arm(stream));
+  std::string moves{}, positions{};
+  int count = 0;
+
+  void joints(const JointVector& joints) {
+    const std::string number = std::to_string(++count);
+    moves += "   :J P[" + number + "] 100% FINE ;\n";
+    positions += joints_line(WrittenIn::fanuc_ls, joints, count, 9) + '\n';
+  }
+  void pose(const JointVector& joints, const std::string& words, char motion = 'J') {
+    const std::string number = std::to_string(++count);
+    moves += std::string("   :") + motion + " P[" + number + "] 100% FINE ;\n";
+    const Eigen::Isometry3d pose = model.nominal_tool(joints);
+    positions += fanuc_position(number, " CONFIG : '" + words + "',", {"X", "Y", "Z", "W", "P", "R"},
+                                six_numbers(pose, about_fixed_xyz(pose)), 9) +
+                 '\n';
+  }
+  CorrectedProgram corrected(const JointVector& near = {}) const {
+    const std::string text = "/PROG  T\n/MN\n" + moves + "/POS\n" + positions + "/END\n";
+    return correct_program(text, read_program(WrittenIn::fanuc_ls, text, "p.ls", model.nominal.chain), model,
+                           {.near = near});
+  }
+};
+
+JointVector standing() {
+  JointVector joints(6);
+  joints << 0.4, -0.7, 0.5, 0.3, 0.9, -0.2;
+  return joints;
+}
+
+TEST(Words, MeanTheSidesOfThePoseBeforeThatHadThem) {
+  RandomStream stream{7533};
+  int far = 0;
+  for (int i = 0; i < 40; ++i) {
+    Listing listing;
+    const JointVector first = told_joints(stream, listing.model.nominal.chain);
+    JointVector second = told_joints(stream, listing.model.nominal.chain);
+    while (sides(second) != sides(first)) second = told_joints(stream, listing.model.nominal.chain);
+    listing.joints(first + JointVector::Constant(6, 0.02));
+    listing.pose(first, "N U T, 0, 0, 0");
+    listing.pose(second, "N U T, 0, 0, 0");
+    const CorrectedProgram corrected = listing.corrected();
+    if (corrected.targets[1].from != JointsFrom::before) continue;
+    EXPECT_LT((corrected.targets[1].nominal - first).norm(), 1e-6);
+    ASSERT_EQ(corrected.targets[2].from, JointsFrom::stated);
+    const JointVector apart = corrected.targets[2].nominal - second;
+    for (const double angle : apart) EXPECT_NEAR(wrap_near(angle, 0.0), 0.0, 1e-6);
+    far += (second - first).cwiseAbs().maxCoeff() > 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(far, 20);
+}
+
+TEST(Words, ThatAreNewLeaveTheLineAndSaySo) {
+  Listing listing;
+  JointVector flipped = standing();
+  flipped[3] += 3.14159265358979;
+  flipped[4] *= -1.0;
+  flipped[5] += 3.14159265358979;
+  listing.joints(standing());
+  listing.pose(standing() + JointVector::Constant(6, 0.1), "N U T, 0, 0, 0");
+  listing.pose(flipped, "F U T, 0, 0, 0");
+  listing.pose(standing() + JointVector::Constant(6, -0.1), "N U T, 0, 0, 0");
+  const CorrectedProgram corrected = listing.corrected();
+  EXPECT_EQ(corrected.targets[1].outcome, CorrectionOutcome::corrected);
+  EXPECT_EQ(corrected.targets[2].outcome, CorrectionOutcome::uncorrected);
+  ASSERT_EQ(corrected.warnings.size(), 1u);
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("configuration, stated as 'FUT,0,0,0', which does not mean"));
+  EXPECT_EQ(corrected.targets[3].from, JointsFrom::stated);
+}
+
+TEST(Words, AreToldByJointsOrAUserVeryNearAndByALine) {
+  Listing near;
+  near.pose(standing(), "N U T, 0, 0, 0");
+  EXPECT_EQ(near.corrected().targets[0].outcome, CorrectionOutcome::uncorrected);
+  EXPECT_EQ(near.corrected(standing() + JointVector::Constant(6, 0.05)).targets[0].from, JointsFrom::given);
+  EXPECT_EQ(near.corrected(standing() + JointVector::Constant(6, 0.8)).targets[0].from, JointsFrom::undetermined);
+  Listing line;
+  line.joints(standing() + JointVector::Constant(6, 0.1));
+  line.pose(standing(), "N U T, 0, 0, 0", 'L');
+  EXPECT_EQ(line.corrected().targets[1].from, JointsFrom::line);
+}
+
+}  // namespace
+}  // namespace demecal
