@@ -61,14 +61,14 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-Endpoint parse_endpoint(const std::string& text) {
+Endpoint parse_endpoint(const std::string& text, const std::string& option) {
   Endpoint endpoint;
   HostAndPort parts = divide(text);
   if (is_port(text)) parts = {endpoint.address, text, false};
   if (parts.host == "localhost") parts.host = endpoint.address;
   const bool is_numeric = parts.bracketed ? is_ipv6(parts.host) : is_ipv4(parts.host);
   if (!is_numeric || !is_port(parts.port)) {
-    throw InputError({"--http", 0}, text,
+    throw InputError({option, 0}, text,
                      "must be PORT, ADDRESS:PORT or [ADDRESS]:PORT with a numeric address of this machine and a port "
                      "from 0 (any that is free) to 65535, as in 8080 or 192.0.2.10:8080");
   }
@@ -96,14 +96,21 @@ bool is_trusted_host(const std::string& host, const Endpoint& endpoint, const st
   return is_numeric || (!own_name.empty() && name == lower(own_name));
 }
 
-bool shows_token(const std::string& authorization, const std::string& token) {
-  const std::string expected = "Bearer " + token;
-  if (authorization.size() != expected.size()) return false;
+bool is_same_secret(const std::string& shown, const std::string& secret) {
+  if (shown.size() != secret.size()) return false;
   unsigned difference = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    difference |= static_cast<unsigned char>(authorization[i]) ^ static_cast<unsigned char>(expected[i]);
+  for (std::size_t i = 0; i < secret.size(); ++i) {
+    difference |= static_cast<unsigned char>(shown[i]) ^ static_cast<unsigned char>(secret[i]);
   }
   return difference == 0;
+}
+
+bool shows_token(const std::string& authorization, const std::string& token) {
+  return is_same_secret(authorization, "Bearer " + token);
+}
+
+bool is_same_origin(const std::string& origin, const std::string& host) {
+  return !host.empty() && (origin == "http://" + host || origin == "https://" + host);
 }
 
 std::string random_token() {

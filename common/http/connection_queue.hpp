@@ -3,24 +3,33 @@
 
 #include <httplib.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace demecal::inline http {
 
 class ConnectionQueue final : public httplib::TaskQueue {
  public:
-  explicit ConnectionQueue(std::size_t most) : most_(most) {}
+  /// `make_room` is called now and then while a connection waits for a place: it may end another.
+  explicit ConnectionQueue(std::size_t most, std::function<void()> make_room = nullptr)
+      : most_(most), make_room_(std::move(make_room)) {}
 
   /// Waits while as many connections as are allowed go on; so the server takes no further one.
   void enqueue(std::function<void()> connection) override {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return is_ending_ || busy_ + waiting_.size() < most_; });
+    const auto has_place = [&] { return is_ending_ || busy_ + waiting_.size() < most_; };
+    while (make_room_ && !has_place()) {
+      make_room_();
+      changed_.wait_for(lock, kPause, has_place);
+    }
+    changed_.wait(lock, has_place);
     waiting_.push_back(std::move(connection));
     if (idle_ < waiting_.size() && threads_.size() < most_) threads_.emplace_back([this] { serve(); });
     changed_.notify_all();
@@ -57,7 +66,10 @@ class ConnectionQueue final : public httplib::TaskQueue {
     }
   }
 
+  static constexpr std::chrono::milliseconds kPause{20};  // between two attempts to make room
+
   const std::size_t most_;
+  const std::function<void()> make_room_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;

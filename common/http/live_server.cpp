@@ -1,8 +1,6 @@
 #include "http/live_server.hpp"
 
 #include <httplib.h>
-#include <unistd.h>
-#include <array>
 #include <charconv>
 #include <chrono>
 #include <mutex>
@@ -12,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "errors/input_error.hpp"
 #include "http/connection_queue.hpp"
 #include "http/event_history.hpp"
 #include "http/page_files.hpp"
+#include "http/server_setup.hpp"
 
 namespace demecal::inline http {
 namespace {
@@ -26,37 +24,12 @@ constexpr int kBeatsOfSilence = 3;                // after which a comment shows
 constexpr int kReadTimeout_s = 3;
 constexpr std::size_t kMostRequestBytes = 1024;
 
-/// Nothing may be fetched from elsewhere, no page may frame this one, and nothing is kept.
-const httplib::Headers kHeaders{
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; "
-     "form-action 'none'; frame-ancestors 'none'"},
-    {"X-Content-Type-Options", "nosniff"},
-    {"X-Frame-Options", "DENY"},
-    {"Referrer-Policy", "no-referrer"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-    {"Cross-Origin-Opener-Policy", "same-origin"},
-    {"Permissions-Policy", "camera=(), microphone=(), geolocation=()"},
-    {"Cache-Control", "no-store"}};
-
-std::string name_of_machine() {
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) != 0) return {};
-  return name.data();
-}
-
 std::optional<std::uint64_t> number_in(const std::string& text) {
   std::uint64_t number = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, fault] = std::from_chars(text.data(), end, number);
   if (text.empty() || fault != std::errc() || stop != end) return std::nullopt;
   return number;
-}
-
-void refuse(httplib::Response& response, int status, const std::string& why) {
-  response.status = status;
-  response.set_content(why + "\n", "text/plain; charset=utf-8");
-  response.set_header("Connection", "close");
 }
 
 /// From which event on a request wants to be told: behind the last that it names; all where it names none.
@@ -116,12 +89,7 @@ void LiveServer::Implementation::configure() {
     queue_ = new ConnectionQueue(options_.most_connections);  // NOLINT: the server deletes it
     return queue_;
   };
-  // The library's default lets several programs listen on one port, and each would be told of some requests.
-  server_.set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  });
-  server_.set_default_headers(kHeaders);
+  server_.set_default_headers(strict_headers());
   server_.set_read_timeout(kReadTimeout_s);
   server_.set_keep_alive_timeout(kReadTimeout_s);
   server_.set_write_timeout(options_.write_timeout_s);
@@ -138,17 +106,7 @@ void LiveServer::Implementation::configure() {
 }
 
 void LiveServer::Implementation::listen() {
-  const auto refused = [&] {
-    return InputError({}, origin_of(options_.endpoint),
-                      "cannot be listened on: the port is taken, or the address is not this machine's; name another");
-  };
-  Endpoint& endpoint = options_.endpoint;
-  if (endpoint.port == 0) {
-    endpoint.port = server_.bind_to_any_port(endpoint.address);
-    if (endpoint.port <= 0) throw refused();
-  } else if (!server_.bind_to_port(endpoint.address, endpoint.port)) {
-    throw refused();
-  }
+  bind(server_, options_.endpoint);
   listening_ = std::thread([this] { server_.listen_after_bind(); });
   while (!server_.is_running()) std::this_thread::yield();
 }
@@ -158,6 +116,10 @@ bool LiveServer::Implementation::admits(const httplib::Request& request, httplib
   if (request.method != "GET" && request.method != "HEAD") {
     response.set_header("Allow", "GET, HEAD");
     refuse(response, 405, "this page can only be read");
+    return false;
+  }
+  if (request.ranges.size() > 1) {  // an answer would hold all of them
+    refuse(response, 416, "one range may be asked for at a time");
     return false;
   }
   const std::string length = request.get_header_value("Content-Length");

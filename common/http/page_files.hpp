@@ -1,4 +1,4 @@
-// The files of the live page, which CMake takes from common/http/page into the program.
+// The files of the pages, which CMake takes from common/http/page and common/http/jobs_page into the program.
 #pragma once
 
 #include <string_view>
@@ -12,6 +12,9 @@ struct PageFile {
   std::string_view text;
 };
 
+/// Of the live page.
 const std::vector<PageFile>& page_files();
+/// Of the page of jobs.
+const std::vector<PageFile>& jobs_page_files();
 
 }  // namespace demecal::inline http

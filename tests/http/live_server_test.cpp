@@ -1,24 +1,20 @@
 // The server over real HTTP: what it answers, whom it refuses, and that nobody who publishes waits for a browser.
 #include "http/live_server.hpp"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <thread>
 
 #include "errors/input_error.hpp"
+#include "raw_connection.hpp"
 
 namespace demecal {
 namespace {
 
 using ::testing::HasSubstr;
-using Seconds = std::chrono::duration<double>;
-using TestClock = std::chrono::steady_clock;
 
 LiveServerOptions options_of(const std::string& token = "") {
   LiveServerOptions options;
@@ -30,43 +26,6 @@ httplib::Client client_of(const LiveServer& server) {
   httplib::Client client(server.endpoint().address, server.endpoint().port);
   client.set_read_timeout(20);
   return client;
-}
-
-/// A connection that does with TCP what it likes.
-class RawConnection {
- public:
-  explicit RawConnection(const LiveServer& server, int receive_bytes = 0) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    if (receive_bytes > 0) ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_bytes, sizeof receive_bytes);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(server.endpoint().port));
-    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
-  }
-  ~RawConnection() { ::close(socket_); }
-  RawConnection(const RawConnection&) = delete;
-  RawConnection& operator=(const RawConnection&) = delete;
-
-  bool connected() const { return connected_; }
-  void send(const std::string& bytes) const {
-    EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
-  }
-  std::string first_line() const {
-    std::string line;
-    char letter = 0;
-    while (::recv(socket_, &letter, 1, 0) == 1 && letter != '\r') line += letter;
-    return line;
-  }
-
- private:
-  int socket_;
-  bool connected_ = false;
-};
-
-bool becomes_true(const std::function<bool()>& condition, Seconds patience = Seconds(20)) {
-  const auto end = TestClock::now() + patience;
-  while (!condition() && TestClock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  return condition();
 }
 
 TEST(LiveServer, ServesThePageWithAPolicyThatLetsNothingIn) {
@@ -132,6 +91,7 @@ TEST(LiveServer, IsReadOnly) {
     EXPECT_EQ(client.Options(path)->status, 405) << path;
   }
   EXPECT_EQ(client.Head("/api/state")->status, 200);
+  EXPECT_EQ(client.Get("/page.js", {{"Range", "bytes=0-,0-,0-"}})->status, 416);
   for (const char* const path :
        {"/nothing", "/../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/api/", "/page.js/", "/api/stream/x"}) {
     EXPECT_EQ(client.Get(path)->status, 404) << path;
@@ -169,13 +129,14 @@ TEST(LiveServer, CapsStreamsAndConnectionsAndServesAgainWhenTheyEnd) {
   options.most_streams = 2;
   LiveServer server(options);
   {
-    const RawConnection first(server), second(server), third(server);
+    const RawConnection first(server.endpoint().port), second(server.endpoint().port), third(server.endpoint().port);
     for (const RawConnection* one : {&first, &second}) one->send("GET /api/stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_TRUE(becomes_true([&] { return server.streams() == 2; }));
     third.send("GET /api/stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_THAT(third.first_line(), HasSubstr("503"));
     std::vector<std::unique_ptr<RawConnection>> many;
-    for (int i = 0; i < 8; ++i) many.push_back(std::make_unique<RawConnection>(server));  // that say nothing
+    for (int i = 0; i < 8; ++i)
+      many.push_back(std::make_unique<RawConnection>(server.endpoint().port));  // that say nothing
   }
   EXPECT_TRUE(becomes_true([&] { return server.streams() == 0; }));
   EXPECT_EQ(client_of(server).Get("/api/state")->status, 200);
@@ -185,7 +146,7 @@ TEST(LiveServer, DropsABrowserThatIsStoppedAndNeverWaitsForIt) {
   LiveServerOptions options;
   options.write_timeout_s = 1;
   LiveServer server(options);
-  const RawConnection stopped(server, 4096);  // reads nothing
+  const RawConnection stopped(server.endpoint().port, 4096);  // reads nothing
   stopped.send("GET /api/stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
   ASSERT_TRUE(becomes_true([&] { return server.streams() == 1; }));
   const std::string line(4000, 'x');
@@ -214,7 +175,7 @@ TEST(LiveServer, SurvivesWhatIsNoRequest) {
         std::string("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999999999999\r\n\r\n"),
         std::string("GET / HTTP/1.1\r\n\r\n"),
         std::string("GET /api/events?after=99999999999999999999999 HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
-    const RawConnection hostile(server);
+    const RawConnection hostile(server.endpoint().port);
     ASSERT_TRUE(hostile.connected());
     hostile.send(bytes);
     EXPECT_THAT(hostile.first_line(), testing::Not(HasSubstr(" 200 "))) << bytes.substr(0, 60);
@@ -234,7 +195,7 @@ TEST(LiveServer, SaysWhereItCannotListen) {
 
 TEST(LiveServer, EndsAtOnceWhoeverLooks) {
   auto server = std::make_unique<LiveServer>(options_of());
-  const RawConnection looking(*server), silent(*server);
+  const RawConnection looking(server->endpoint().port), silent(server->endpoint().port);
   looking.send("GET /api/stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
   ASSERT_TRUE(becomes_true([&] { return server->streams() == 1; }));
   const auto begin = TestClock::now();
