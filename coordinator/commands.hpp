@@ -49,6 +49,7 @@ void add_prepare(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
 void add_robot(CLI::App& app, ExitCode& exit_code);
+void add_serve(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
 void add_monitor(CLI::App& app, ExitCode& exit_code);
 void add_template(CLI::App& app, ExitCode& exit_code);

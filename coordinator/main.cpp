@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   demecal::add_robot(app, exit_code);
   demecal::add_study(app, exit_code);
   demecal::add_monitor(app, exit_code);
+  demecal::add_serve(app, exit_code);
   demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
   try {
     app.parse(argc, argv);

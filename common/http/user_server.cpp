@@ -122,6 +122,8 @@ class UserServer::Implementation {
     server_.stop();
     listening_.join();
   }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
 
   const UserServerOptions& options() const { return options_; }
   std::size_t connections() const { return connections_.size(); }
@@ -162,7 +164,7 @@ void UserServer::Implementation::configure() {
     refuse(response, refused->status, refused->why);
     return httplib::Server::HandlerResponse::Handled;
   });
-  server_.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+  server_.set_exception_handler([](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
     refuse(response, 500, "this request could not be answered");
   });
   server_.set_error_handler([](const httplib::Request&, httplib::Response& response) {
