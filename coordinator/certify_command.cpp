@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -37,13 +35,6 @@ struct CertifyRequest {
   double tolerance_mm = 0.0;
   bool json = false, refit_base = false, force = false;
 };
-
-std::string today() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm day{};
-  ::localtime_r(&now, &day);
-  return fmt::format("{:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
-}
 
 std::string figures_line(const char* words, const SetErrors& errors) {
   const auto mm = [](const std::optional<double>& value) {
@@ -96,6 +87,7 @@ ExitCode run(const CertifyRequest& request) {
   CalibratedModel model = load_model(request.model_file);
   CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
+  require_positions(data, "certify");
   model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
   require_same_arm(model.robot, data);
   if (refuses(checked, request.force)) return ExitCode::contradiction;

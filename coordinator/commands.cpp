@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -62,6 +64,13 @@ CheckedData load_checked(const std::string& path) {
   return load_checked(std::span(&path, 1), StationTools::own, true);
 }
 
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm day{};
+  ::localtime_r(&now, &day);
+  return fmt::format("{:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
+}
+
 bool refuses(const CheckedData& checked, bool force) {
   if (force || checked.check.verdict() != DataVerdict::contradiction) return false;
   fmt::print(
@@ -78,6 +87,14 @@ void require_instrument(const DataSet& data, const std::string& what) {
   if (!has_contacts(data)) return;
   throw InputError({data.file, 0}, "contact",
                    what + " learns from measured points alone: use calibrate with the method direct, or diagnose");
+}
+
+void require_positions(const DataSet& data, const std::string& what) {
+  if (!has_contacts(data)) return;
+  throw InputError({data.file, 0}, "contact",
+                   what +
+                       " needs measured positions: poses that touch something tell how well they agree with one "
+                       "another, not where the tool is (`demecal evaluate` says how well)");
 }
 
 void add_force(CLI::App& command, bool& force) {

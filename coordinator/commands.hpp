@@ -68,12 +68,18 @@ CheckedData load_checked(const std::string& path);
 /// the first that contradicts the arm is returned alone.
 CheckedData load_checked(std::span<const std::string> paths, StationTools tools, bool force);
 
+/// YYYY-MM-DD, where this machine is.
+std::string today();
+
 /// Whether the data contradict the robot's description, and nobody forces the command to go on: said on standard error.
 bool refuses(const CheckedData& checked, bool force);
 
 /// Throws InputError where poses touch something or were measured from several stations: `what` learns from measured
 /// points of one alone.
 void require_instrument(const DataSet& data, const std::string& what);
+
+/// Throws InputError where poses touch something and `what` would take their agreement for accuracy.
+void require_positions(const DataSet& data, const std::string& what);
 
 /// The option --force of a command that fits or judges data.
 void add_force(CLI::App& command, bool& force);

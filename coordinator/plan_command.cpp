@@ -57,6 +57,7 @@ PlanRequest request_of(const PlanCommand& command) {
   }
   if (!command.after.empty()) {
     request.measured = load_data_set(command.after);
+    require_positions(*request.measured, "plan --after");
     if (request.measured->robot.chain.size() != request.robot.chain.size())
       throw InputError({command.after, 0}, request.measured->robot.name, "is not of the arm that is planned for");
   }

@@ -84,6 +84,8 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"poses", change.poses},
             {"set_up_anew", change.set_up_anew},
             {"p_any", change.p_any},
+            {"strain", change.strain},
+            {"strain_limit", change.strain_limit},
             {"noise_mm", millimetres(change.noise_m)},
             {"error_mm", {{"by_model", millimetres(change.error_m)}, {"explained", millimetres(change.left_m)}}},
             {"cause", Json()},

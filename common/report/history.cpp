@@ -16,14 +16,6 @@
 namespace demecal::inline report {
 namespace {
 
-/// A worker's name comes over the network: it may hold anything, but a row is one line.
-std::string on_one_line(std::string name) {
-  for (char& letter : name) {
-    if (letter == '\n' || letter == '\r') letter = ' ';
-  }
-  return name;
-}
-
 CsvRow written(const HistoryRow& row) {
   return {0,
           {std::to_string(row.island.joint + 1), std::to_string(row.island.deme + 1), std::to_string(row.generation),
@@ -94,6 +86,13 @@ void find_extent(FitnessHistory& history) {
 }
 
 }  // namespace
+
+std::string on_one_line(std::string name) {
+  for (char& letter : name) {
+    if (letter == '\n' || letter == '\r') letter = ' ';
+  }
+  return name;
+}
 
 std::string history_csv(const std::vector<HistoryRow>& rows) {
   CsvTable table{.file = {}, .header_line = 0, .columns = {}, .rows = {}};

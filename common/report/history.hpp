@@ -54,4 +54,7 @@ FitnessHistory fitness_of(const std::vector<HistoryRow>& rows);
 /// and value where a column is missing or a field is no number.
 FitnessHistory read_fitness(const std::string& csv);
 
+/// Names come from files: a table has them on one line.
+std::string on_one_line(std::string name);
+
 }  // namespace demecal::inline report

@@ -10,6 +10,7 @@
 
 #include "data/csv.hpp"
 #include "data/text.hpp"
+#include "report/history.hpp"
 
 namespace demecal::inline report {
 namespace {
@@ -30,13 +31,6 @@ std::string joined(const std::vector<std::string>& flags) {
   std::string text;
   for (const std::string& flag : flags) text += (text.empty() ? "" : " ") + flag;
   return text;
-}
-
-/// Names come from files: a table has them on one line.
-std::string on_one_line(std::string name) {
-  std::ranges::replace_if(
-      name, [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
-  return name;
 }
 
 struct VectorColumns {

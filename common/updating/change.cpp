@@ -137,6 +137,8 @@ class ChangeSearch {
     ChangeRows rows = all;
     const auto n = static_cast<double>(rows.values.size());
     report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
+    report_.strain = std::sqrt(rows.values.squaredNorm() / n);
+    report_.strain_limit = std::sqrt(fisher_quantile(1.0 - kErrorOfAny, n, known_rows()));
     constexpr int kMostCauses = 3;
     for (int step = 0; step < kMostCauses; ++step) {
       std::vector<ChangeCause> causes = causes_on(rows);

@@ -32,11 +32,13 @@ struct ChangeCause {
 
 struct ChangeReport {
   ChangeVerdict verdict = ChangeVerdict::unchanged;
-  bool set_up_anew = false;  ///< the instrument's frame is another: the base was found again
-  double p_any = 1.0;        ///< of such errors by the model and its noise
-  double noise_m = 0.0;      ///< per axis, as the model has it
-  double error_m = 0.0;      ///< rms of the tool's errors by the model (base found again where it had to be)
-  double left_m = 0.0;       ///< the same once what was found is taken in
+  bool set_up_anew = false;   ///< the instrument's frame is another: the base was found again
+  double p_any = 1.0;         ///< of such errors by the model and its noise
+  double strain = 0.0;        ///< rms of the errors over what model and noise lead one to expect
+  double strain_limit = 0.0;  ///< that one unchanged robot in a thousand exceeds
+  double noise_m = 0.0;       ///< per axis, as the model has it
+  double error_m = 0.0;       ///< rms of the tool's errors by the model (base found again where it had to be)
+  double left_m = 0.0;        ///< the same once what was found is taken in
   std::size_t poses = 0;
   std::vector<std::size_t> outliers;      ///< poses (in the data set) that were left out
   std::vector<ChangeCause> found;         ///< in the order they were found

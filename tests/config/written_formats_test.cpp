@@ -20,6 +20,7 @@
 #include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
 #include "programs/summary.hpp"
+#include "report/check_history.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
 #include "report/pose_csv.hpp"
@@ -153,6 +154,10 @@ TEST(WrittenFormats, PosesHaveTheColumnsOfThePage) {
                                        arms.arm->joints.front().type = "prismatic";
                                        return pose_errors_csv(arms);
                                      }()});
+}
+
+TEST(WrittenFormats, ChecksHaveTheColumnsOfThePage) {
+  expect_columns("check-history.csv", {check_history_csv({CheckRecord{}})});
 }
 
 TEST(WrittenFormats, HistoriesHaveTheColumnsOfThePage) {

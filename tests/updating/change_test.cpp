@@ -77,6 +77,18 @@ TEST(Change, OfTheToolIsNamed) {
   EXPECT_TRUE(is(report.found.front(), &DeclaredModel::tool));
 }
 
+TEST(Change, StrainsTheModelBeyondTheLimitAndAnUnchangedArmDoesNot) {
+  const CalibratedModel model = model_of_seed(3);
+  const ChangeReport same = find_change(model, measured_wrist(true_wrist(3), 14, 0, 304));
+  EXPECT_GT(same.strain, 0.4);
+  EXPECT_LT(same.strain, same.strain_limit);
+  CorrectedRobot now = true_wrist(3);
+  now.chain.joints[2].theta_rad += 1e-3;
+  const ChangeReport changed = find_change(model, measured_wrist(now, 14, 0, 305));
+  EXPECT_GT(changed.strain, changed.strain_limit);
+  EXPECT_LT(changed.p_any, 1e-3);
+}
+
 TEST(Change, CannotBeToldFromThreePoses) {
   EXPECT_THROW(find_change(model_of_seed(1), measured_wrist(true_wrist(1), 3, 0, 1)), InputError);
 }
