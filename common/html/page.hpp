@@ -8,7 +8,7 @@
 
 namespace demecal::inline html {
 
-/// A self-contained HTML page (its own style and pictures, no scripts, nothing loaded from elsewhere; light or dark as
+/// A self-contained HTML page (its own style, pictures and scripts, nothing loaded from elsewhere; light or dark as
 /// the reader prefers, and printable). What is missing is left out of the page, as are charts of a history without
 /// rows. Formulas that cannot be read are shown without their plot.
 std::string report_html(const Report& report, const FitnessHistory& history);
