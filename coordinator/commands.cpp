@@ -55,7 +55,17 @@ CheckedData load_checked(std::span<const std::string> paths, StationTools tools,
     sets.push_back(std::move(described.data));
     if (check.verdict() == DataVerdict::contradiction && !force) return {std::move(sets.back()), std::move(check)};
   }
+  const auto timed = [](const DataSet& set) {
+    return std::ranges::any_of(set.poses, [](const MeasuredPose& pose) { return pose.time_s.has_value(); });
+  };
+  const bool times_given = std::ranges::any_of(sets, timed);
   CheckedData checked{joined_stations(std::move(sets), tools), std::move(check)};
+  if (times_given && !timed(checked.data))
+    fmt::print(
+        stderr,
+        "{}: times are left out, since those of two stations overlap and clocks may differ: drift is looked for in "
+        "the order of the rows alone\n",
+        checked.data.file);
   if (paths.size() > 1) checked.data.sha256 = sha256(checked.data.sha256);
   return checked;
 }

@@ -53,7 +53,7 @@ ExitCode run(const TemplateRequest& request) {
 }
 
 struct NewRequest {
-  std::string folder, robot, delimiter, decimal;
+  std::string folder, robot, urdf, base, tip, delimiter, decimal;
   std::vector<std::string> poses;
   bool force = false;
 };
@@ -84,16 +84,27 @@ DataSetDraft write_fitting_draft(const std::filesystem::path& file, const std::v
   throw InputError(*first_fault);
 }
 
+/// The arm's file as it will stand in the new folder, and what was assumed of it.
+ImportedRobot robot_file(const NewRequest& request) {
+  if (request.urdf.empty()) return {read_file(request.robot), {}};
+  ImportRequest urdf{request.urdf, {}, {}, request.folder + "/robot.yaml"};
+  if (!request.base.empty()) urdf.base = request.base;
+  if (!request.tip.empty()) urdf.tip = request.tip;
+  return import_urdf(urdf);
+}
+
 ExitCode run(const NewRequest& request) {
-  const Robot robot = load_robot(request.robot);
+  const ImportedRobot arm = robot_file(request);
+  const std::string named = request.urdf.empty() ? request.robot : request.folder + "/robot.yaml";
+  const Robot robot = read_robot(parse_yaml(arm.text, named).with_version("robot", 1));
   const auto joints = static_cast<std::size_t>(robot.chain.size());
   const ToldLayout told = told_layout(request);
   const std::vector<std::filesystem::path> files(request.poses.begin(), request.poses.end());
-  const std::vector<GivenTable> tables = read_given_tables(files, joints, told);
+  const std::vector<GivenTable> tables = read_given_tables(files, joints, told, joint_names(robot));
   const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told);
   make_writable(request.folder, kNewFiles, request.force);
   const FilesBeingWritten written(request.folder, kNewFiles);
-  write_file(request.folder + "/robot.yaml", read_file(request.robot));
+  write_file(request.folder + "/robot.yaml", arm.text);
   write_file(request.folder + "/job.yaml", first_job_text("dataset.yaml"));
   const DataSetDraft draft = write_fitting_draft(request.folder + "/dataset.yaml", drafts);
   const CheckedData checked = load_checked(request.folder + "/dataset.yaml");
@@ -101,6 +112,7 @@ ExitCode run(const NewRequest& request) {
              fmt::join(kNewFiles, ", "));
   fmt::print("Assumed; check it in dataset.yaml:\n");
   for (const std::string& sentence : draft.assumed) fmt::print("  {}\n", sentence);
+  for (const std::string& note : arm.notes) fmt::print("Check in robot.yaml: {}\n", note);
   fmt::print("Check in robot.yaml: dimensions, signs and offsets of joints, tool_mm.\n");
   if (refuses(checked, false)) return ExitCode::contradiction;
   fmt::print("{}", to_terminal(data_check_entry(checked.check)));
@@ -128,7 +140,12 @@ void add_new(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
       app.add_subcommand("new", "robot, data set and job from an arm's file and the files of a measurement");
   command->add_option("folder", request->folder, "folder to write")->required();
-  command->add_option("--robot", request->robot, "ROBOT.yaml")->required();
+  CLI::Option_group* arm = command->add_option_group("arm", "one of");
+  arm->add_option("--robot", request->robot, "ROBOT.yaml");
+  CLI::Option* urdf = arm->add_option("--urdf", request->urdf, "URDF of the arm");
+  arm->require_option(1);
+  command->add_option("--base", request->base, "LINK of the URDF that the arm stands on")->needs(urdf);
+  command->add_option("--tip", request->tip, "LINK of the URDF at the arm's flange")->needs(urdf);
   command->add_option("--poses", request->poses, "tables with joints and measured points; several are joined")
       ->required();
   command->add_option("--delimiter", request->delimiter, "between columns, where it cannot be told")

@@ -114,7 +114,9 @@ CalibratedModel model_asked(const ExportRequest& request) {
 
 ExitCode run_links(const ExportRequest& request) {
   const CalibratedModel model = model_asked(request);
-  const ExportedArm exported = request.format == "urdf" ? calibrated_urdf(model, request.urdf) : ur_calibration(model);
+  const ExportedArm exported = request.format == "urdf"          ? calibrated_urdf(model, request.urdf)
+                               : request.format == "ros2-params" ? ros2_parameters(model, request.urdf)
+                                                                 : ur_calibration(model);
   for (const std::string& note : exported.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
   write_or_print(request, exported.text);
   return ExitCode::done;
@@ -180,8 +182,8 @@ void add_export(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
       app.add_subcommand("export", "the corrected forward model as formulas or code, or the arm for ROS");
   command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
-  command->add_option("--format", request->format, "text, c, python, matlab, urdf or ur-calibration")
-      ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf", "ur-calibration"}))
+  command->add_option("--format", request->format, "text, c, python, matlab, urdf, ros2-params or ur-calibration")
+      ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf", "ros2-params", "ur-calibration"}))
       ->capture_default_str();
   command->add_option("--out", request->out, "file to write; without it, standard output");
   command->add_option("--target", request->target, "the tool point, where the model has several");

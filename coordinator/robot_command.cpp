@@ -19,11 +19,13 @@
 #include "data/text.hpp"
 #include "data_check/pendant.hpp"
 #include "errors/input_error.hpp"
+#include "html/arm_picture.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/controller_angles.hpp"
 #include "kinematics/drawn_arm.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -50,7 +52,7 @@ ExitCode run(ImportOptions options) {
 }
 
 struct ShowOptions {
-  std::string file, at, compare;
+  std::string file, at, compare, picture;
   bool json = false;
 };
 
@@ -236,6 +238,7 @@ ExitCode run(const ShowOptions& options) {
   const std::vector<std::string> warnings =
       options.at.empty() ? std::vector<std::string>() : beyond_limits_sentences(robot.chain, q);
   for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", options.file, warning);
+  if (!options.picture.empty()) write_file(options.picture, arm_picture(robot, q));
   if (options.json) {
     fmt::print("{}\n", pose_json(robot, q, flange, warnings));
     return ExitCode::done;
@@ -243,6 +246,7 @@ ExitCode run(const ShowOptions& options) {
   print_joints(robot);
   print_table(robot);
   print_pose(robot, q, flange);
+  if (!options.picture.empty()) fmt::print("\nDrawn in {}\n", options.picture);
   return ExitCode::done;
 }
 
@@ -269,6 +273,8 @@ void add_show(CLI::App& robot, ExitCode& exit_code) {
                    "POSES.csv: joints and the positions that the controller shows for them; what of the description "
                    "does not fit is named, and the exit code is 12")
       ->excludes("--at");
+  command->add_option("--picture", options->picture, "FILE.svg: the arm there, from four sides and to scale")
+      ->excludes("--compare");
   command->add_flag("--json", options->json, "one line of JSON: the pose, or the comparison");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

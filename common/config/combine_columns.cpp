@@ -16,8 +16,8 @@ namespace {
 using GroupOfColumns = std::vector<ColumnName> ColumnMap::*;
 using SingleColumn = std::optional<ColumnName> ColumnMap::*;
 
-constexpr GroupOfColumns kGroups[] = {&ColumnMap::joints, &ColumnMap::position, &ColumnMap::orientation,
-                                      &ColumnMap::distances, &ColumnMap::approach};
+constexpr GroupOfColumns kGroups[] = {&ColumnMap::joints, &ColumnMap::position,  &ColumnMap::orientation,
+                                      &ColumnMap::sigma,  &ColumnMap::distances, &ColumnMap::approach};
 constexpr SingleColumn kSingles[] = {&ColumnMap::payload, &ColumnMap::temperature, &ColumnMap::time,   &ColumnMap::set,
                                      &ColumnMap::pose,    &ColumnMap::target,      &ColumnMap::contact};
 

@@ -22,8 +22,9 @@ constexpr const char* kSquare = "square";
 /// The names that the poses use.
 std::vector<std::string> contact_names(const DataSet& data) {
   std::set<std::string> names;
-  for (const MeasuredPose& pose : data.poses)
-    if (!pose.contact.empty()) names.insert(pose.contact);
+  for (const auto* poses : {&data.poses, &data.excluded})
+    for (const MeasuredPose& pose : *poses)
+      if (!pose.contact.empty()) names.insert(pose.contact);
   return {names.begin(), names.end()};
 }
 
@@ -35,6 +36,8 @@ class ContactsReader {
     node.with_keys({kKinds, kRadii, kDistances, kParallel, kSquare});
     for (const YamlNode& kind : named_values(node.find(kKinds))) {
       require_contact(kind, kind.name);
+      if (data_.contacts.forms.contains(kind.name))
+        kind.fail(kind.name, "is where a wire ends: it is no other kind of contact");
       data_.contacts.forms[kind.name].kind = kind_of(kind);
     }
     for (const YamlNode& radius : named_values(node.find(kRadii))) {
@@ -129,14 +132,17 @@ std::string angles_text(const Contacts& contacts, bool square) {
 
 void read_contacts(const YamlNode* node, const ColumnMap& columns, DataSet& data) {
   if (!node) return;
-  if (!columns.contact) node->fail("", "needs a column that says which contact each pose touches: columns.contact");
+  if (!columns.contact && !has_contacts(data))
+    node->fail("", "needs a column that says which contact each pose touches: columns.contact");
   ContactsReader(data).read(*node);
-  for (MeasuredPose& pose : data.poses) pose.contact_kind = data.contacts.form_of(pose.contact).kind;
+  for (auto* poses : {&data.poses, &data.excluded})
+    for (MeasuredPose& pose : *poses) pose.contact_kind = data.contacts.form_of(pose.contact).kind;
 }
 
 std::string contacts_text(const Contacts& contacts) {
   std::string kinds, radii;
   for (const auto& [name, form] : contacts.forms) {
+    if (form.radius_m == 0.0) continue;  // a wire's end, which its column says
     kinds += "    " + yaml_text(name) + ": " + std::string(to_string(form.kind)) + "\n";
     if (form.radius_m)
       radii += "    " + yaml_text(name) + ": " + number_text(*form.radius_m, millimetres, metres) + "\n";

@@ -84,6 +84,7 @@ std::string columns_text(const GivenTable& given, const std::string& indent) {
   };
   list("joints", columns.joints);
   list("position", columns.position);
+  if (!columns.position.empty()) list("sigma", columns.sigma);
   list("orientation", columns.orientation);
   list("approach", columns.approach);
   single("payload", columns.payload);
@@ -91,6 +92,7 @@ std::string columns_text(const GivenTable& given, const std::string& indent) {
   single("time", columns.time);
   single("set", columns.set);
   single("pose", columns.name);
+  single("contact", columns.contact);
   return text.str();
 }
 
@@ -179,18 +181,25 @@ void require(const std::vector<GivenTable>& tables, bool found, const std::strin
 }  // namespace
 
 std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::path>& files, std::size_t joints,
-                                          const ToldLayout& told) {
+                                          const ToldLayout& told, const std::vector<std::string>& joint_names) {
   std::vector<GivenTable> tables;
   for (const std::filesystem::path& path : files) {
     GivenTable& given = tables.emplace_back(GivenTable{path, read_table(read_file(path), path.string(), told), {}});
     const std::size_t count = joints > 0 ? joints : count_joint_columns(given.read.table);
-    given.columns = guess_columns(given.read.table, count, {});
+    given.columns = guess_columns(given.read.table, count, joint_names);
   }
   return tables;
 }
 
+std::vector<std::string> joint_names(const Robot& robot) {
+  std::vector<std::string> names;
+  if (!robot.drawing) return names;
+  for (const DrawnJoint& joint : robot.drawing->joints) names.push_back(joint.name);
+  return std::ranges::count(names, std::string()) > 0 ? std::vector<std::string>{} : names;
+}
+
 DataSet read_pendant_poses(const std::filesystem::path& path, const Robot& robot) {
-  const GivenTable given = read_given_tables({path}, robot.chain.joints.size(), {}).front();
+  const GivenTable given = read_given_tables({path}, robot.chain.joints.size(), {}, joint_names(robot)).front();
   const CsvTable& table = given.read.table;
   const auto named = [&](const std::vector<std::size_t>& group) {
     std::vector<ColumnName> names;
@@ -229,10 +238,11 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
           "no columns are called as the " + std::to_string(joints) +
               " joints may be (q1 ..., j1 ..., joint_1 ..., A1 ...): rename them, or name them in a data set by hand "
               "(`demecal template dataset`)");
-  require(tables, any(&GuessedColumns::position) || any(&GuessedColumns::orientation),
-          "no columns are called as measured points may be (x, y, z; X [mm] ...): rename them, or name them in a data "
-          "set by hand "
-          "(`demecal template dataset`)");
+  const bool touched =
+      std::ranges::any_of(tables, [](const GivenTable& given) { return given.columns.contact.has_value(); });
+  require(tables, any(&GuessedColumns::position) || any(&GuessedColumns::orientation) || touched,
+          "no columns are called as measured points may be (x, y, z; X [mm] ...), nor any as what the tool touches "
+          "(contact): rename them, or name them in a data set by hand (`demecal template dataset`)");
   std::string body =
       "demecal_dataset: 1\nname: " + yaml_text(folder.filename().empty() ? "measurement" : folder.filename().string()) +
       "\nrobot: " + yaml_text(robot) + "\n";
@@ -256,7 +266,12 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
       assumed.push_back(unit->sentence);
     }
   }
-  assumed.push_back("positions are in the instrument's own frame: set `frame: base` if they are in the robot's");
+  if (any(&GuessedColumns::position))
+    assumed.push_back("positions are in the instrument's own frame: set `frame: base` if they are in the robot's");
+  if (touched)
+    assumed.push_back(
+        "equal words under contact are one point each that the tool touches; say under `contacts` what else is known "
+        "of them");
   std::vector<DataSetDraft> drafts;
   for (const JoinDraft& join : possible_joins(tables)) {
     DataSetDraft draft{body + join.yaml, assumed};

@@ -20,9 +20,12 @@ struct GivenTable {
   GuessedColumns columns;
 };
 
-/// `joints`: how many the arm has; 0: as many as a table seems to have.
+/// `joints`: how many the arm has; 0: as many as a table seems to have. `joint_names`: what a URDF calls them.
 std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::path>& files, std::size_t joints,
-                                          const ToldLayout& told);
+                                          const ToldLayout& told, const std::vector<std::string>& joint_names = {});
+
+/// As the arm's file names its joints; empty where it does not.
+std::vector<std::string> joint_names(const Robot& robot);
 
 /// A data set's text, and what it takes for granted, a sentence each.
 struct DataSetDraft {

@@ -41,6 +41,16 @@ void require_anchors(const YamlNode& root, const ColumnMap& columns) {
                    "is a distance, but anchors_mm is missing: the fixed points of the distances, or `unknown`");
 }
 
+/// Where the instrument stands is known in its own frame alone.
+void require_instrument_of_angles(const DataSet& data, const PosesOfFiles& read) {
+  const ColumnMap& columns = read.columns;
+  if (data.frame == Frame::sensor || !read.sigma_by_angles) return;
+  throw InputError(
+      columns.sigma[1].where, columns.sigma[1].name,
+      "is an instrument's angle, but positions are in the robot's base frame, where its place is not known: "
+      "give `frame: sensor`, or the uncertainties along x, y and z");
+}
+
 std::map<std::string, Eigen::Vector3d> read_tools(const YamlNode* node) {
   std::map<std::string, Eigen::Vector3d> tools_m;
   if (!node) return tools_m;
@@ -131,24 +141,28 @@ DescribedDataSet load_described_data_set(const std::filesystem::path& path) {
   data.file = std::move(read.file);
   data.sha256 = std::move(read.sha256);
   data.poses = std::move(read.poses);
-  read_contacts(root.find("contacts"), read.columns, data);
   if (!read.columns.set) {
     RandomStream random{split.seed};
     split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
   }
   exclude(root.find("exclude"), data);
+  require_instrument_of_angles(data, read);
+  weigh_by_stated_uncertainty(data);
+  if (data.anchors_unknown) take_wires_for_contacts(data);
+  read_contacts(root.find("contacts"), read.columns, data);
   if (const YamlNode* certificate = root.find("certificate")) read_certificate(*certificate);
   return {std::move(data), std::move(read.recognised)};
 }
 
 ColumnMap read_column_map(const YamlNode& node, ColumnsOf of) {
-  node.with_keys({"joints", "position", "orientation", "distances", "approach", "payload", "temperature", "time", "set",
-                  "pose", "target", "contact"});
+  node.with_keys({"joints", "position", "orientation", "sigma", "distances", "approach", "payload", "temperature",
+                  "time", "set", "pose", "target", "contact"});
   ColumnMap map;
   map.where = {node.file, node.line};
   map.joints = read_columns(of == ColumnsOf::all ? &node.at("joints") : node.find("joints"));
   map.position = read_columns(node.find("position"));
   map.orientation = read_columns(node.find("orientation"));
+  map.sigma = read_columns(node.find("sigma"));
   map.distances = read_columns(node.find("distances"));
   map.approach = read_columns(node.find("approach"));
   map.payload = read_single(node.find("payload"));

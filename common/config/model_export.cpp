@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -142,6 +143,18 @@ ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& fil
   if (!robot.chain.couplings.empty())
     exported.notes.emplace_back("couplings between joints are left out: joint values are those of the drives");
   for (std::string& lack : lacks_of_links(model)) exported.notes.push_back(std::move(lack));
+  return exported;
+}
+
+ExportedArm ros2_parameters(const CalibratedModel& model, const std::string& file) {
+  ExportedArm exported = calibrated_urdf(model, file);
+  std::istringstream urdf(exported.text);
+  std::string text = "/**:\n  ros__parameters:\n    robot_description: |2\n";
+  for (std::string line; std::getline(urdf, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    text += line.empty() ? "\n" : "      " + line + "\n";
+  }
+  exported.text = text;
   return exported;
 }
 

@@ -1,4 +1,5 @@
-// A calibrated arm as other programs read it: as a URDF, and as the calibration of Universal Robots' driver.
+// A calibrated arm as other programs read it: as a URDF, as parameters of ROS 2, and as the calibration of Universal
+// Robots' driver.
 #pragma once
 
 #include <string>
@@ -18,6 +19,9 @@ struct ExportedArm {
 /// else changed; `file`, where it is not empty, is where it stands now. A new one where the robot was not imported.
 /// Throws InputError where the file is not the one that was imported.
 ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& file);
+
+/// The same as the parameter `robot_description` of any ROS 2 node, in a parameter file.
+ExportedArm ros2_parameters(const CalibratedModel& model, const std::string& file);
 
 /// The calibration file of Universal Robots' ROS 2 driver: six links' places, by its names. Throws InputError where the
 /// robot is not of their kind.

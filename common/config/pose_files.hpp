@@ -19,6 +19,7 @@ struct PosesOfFiles {
   ColumnMap columns;  ///< of all files together
   std::string file;   ///< whose lines poses are named by
   std::string sha256;
+  bool sigma_by_angles = false;         ///< uncertainties are of an instrument's range and angles
   std::vector<std::string> recognised;  ///< for people
 };
 

@@ -50,11 +50,19 @@ void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t inde
                        "; correct the data, or the limits in the robot file");
 }
 
+void check_sigma(const ColumnMap& columns) {
+  if (columns.sigma.size() != 1) check_count(columns, columns.sigma, 3, "columns.sigma (or one for all axes)");
+  if (!columns.position.empty()) return;
+  throw InputError(columns.sigma.front().where, columns.sigma.front().name,
+                   "is the uncertainty of a position, and columns.position is missing");
+}
+
 }  // namespace
 
 void check_column_map(const ColumnMap& columns, const Chain& chain) {
   check_count(columns, columns.joints, chain.joints.size(), "columns.joints");
   if (!columns.position.empty()) check_count(columns, columns.position, 3, "columns.position");
+  if (!columns.sigma.empty()) check_sigma(columns);
   if (!columns.orientation.empty()) check_count(columns, columns.orientation, 4, "columns.orientation (w, x, y, z)");
   if (!columns.approach.empty()) check_count(columns, columns.approach, chain.joints.size(), "columns.approach");
   check_distinct(columns);

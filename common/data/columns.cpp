@@ -176,7 +176,7 @@ std::string why_no_number(const std::string& text, char decimal) {
 
 std::vector<ColumnName> ColumnMap::all() const {
   std::vector<ColumnName> names;
-  for (const auto* group : {&joints, &position, &orientation, &distances, &approach}) {
+  for (const auto* group : {&joints, &position, &orientation, &sigma, &distances, &approach}) {
     names.insert(names.end(), group->begin(), group->end());
   }
   for (const auto* single : {&payload, &temperature, &time, &set, &pose, &target, &contact}) {
@@ -211,6 +211,14 @@ ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUni
     throw InputError(column.where, column.name, "ends in a unit that is not supported; " + expected_ending(quantity));
   }
   return unit_without_suffix(column, quantity, assumed);
+}
+
+Quantity angle_or_length(const CsvTable& table, const ColumnName& column) {
+  const std::size_t index = index_of(table, column);
+  const bool headed = !table.units.empty() && !table.units[index].empty();
+  const auto unit =
+      headed ? find_heading_unit(table.units[index]) : find_unit(suffix_of(shown_name(table, column, index)));
+  return unit && unit->quantity == Quantity::angle ? Quantity::angle : Quantity::length;
 }
 
 TableColumn::TableColumn(const CsvTable& table, const ColumnName& name, UnitConversion to_inside)

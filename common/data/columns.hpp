@@ -26,6 +26,7 @@ struct ColumnMap {
   std::vector<ColumnName> joints;       ///< one per joint
   std::vector<ColumnName> position;     ///< x, y, z, or none
   std::vector<ColumnName> orientation;  ///< w, x, y, z of a unit quaternion, or none
+  std::vector<ColumnName> sigma;  ///< of the position: one for all axes, x, y, z, or range and two angles; or none
   std::vector<ColumnName> distances;
   std::vector<ColumnName> approach;  ///< one per joint, or none
   std::optional<ColumnName> payload, temperature, time, set, pose, target, contact;
@@ -60,6 +61,9 @@ struct AssumedUnits {
 /// and times have one unit each and need none in the name. Throws InputError where an angle or length has no unit, or
 /// where the name ends in a unit of something else or one that is not supported.
 ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUnits& assumed);
+
+/// Angle where the column's name or its heading gives a unit of that, else length.
+Quantity angle_or_length(const CsvTable& table, const ColumnName& column);
 
 /// A column found in a table.
 class TableColumn {

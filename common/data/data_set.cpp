@@ -1,5 +1,6 @@
 #include "data/data_set.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "errors/check.hpp"
+#include "errors/input_error.hpp"
 
 namespace demecal::inline data {
 namespace {
@@ -60,6 +62,44 @@ std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& d
   std::vector<std::size_t> all(data.poses.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   return contact_groups(data, all);
+}
+
+void take_wires_for_contacts(DataSet& data) {
+  std::vector<MeasuredPose> rows;
+  for (const MeasuredPose& pose : data.poses) {
+    const std::size_t wires = pose.distances_m.size();
+    if (wires > 0 && !pose.contact.empty())
+      throw InputError(
+          {data.file, pose.line}, pose.contact,
+          "is touched while wires from anchors that nobody knows are measured: give each a row of its own");
+    for (std::size_t i = 0; i < std::max(wires, std::size_t{1}); ++i) {
+      MeasuredPose& row = rows.emplace_back(pose);
+      row.distances_m.clear();
+      if (wires == 0) continue;
+      row.contact = "anchor " + std::to_string(i + 1);
+      row.contact_kind = ContactKind::sphere;
+      row.contact_length_m = pose.distances_m[i];
+      data.contacts.forms[row.contact] = {ContactKind::sphere, 0.0};
+      if (wires > 1) row.pose_id += " wire " + std::to_string(i + 1);
+      if (i > 0) row.position_m.reset(), row.orientation.reset();
+    }
+  }
+  data.poses = std::move(rows);
+}
+
+void weigh_by_stated_uncertainty(DataSet& data) {
+  std::vector<double> sigmas_m;
+  for (const MeasuredPose& pose : data.poses)
+    if (pose.position_covariance_m2) sigmas_m.push_back(std::sqrt(pose.position_covariance_m2->trace() / 3.0));
+  if (sigmas_m.empty()) return;
+  const auto middle = sigmas_m.begin() + static_cast<std::ptrdiff_t>(sigmas_m.size() / 2);
+  std::ranges::nth_element(sigmas_m, middle);
+  data.usual_sigma_m = *middle;
+  for (MeasuredPose& pose : data.poses) {
+    if (!pose.position_covariance_m2) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(*pose.position_covariance_m2);
+    pose.position_whitening = data.usual_sigma_m * own.operatorInverseSqrt();
+  }
 }
 
 bool has_contacts(const DataSet& data) {

@@ -33,6 +33,10 @@ struct MeasuredPose {
   std::optional<Eigen::Vector3d> position_m;      ///< measured tool point
   std::optional<Eigen::Quaterniond> orientation;  ///< measured, unit
   std::vector<double> distances_m;                ///< measured from fixed points, in the order of DataSet::anchors
+  std::optional<Eigen::Matrix3d> position_covariance_m2{};  ///< as stated, in the position's own axes
+  /// What differences of the position are multiplied by (symmetric) to count as those of a pose as sure as usual;
+  /// nothing: it is one.
+  std::optional<Eigen::Matrix3d> position_whitening{};
   std::optional<ApproachSigns> approach;
   std::optional<double> payload_kg;
   std::optional<double> temperature_celsius;
@@ -42,6 +46,7 @@ struct MeasuredPose {
   std::string target;                             ///< which point on the tool; empty: the robot's own tool
   std::string contact{};                          ///< what the tool touches; empty: nothing
   ContactKind contact_kind = ContactKind::point;  ///< that of DataSet::contacts
+  double contact_length_m = 0.0;                  ///< of the wire between tool and contact; 0 where it is none
   std::string station{};                          ///< where it was measured from; empty: the first, or only one
   std::size_t line = 0;                           ///< where it stands in its file
 };
@@ -91,6 +96,7 @@ struct DataSet {
   std::map<std::string, Eigen::Vector3d> tools_m;  ///< nominal tool point of each target; empty: the robot's tool
   std::vector<Eigen::Vector3d> anchors_m;          ///< known fixed points of the distances
   bool anchors_unknown = false;
+  double usual_sigma_m = 0.0;       ///< of a position's coordinate, by what is stated (median); 0: nothing is
   Contacts contacts{};              ///< what is known of the contacts that the poses name
   std::vector<Station> stations{};  ///< further ones; empty: all was measured from one place
   std::string file;                 ///< of the poses, as named to the user
@@ -117,6 +123,14 @@ inline ContactGroup group_of(const MeasuredPose& pose) {
 std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& data,
                                                                 std::span<const std::size_t> poses);
 std::map<ContactGroup, std::vector<std::size_t>> contact_groups(const DataSet& data);
+
+/// Takes wires from fixed points that nobody knows for contacts ("anchor 1" ...): a pose with several becomes a row for
+/// each, "id wire 1" ... Throws InputError where such a pose touches something else.
+void take_wires_for_contacts(DataSet& data);
+
+/// Settles what the stated covariances of positions make of each, against the median over the set. Poses without one
+/// count as usual.
+void weigh_by_stated_uncertainty(DataSet& data);
 
 /// Whether any of the poses touches something; whether any was measured by something with a place of its own, so that
 /// it can be told where the base stands.

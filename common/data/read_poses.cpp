@@ -22,7 +22,8 @@ using TableColumns = std::vector<TableColumn>;
 
 /// The columns of a data set, found in its table.
 struct PoseColumns {
-  TableColumns joints, position, orientation, distances, approach;
+  TableColumns joints, position, orientation, sigma, distances, approach;
+  bool sigma_by_angles = false;
   std::optional<TableColumn> payload, temperature, time, set, pose, target, contact;
 };
 
@@ -56,12 +57,27 @@ std::optional<TableColumn> find_one(const Tables& tables, const std::optional<Co
   return TableColumn(tables[name->table], *name, rest...);
 }
 
+TableColumns find_sigma(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, bool by_angles) {
+  TableColumns columns;
+  for (const ColumnName& name : map.sigma)
+    columns.emplace_back(tables[name.table], name, by_angles && !columns.empty() ? Quantity::angle : Quantity::length,
+                         units);
+  return columns;
+}
+
+bool by_range_and_angles(const Tables& tables, const ColumnMap& map) {
+  return map.sigma.size() == 3 && angle_or_length(tables[map.sigma[1].table], map.sigma[1]) == Quantity::angle;
+}
+
 PoseColumns find_columns(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+  const bool by_angles = by_range_and_angles(tables, map);
   return {.joints = find_joints(tables, map, units, chain),
           .position = find_all(tables, map.position, Quantity::length, units),
           .orientation = find_all(tables, map.orientation),
+          .sigma = find_sigma(tables, map, units, by_angles),
           .distances = find_all(tables, map.distances, Quantity::length, units),
           .approach = find_all(tables, map.approach),
+          .sigma_by_angles = by_angles,
           .payload = find_one(tables, map.payload, Quantity::mass, units),
           .temperature = find_one(tables, map.temperature, Quantity::temperature, units),
           .time = find_one(tables, map.time, Quantity::time, units),
@@ -104,6 +120,34 @@ Eigen::Quaterniond read_orientation(const TableColumns& columns, const PoseRows&
                                    "; an orientation must be a unit quaternion w, x, y, z");
   }
   return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
+}
+
+/// The axes along which an instrument at the origin measures a point: its range, and across to the side and upwards.
+Eigen::Matrix3d instrument_axes(const Eigen::Vector3d& point_m) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = point_m.normalized();
+  axes.col(1) = Eigen::Vector3d::UnitZ().cross(point_m).stableNormalized();
+  if (axes.col(1).isZero(0.0)) axes.col(1) = Eigen::Vector3d::UnitX();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
+/// Columns of sigma: one for all axes, x, y, z, or range and the angles about the vertical and of elevation.
+Eigen::Matrix3d read_covariance(const PoseColumns& columns, const PoseRows& rows, const Eigen::Vector3d& position_m) {
+  constexpr double kLeast_m = 1e-9;  ///< beside the pole an angle about it says everything
+  Eigen::Vector3d sigma;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const TableColumn& column = columns.sigma[columns.sigma.size() == 1 ? 0 : static_cast<std::size_t>(axis)];
+    sigma[axis] = rows.number(column);
+    if (!(sigma[axis] > 0.0)) rows.fail(column, "must be above 0: it is a standard uncertainty");
+  }
+  if (!columns.sigma_by_angles) return sigma.cwiseAbs2().asDiagonal();
+  if (!(position_m.norm() > kLeast_m))
+    rows.fail(columns.sigma[0], "is of a point at the instrument itself, which has no direction");
+  sigma[1] *= position_m.head<2>().norm();
+  sigma[2] *= position_m.norm();
+  const Eigen::Matrix3d axes = instrument_axes(position_m);
+  return axes * sigma.cwiseMax(kLeast_m).cwiseAbs2().asDiagonal() * axes.transpose();
 }
 
 ApproachSigns read_approach(const TableColumns& columns, const PoseRows& rows) {
@@ -152,6 +196,8 @@ void read_measured(const PoseColumns& columns, const PoseRows& rows, MeasuredPos
     return !some.empty() && (pose.contact.empty() || !all_empty(some, rows));
   };
   if (given(columns.position)) pose.position_m = read_vector<Eigen::Vector3d>(columns.position, rows);
+  if (pose.position_m && !columns.sigma.empty())
+    pose.position_covariance_m2 = read_covariance(columns, rows, *pose.position_m);
   if (given(columns.orientation)) pose.orientation = read_orientation(columns.orientation, rows);
   if (given(columns.distances)) pose.distances_m = read_distances(columns.distances, rows);
 }
@@ -194,6 +240,10 @@ JoinedTables alone(CsvTable table) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) joined.rows.push_back({row});
   joined.tables.push_back(std::move(table));
   return joined;
+}
+
+bool states_range_and_angles(const JoinedTables& tables, const ColumnMap& columns) {
+  return by_range_and_angles(tables.tables, columns);
 }
 
 std::vector<MeasuredPose> read_poses(const JoinedTables& joined, const ColumnMap& columns, const AssumedUnits& units,

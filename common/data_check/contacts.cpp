@@ -89,13 +89,12 @@ class ContactSearch {
  public:
   ContactSearch(const DataSet& data, const CorrectedRobot& robot) : data_(data), groups_(contact_groups(data)) {
     for (const MeasuredPose& pose : data.poses)
-      points_.push_back(pose.contact.empty() ? Eigen::Vector3d::Zero()
-                                             : Eigen::Vector3d(robot.predict(Stop(pose), pose.target).translation()));
+      touches_.push_back(pose.contact.empty() ? Touch{Eigen::Vector3d::Zero()} : touch_of(robot, pose));
     std::vector<double> errors_m;
     for (const auto& [group, members] : groups_) {
       if (members.size() < 2) continue;
       const ContactPlace place = place_without(group, std::nullopt);
-      for (const std::size_t pose : members) errors_m.push_back(contact_residual(place, points_[pose]).norm());
+      for (const std::size_t pose : members) errors_m.push_back(contact_residual(place, touches_[pose]).norm());
     }
     if (!errors_m.empty()) far_m_ = std::max(kLeast_m, kFar * median(errors_m) / normal_length_quantile(3, 0.5));
   }
@@ -118,24 +117,24 @@ class ContactSearch {
  private:
   /// Where the group's poses but one have the contact; of points the median along each axis, which few cannot move.
   ContactPlace place_without(const ContactGroup& group, std::optional<std::size_t> without) const {
-    std::vector<Eigen::Vector3d> points;
+    std::vector<Touch> touches;
     for (const std::size_t pose : groups_.at(group)) {
       const bool out = std::ranges::find(left_out_, pose) != left_out_.end() || pose == without;
-      if (!out) points.push_back(points_[pose]);
+      if (!out) touches.push_back(touches_[pose]);
     }
-    if (points.empty()) points.push_back(points_[groups_.at(group).front()]);
-    ContactPlace place = contact_place(data_.contacts.form_of(group.contact), points);
+    if (touches.empty()) touches.push_back(touches_[groups_.at(group).front()]);
+    ContactPlace place = contact_place(data_.contacts.form_of(group.contact), touches);
     if (place.kind != ContactKind::point) return place;
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> along;
-      for (const Eigen::Vector3d& point : points) along.push_back(point[axis]);
+      for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
       place.frame.translation()[axis] = median(along);
     }
     return place;
   }
 
   double error_at(const ContactGroup& group, std::size_t pose) const {
-    return contact_residual(place_without(group, pose), points_[pose]).norm();
+    return contact_residual(place_without(group, pose), touches_[pose]).norm();
   }
 
   /// Of the poses that lie far from their own contact and at another one, the one that gains most.
@@ -150,7 +149,7 @@ class ContactSearch {
         for (const auto& [other, others] : groups_) {
           if (other == group || data_.poses[others.front()].contact_kind != ContactKind::point) continue;
           if (other.contact == group.contact) continue;
-          const double elsewhere_m = contact_residual(place_without(other, std::nullopt), points_[pose]).norm();
+          const double elsewhere_m = contact_residual(place_without(other, std::nullopt), touches_[pose]).norm();
           if (elsewhere_m > kThere * error_m) continue;
           if (!worst || error_m - elsewhere_m > worst->error_m - worst->elsewhere_m)
             worst = WrongPose{pose, other.contact, error_m, elsewhere_m};
@@ -186,7 +185,7 @@ class ContactSearch {
 
   const DataSet& data_;
   std::map<ContactGroup, std::vector<std::size_t>> groups_;
-  std::vector<Eigen::Vector3d> points_;
+  std::vector<Touch> touches_;
   std::vector<std::size_t> left_out_;
   double far_m_ = std::numeric_limits<double>::infinity();
 };

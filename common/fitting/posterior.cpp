@@ -64,13 +64,13 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior,
 double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot, const DataSet& data,
                          const MeasuredPose& pose) {
   std::vector<const MeasuredPose*> group;
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Touch> touches;
   for (const MeasuredPose& other : data.poses) {
     if (other.contact.empty() || group_of(other) != group_of(pose)) continue;
     group.push_back(&other);
-    points.push_back(robot.predict(Stop(other), other.target).translation());
+    touches.push_back(touch_of(robot, other));
   }
-  const ContactPlace place = contact_place(data.contacts.form_of(pose.contact), points);
+  const ContactPlace place = contact_place(data.contacts.form_of(pose.contact), touches);
   const std::vector<int> motions = motions_of(place);
   const int count = rows_of(place.kind);
   Eigen::MatrixXd spread(count * std::ssize(group), posterior.factor.cols());
@@ -79,12 +79,12 @@ double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Eigen::Index first = count * static_cast<Eigen::Index>(i);
     if (group[i] == &pose) own = first;
-    const auto rows = contact_jacobian(place, points[i]);
+    const auto rows = contact_jacobian(place, touches[i].point_m);
     spread.middleRows(first, count) =
         rows * pose_spread(posterior, robot, Stop(*group[i]), group[i]->target).topRows<3>();
     for (std::size_t k = 0; k < motions.size(); ++k)
       moved.block(first, static_cast<Eigen::Index>(k), count, 1) =
-          rows * equivalent_motion(place, motions[k], Eigen::Vector3d::Zero(), points[i]);
+          rows * equivalent_motion(place, motions[k], Eigen::Vector3d::Zero(), touches[i].point_m);
   }
   spread -= moved * moved.completeOrthogonalDecomposition().solve(spread).eval();
   return spread.middleRows(own, count).squaredNorm();

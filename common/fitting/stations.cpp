@@ -66,6 +66,10 @@ void bring(MeasuredPose& pose, const Station& station, StationTools tools) {
   pose.pose_id = station.name + '/' + pose.pose_id;
   if (tools == StationTools::own) pose.target = target_at_station(station.name, pose.target);
   if (pose.position_m) pose.position_m = station.first_from_own * *pose.position_m;
+  if (pose.position_covariance_m2) {
+    const Eigen::Matrix3d turn = station.first_from_own.linear();
+    pose.position_covariance_m2 = (turn * *pose.position_covariance_m2 * turn.transpose()).eval();
+  }
   if (pose.orientation) pose.orientation = Eigen::Quaterniond(station.first_from_own.linear()) * *pose.orientation;
 }
 
@@ -139,6 +143,7 @@ DataSet joined_stations(std::vector<DataSet> sets, StationTools tools) {
     joined.stations.push_back(station);
   }
   settle_times(joined.poses);
+  weigh_by_stated_uncertainty(joined);
   return joined;
 }
 

@@ -13,6 +13,7 @@
 #include "planning/assumptions.hpp"
 #include "planning/candidates.hpp"
 #include "planning/exchange.hpp"
+#include "planning/refinement.hpp"
 #include "random/random_purpose.hpp"
 
 namespace demecal::inline planning {
@@ -71,9 +72,12 @@ class Planning {
     if (request_.measured) known = model_.information_of(*request_.measured);
     const Design empty(stacked_rows(model_, candidates_), model_.rows_per_pose(), known, workspace.weight());
     const Design design = request_.accuracy_m ? smallest_reaching(empty) : of_size(empty, most_);
-    take(design, workspace);
-    draw_curve(empty, workspace, design.chosen().size());
-    set_stops(design);
+    std::vector<PlannedPose> chosen;
+    for (const std::size_t i : design.chosen()) chosen.push_back(candidates_[i]);
+    const RefinedPoses refined_poses = refined(model_, space_, std::move(chosen), known, workspace.weight(), stream(5));
+    take(refined_poses, workspace);
+    draw_curve(empty, workspace, refined_poses.poses.size());
+    set_stops(refined_poses.poses);
     describe_assumptions(request_, space_, model_, plan_);
     return std::move(plan_);
   }
@@ -139,13 +143,11 @@ class Planning {
     return best;
   }
 
-  void take(const Design& design, const Workspace& workspace) {
+  void take(const RefinedPoses& refined_poses, const Workspace& workspace) {
     plan_.noise_m = model_.model().noise_m;
     plan_.effects = model_.model().effects;
-    plan_.predicted = workspace.predicted(design.covariance());
-    std::vector<PlannedPose> poses;
-    for (const std::size_t i : design.chosen()) poses.push_back(candidates_[i]);
-    describe_numbers(model_, poses, design.covariance(), plan_);
+    plan_.predicted = workspace.predicted(refined_poses.covariance);
+    describe_numbers(model_, refined_poses.poses, refined_poses.covariance, plan_);
   }
 
   void draw_curve(const Design& empty, const Workspace& workspace, std::size_t chosen) {
@@ -178,9 +180,9 @@ class Planning {
     }
   }
 
-  void set_stops(const Design& design) {
+  void set_stops(const std::vector<PlannedPose>& chosen) {
     std::vector<PlannedStop> stops;
-    for (const std::size_t i : design.chosen()) stops.push_back({{}, PoseSet::calibration, candidates_[i]});
+    for (const PlannedPose& pose : chosen) stops.push_back({{}, PoseSet::calibration, pose});
     const int calibration = static_cast<int>(stops.size());
     std::size_t next = 0;
     for (int i = 0; i < judging(request_.validation, calibration); ++i)

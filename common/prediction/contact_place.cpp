@@ -11,18 +11,18 @@
 namespace demecal::inline prediction {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Touches = std::vector<Touch>;
 
-Eigen::Vector3d middle_of(const Points& points) {
+Eigen::Vector3d middle_of(const Touches& touches) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
+  for (const Touch& touch : touches) mean += touch.point_m / static_cast<double>(touches.size());
   return mean;
 }
 
 /// The points' own axes as columns, by ascending extent.
-Eigen::Matrix3d axes_of(const Points& points, const Eigen::Vector3d& middle) {
+Eigen::Matrix3d axes_of(const Touches& touches, const Eigen::Vector3d& middle) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points) spread += (point - middle) * (point - middle).transpose();
+  for (const Touch& touch : touches) spread += (touch.point_m - middle) * (touch.point_m - middle).transpose();
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
 }
 
@@ -31,15 +31,17 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& direction) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction).toRotationMatrix();
 }
 
-/// Centre and radius of the sphere through points, linear in x^2 = 2 c x + (r^2 - c^2); few points give the smallest.
-void fit_sphere(const Points& points, ContactPlace& place) {
+/// Centre and radius of the sphere through points, linear in x^2 - l^2 = 2 c x + (r^2 - c^2), l a wire's length; few
+/// points give the smallest.
+void fit_sphere(const Touches& touches, ContactPlace& place) {
   const Eigen::Vector3d middle = place.frame.translation();
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 4);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(touches.size()), 4);
   Eigen::VectorXd squares(rows.rows());
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const Eigen::Vector3d off = points[static_cast<std::size_t>(i)] - middle;
+    const Touch& touch = touches[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d off = touch.point_m - middle;
     rows.row(i) << 2.0 * off.transpose(), 1.0;
-    squares[i] = off.squaredNorm();
+    squares[i] = off.squaredNorm() - touch.length_m * touch.length_m;
   }
   const Eigen::Vector4d found = rows.completeOrthogonalDecomposition().solve(squares);
   place.frame.translation() = middle + found.head<3>();
@@ -47,17 +49,17 @@ void fit_sphere(const Points& points, ContactPlace& place) {
 }
 
 /// Gauss and Newton's steps from a place nearby.
-void refine_sphere(const Points& points, ContactPlace& place) {
+void refine_sphere(const Touches& touches, ContactPlace& place) {
   constexpr int kSteps = 20;
   const Eigen::Index numbers = place.is_radius_known ? 3 : 4;
-  if (std::ssize(points) < numbers) return;
+  if (std::ssize(touches) < numbers) return;
   for (int step = 0; step < kSteps; ++step) {
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 4);
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(touches.size()), 4);
     Eigen::VectorXd left(rows.rows());
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      const Eigen::Vector3d& point = points[static_cast<std::size_t>(i)];
-      rows.row(i) << -contact_jacobian(place, point), -1.0;
-      left[i] = contact_residual(place, point)[0];
+      const Touch& touch = touches[static_cast<std::size_t>(i)];
+      rows.row(i) << -contact_jacobian(place, touch.point_m), -1.0;
+      left[i] = contact_residual(place, touch)[0];
     }
     const Eigen::VectorXd change = rows.leftCols(numbers).completeOrthogonalDecomposition().solve(left);
     if (!change.allFinite()) return;
@@ -87,15 +89,15 @@ int rows_of(ContactKind kind) {
   return kind == ContactKind::point ? 3 : kind == ContactKind::line ? 2 : 1;
 }
 
-Eigen::VectorXd contact_residual(const ContactPlace& place, const Eigen::Vector3d& point_m) {
-  const Eigen::Vector3d off = place.frame.inverse() * point_m;
+Eigen::VectorXd contact_residual(const ContactPlace& place, const Touch& touch) {
+  const Eigen::Vector3d off = place.frame.inverse() * touch.point_m;
   switch (place.kind) {
     case ContactKind::point:
       return -off;
     case ContactKind::plane:
       return Eigen::VectorXd::Constant(1, -off.z());
     case ContactKind::sphere:
-      return Eigen::VectorXd::Constant(1, place.radius_m - off.norm());
+      return Eigen::VectorXd::Constant(1, place.radius_m + touch.length_m - off.norm());
     case ContactKind::line:
       return -off.head<2>();
   }
@@ -133,18 +135,18 @@ Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Ve
   return reference * left_jacobian(turn).col(motion - 3);
 }
 
-ContactPlace contact_place(const ContactForm& form, const std::vector<Eigen::Vector3d>& points_m) {
+ContactPlace contact_place(const ContactForm& form, const Touches& touches) {
   constexpr double kShortest_m = 1e-9;
   ContactPlace place{form.kind, Eigen::Isometry3d::Identity(), form.radius_m.value_or(0.0), form.radius_m.has_value()};
-  const Eigen::Vector3d middle = middle_of(points_m);
+  const Eigen::Vector3d middle = middle_of(touches);
   place.frame.translation() = middle;
   if (form.kind == ContactKind::plane || form.kind == ContactKind::line) {
-    const Eigen::Vector3d axis = axes_of(points_m, middle).col(form.kind == ContactKind::plane ? 0 : 2);
+    const Eigen::Vector3d axis = axes_of(touches, middle).col(form.kind == ContactKind::plane ? 0 : 2);
     if (axis.norm() > kShortest_m) place.frame.linear() = frame_along(axis);
   }
   if (form.kind == ContactKind::sphere) {
-    fit_sphere(points_m, place);
-    refine_sphere(points_m, place);
+    fit_sphere(touches, place);
+    refine_sphere(touches, place);
   }
   return place;
 }

@@ -19,6 +19,13 @@ struct ContactPlace {
   bool is_radius_known = false;  ///< then it is no number to be found
 };
 
+/// A tool point that touches something. A wire's far end is a sphere of radius 0 about which the point is at the length
+/// that the wire shows.
+struct Touch {
+  Eigen::Vector3d point_m;
+  double length_m = 0.0;
+};
+
 /// The motions that move a place of that kind: 0 to 2 along the frame's axes, 3 to 5 about them, kRadiusMotion.
 inline constexpr int kRadiusMotion = 6;
 std::vector<int> motions_of(const ContactPlace& place);
@@ -27,7 +34,7 @@ std::vector<int> motions_of(const ContactPlace& place);
 int rows_of(ContactKind kind);
 
 /// Where the contact would have the tool point minus where it is, along the frame's axes: rows_of() numbers, m.
-Eigen::VectorXd contact_residual(const ContactPlace& place, const Eigen::Vector3d& point_m);
+Eigen::VectorXd contact_residual(const ContactPlace& place, const Touch& touch);
 
 /// The change of the touched quantities (rows_of() x 3) with a motion of the tool point.
 Eigen::Matrix<double, Eigen::Dynamic, 3> contact_jacobian(const ContactPlace& place, const Eigen::Vector3d& point_m);
@@ -41,6 +48,6 @@ Eigen::Vector3d equivalent_motion(const ContactPlace& place, int motion, const E
 Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Vector3d& turn);
 
 /// The place by least squares of the points that touch it; where there are too few of them, one that they fit.
-ContactPlace contact_place(const ContactForm& form, const std::vector<Eigen::Vector3d>& points_m);
+ContactPlace contact_place(const ContactForm& form, const std::vector<Touch>& touches);
 
 }  // namespace demecal::inline prediction

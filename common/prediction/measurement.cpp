@@ -56,8 +56,9 @@ const Eigen::Isometry3d* station_of(const CorrectedRobot& robot, const MeasuredP
   return found == robot.stations.end() ? nullptr : &found->second;
 }
 
-Eigen::Vector3d tool_point(const CorrectedRobot& robot, const MeasuredPose& pose) {
-  return robot.predict(Stop(pose), pose.target).translation();
+/// How the pose touches its contact, its tool where it is predicted.
+Touch touch_of(const MeasuredPose& pose, const Eigen::Isometry3d& predicted) {
+  return {predicted.translation(), pose.contact_length_m};
 }
 
 std::vector<std::size_t> all_poses(const DataSet& data) {
@@ -84,6 +85,10 @@ Eigen::Matrix3d measured_orientation(const CorrectedRobot& robot, const Measured
   return station == nullptr ? own : Eigen::Matrix3d(station->linear() * own);
 }
 
+Touch touch_of(const CorrectedRobot& robot, const MeasuredPose& pose) {
+  return touch_of(pose, robot.predict(Stop(pose), pose.target));
+}
+
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose) {
   return residual(robot, robot.predict(Stop(pose), pose.target), data, pose);
 }
@@ -92,12 +97,15 @@ Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& p
                          const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
   Eigen::VectorXd result(rows.total());
-  if (pose.position_m) result.head<3>() = measured_point(robot, pose) - predicted.translation();
+  if (pose.position_m) {
+    result.head<3>() = measured_point(robot, pose) - predicted.translation();
+    if (pose.position_whitening) result.head<3>() = (*pose.position_whitening * result.head<3>()).eval();
+  }
   if (rows.contact > 0) {
     const ContactPlace* const place = place_of(robot, pose);
     auto own = result.segment(rows.position, rows.contact);
     own.setZero();
-    if (place != nullptr) own = contact_residual(*place, predicted.translation());
+    if (place != nullptr) own = contact_residual(*place, touch_of(pose, predicted));
   }
   if (pose.orientation) {
     result.segment<3>(rows.points()) = rotation_between(predicted.linear(), measured_orientation(robot, pose));
@@ -111,7 +119,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const CorrectedRob
                                                               const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
   Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(rows.total(), 6);
-  if (pose.position_m) jacobian.topLeftCorner<3, 3>().setIdentity();
+  if (pose.position_m) jacobian.topLeftCorner<3, 3>() = pose.position_whitening.value_or(Eigen::Matrix3d::Identity());
   if (const ContactPlace* const place = rows.contact > 0 ? place_of(robot, pose) : nullptr) {
     jacobian.block(rows.position, 0, rows.contact, 3) = contact_jacobian(*place, predicted.translation());
   }
@@ -125,9 +133,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const CorrectedRob
 
 CorrectedRobot with_own_contacts(CorrectedRobot robot, const DataSet& data, std::span<const std::size_t> poses) {
   for (const auto& [group, members] : contact_groups(data, poses)) {
-    std::vector<Eigen::Vector3d> points;
-    for (const std::size_t pose : members) points.push_back(tool_point(robot, data.poses[pose]));
-    robot.contacts[group] = contact_place(data.contacts.form_of(group.contact), points);
+    std::vector<Touch> touches;
+    for (const std::size_t pose : members) touches.push_back(touch_of(robot, data.poses[pose]));
+    robot.contacts[group] = contact_place(data.contacts.form_of(group.contact), touches);
   }
   return robot;
 }
@@ -158,14 +166,14 @@ std::vector<double> tool_errors_m(const CorrectedRobot& robot, const DataSet& da
 std::vector<double> tool_errors_m(const CorrectedRobot& robot, const std::vector<Eigen::Isometry3d>& predicted,
                                   const DataSet& data, std::span<const std::size_t> poses) {
   DEMECAL_CHECK(predicted.size() == poses.size(), predicted.size() << " predictions of " << poses.size() << " poses");
-  std::map<ContactGroup, std::vector<Eigen::Vector3d>> points;
+  std::map<ContactGroup, std::vector<Touch>> touches;
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (!data.poses[poses[i]].contact.empty())
-      points[group_of(data.poses[poses[i]])].push_back(predicted[i].translation());
+      touches[group_of(data.poses[poses[i]])].push_back(touch_of(data.poses[poses[i]], predicted[i]));
   CorrectedRobot placed;
   placed.stations = robot.stations;
-  if (points.empty()) placed.contacts = robot.contacts;
-  for (const auto& [group, touched] : points)
+  if (touches.empty()) placed.contacts = robot.contacts;
+  for (const auto& [group, touched] : touches)
     placed.contacts[group] = contact_place(data.contacts.form_of(group.contact), touched);
   std::vector<double> errors_m;
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -182,7 +190,7 @@ double tool_error_m(const CorrectedRobot& robot, const Eigen::Isometry3d& predic
   const Eigen::Vector3d point = predicted.translation();
   if (!pose.contact.empty()) {
     const ContactPlace* const place = place_of(robot, pose);
-    return place == nullptr ? kNone : contact_residual(*place, point).norm();
+    return place == nullptr ? kNone : contact_residual(*place, touch_of(pose, predicted)).norm();
   }
   if (pose.position_m) return (measured_point(robot, pose) - point).norm();
   if (pose.distances_m.empty()) return kNone;

@@ -34,17 +34,21 @@ MeasurementRows rows_of(const MeasuredPose& pose);
 Eigen::Vector3d measured_point(const CorrectedRobot& robot, const MeasuredPose& pose);
 Eigen::Matrix3d measured_orientation(const CorrectedRobot& robot, const MeasuredPose& pose);
 
-/// Measured minus predicted, rows as above; the orientation part is the rotation vector from predicted to measured. A
-/// contact that `robot` has no place for says nothing: its rows are zero.
+/// How a pose touches its contact, where the robot has its tool.
+Touch touch_of(const CorrectedRobot& robot, const MeasuredPose& pose);
+
+/// Measured minus predicted, rows as above, those of positions multiplied by the pose's whitening; the orientation part
+/// is the rotation vector from predicted to measured. A contact that `robot` has no place for says nothing: its rows
+/// are zero.
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);
 
 /// The same where the tool's pose is already predicted; of `robot` only the contacts' places count.
 Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& predicted, const DataSet& data,
                          const MeasuredPose& pose);
 
-/// The matrix (rows x 6) that maps a small motion of the tool point (linear m, angular rad, measurements' frame) to the
-/// change of the measured quantities at the predicted pose. A distance's row is zero at its anchor, where it has no
-/// derivative.
+/// The matrix (rows x 6; those of positions whitened as residuals are) that maps a small motion of the tool point
+/// (linear m, angular rad, measurements' frame) to the change of the measured quantities at the predicted pose. A
+/// distance's row is zero at its anchor, where it has no derivative.
 Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const CorrectedRobot& robot,
                                                               const Eigen::Isometry3d& predicted, const DataSet& data,
                                                               const MeasuredPose& pose);

@@ -35,6 +35,13 @@ std::size_t calibration_contacts(const DataSet& data) {
       std::ranges::count_if(groups, [](const auto& group) { return group.first.set == PoseSet::calibration; }));
 }
 
+/// Whether poses hold the tool at a length from something: a wire's, or a sphere's known radius.
+bool shows_lengths(const DataSet& data) {
+  return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
+    return pose.contact_length_m > 0.0 || data.contacts.form_of(pose.contact).radius_m.value_or(0.0) > 0.0;
+  });
+}
+
 }  // namespace
 
 std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
@@ -72,7 +79,7 @@ std::vector<std::string> contact_notes(const DataSet& data) {
   std::vector<std::string> notes;
   const std::size_t lengths = fitted_lengths(data);
   if (!has_instrument(data)) {
-    if (lengths == 0)
+    if (lengths == 0 && !shows_lengths(data))
       notes.emplace_back(
           "No length between contacts is known: the scale of the arm is not measured and stays the description's. Two "
           "contacts at a known distance (contacts.distances) would give it.");

@@ -110,6 +110,7 @@ GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::ve
   guess.set = named.find("set");
   guess.payload = named.first_of({"payload", "payloadkg"});
   guess.temperature = named.first_of({"temperature", "temperaturecelsius", "temp"});
+  guess.contact = named.first_of({"contact", "contactid", "socket"});
   guess.target = named.first_of({"targetid", "target"});
   return guess;
 }

@@ -13,7 +13,7 @@ namespace demecal::inline tables {
 /// Indices of columns; empty, or nothing, where the table has none of the kind.
 struct GuessedColumns {
   std::vector<std::size_t> joints, position, orientation, sigma, approach;
-  std::optional<std::size_t> name, time, set, payload, temperature, target;
+  std::optional<std::size_t> name, time, set, payload, temperature, target, contact;
 };
 
 /// By their headings: joints q1 or j1, joint_1, axis1, A1 ... in a row of `joints`, or `joint_names` themselves; x y z;

@@ -99,5 +99,23 @@ TEST(RealContacts, LoadAsTheyAre) {
   }
 }
 
+TEST_F(ContactFiles, WiresFromUnknownAnchorsAreContactsEachInARowOfItsOwn) {
+  folder_.write("poses.csv", "pose_id,q1_deg,q2_mm,l1_mm,l2_mm\nP1,10,20,900,800\nP2,-80,100,700,600\n");
+  const std::string text =
+      "demecal_dataset: 1\nrobot: robot.yaml\nposes: poses.csv\ncolumns: {joints: [q1_deg, q2_mm], distances: [l1_mm, "
+      "l2_mm], pose: pose_id}\nanchors_mm: unknown\nsplit: {validation_fraction: 0.5}\n";
+  const DataSet data = load_data_set(folder_.write(
+      "dataset.yaml", text + "contacts: {distances: [{between: [anchor 1, anchor 2], mm: 500, sigma_mm: 1}]}\n"));
+  ASSERT_EQ(data.poses.size(), 4u);
+  EXPECT_EQ(data.poses[1].contact, "anchor 2");
+  EXPECT_EQ(data.poses[1].pose_id, "P1 wire 2");
+  EXPECT_DOUBLE_EQ(data.poses[1].contact_length_m, 0.8);
+  EXPECT_EQ(data.poses[0].set, data.poses[1].set);
+  EXPECT_EQ(data.contacts.distances.size(), 1u);
+  EXPECT_THAT(
+      complaint([&] { load_data_set(folder_.write("dataset.yaml", text + "contacts: {kinds: {anchor 1: plane}}\n")); }),
+      HasSubstr("is where a wire ends"));
+}
+
 }  // namespace
 }  // namespace demecal

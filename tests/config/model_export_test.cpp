@@ -134,6 +134,19 @@ TEST(ExportedUrdf, IsANewOneOfArmsThatWereNotImported) {
   }
 }
 
+/// Without returns and what is blank at its end.
+std::string trimmed(std::string text) {
+  std::erase(text, '\r');
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+/// The URDF that a ROS 2 node finds in a parameter file.
+std::string described_in(const std::string& parameters) {
+  const YamlNode file = parse_yaml(parameters, "parameters.yaml");
+  return trimmed(file.at("/**").at("ros__parameters").at("robot_description").text());
+}
+
 TEST(ExportedUrdf, OfEveryPublicFileIsThatFileAgainAndMovesAsItsModel) {
   const std::filesystem::path public_files = std::filesystem::path(DEMECAL_SOURCE_DIR) / "../shared/data/urdf";
   if (!std::filesystem::exists(public_files)) GTEST_SKIP() << "needs " << public_files;
@@ -154,7 +167,9 @@ TEST(ExportedUrdf, OfEveryPublicFileIsThatFileAgainAndMovesAsItsModel) {
     CalibratedModel model = model_of(robot);
     EXPECT_EQ(calibrated_urdf(model, "").text, text.str());
     disturb(model, stream, 1e-4);
-    expect_same_motion(chain_in(calibrated_urdf(model, "").text, robot.urdf->tip), model.robot.chain, stream);
+    const std::string calibrated = calibrated_urdf(model, "").text;
+    expect_same_motion(chain_in(calibrated, robot.urdf->tip), model.robot.chain, stream);
+    EXPECT_EQ(described_in(ros2_parameters(model, "").text), trimmed(calibrated));
     ++files;
   }
   EXPECT_GE(files, 19);

@@ -155,5 +155,36 @@ TEST(ReadPoses, HoldsRepeatsOfAPoseTogether) {
             "poses.csv:3: 'a': is in another set than line 2, which has the same pose id");
 }
 
+TEST(ReadPoses, ReadsUncertaintiesOfCoordinatesOrOfAnInstrument) {
+  ColumnMap map = small_map();
+  map.sigma = columns_named({"s_mm"});
+  const std::string row = "\n90,-45,100,300,400,0,";
+  const auto one = read(kHeading + ",s_mm" + row + "0.1\n", map);
+  EXPECT_LT((*one[0].position_covariance_m2 - 1e-8 * Eigen::Matrix3d::Identity()).norm(), 1e-20);
+  map.sigma = columns_named({"sx_mm", "sy_mm", "sz_m"});
+  const auto axes = read(kHeading + ",sx_mm,sy_mm,sz_m" + row + "0.1,0.2,0.001\n", map);
+  EXPECT_LT((axes[0].position_covariance_m2->diagonal() - Eigen::Vector3d(1e-8, 4e-8, 1e-6)).norm(), 1e-18);
+  map.sigma = columns_named({"range_mm", "azimuth_rad", "elevation_rad"});
+  const auto instrument = read(kHeading + ",range_mm,azimuth_rad,elevation_rad" + row + "0.1,0.0004,0.0006\n", map);
+  const Eigen::Matrix3d& covariance = *instrument[0].position_covariance_m2;
+  const Eigen::Vector3d along(0.6, 0.8, 0.0), across(-0.8, 0.6, 0.0);
+  EXPECT_NEAR(along.dot(covariance * along), 1e-8, 1e-18);
+  EXPECT_NEAR(across.dot(covariance * across), 4e-8, 1e-18);  // 0.5 m away
+  EXPECT_NEAR(covariance(2, 2), 9e-8, 1e-18);
+}
+
+TEST(ReadPoses, RefusesUncertaintiesThatAreNone) {
+  ColumnMap map = small_map();
+  map.sigma = columns_named({"s_mm"});
+  EXPECT_THAT(refusal(kHeading + ",s_mm\n90,-45,100,1,2,3,0\n", map),
+              HasSubstr("must be above 0: it is a standard uncertainty"));
+  map.sigma = columns_named({"s_mm", "t_mm"});
+  EXPECT_THAT(refusal(kHeading + ",s_mm,t_mm\n90,-45,100,1,2,3,1,1\n", map), HasSubstr("columns.sigma"));
+  map.position.clear();
+  map.orientation = columns_named({"x_mm", "y_mm", "z_mm", "q1_deg"});
+  map.sigma = columns_named({"s_mm"});
+  EXPECT_THAT(refusal(kHeading + ",s_mm\n90,-45,100,1,2,3,1\n", map), HasSubstr("is the uncertainty of a position"));
+}
+
 }  // namespace
 }  // namespace demecal

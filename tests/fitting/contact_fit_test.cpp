@@ -177,5 +177,35 @@ TEST(RelationRows, ChangeWithThePlacesAsTheirDerivativesSay) {
   }
 }
 
+TEST(ContactFit, FindsTheArmFromWiresWhoseAnchorsNobodyKnows) {
+  RandomStream stream{9211};
+  KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+  misbuild(arm, stream, {.joint_offset = true, .geometry = true});
+  arm.data.anchors_m = {{1.5, 0.3, -0.2}, {-0.4, 1.6, 0.1}, {0.2, -0.5, 2.0}};
+  measure(arm, stream, {.noise_m = kPlay_m, .position = false}, 80);
+  const KnownArm measured = arm;
+  arm.data.anchors_m.clear();
+  arm.data.anchors_unknown = true;
+  take_wires_for_contacts(arm.data);
+  ASSERT_EQ(arm.data.poses.size(), 240u);
+  EXPECT_FALSE(has_instrument(arm.data));
+  const Fit fit = fit_all(arm, kAll);
+  ASSERT_EQ(fit.status, FitStatus::converged) << fit.sentence;
+  EXPECT_NEAR(fit.sigma_position_m, kPlay_m, 0.2 * kPlay_m);
+  const CorrectedRobot placed = with_own_contacts(fit.robot, arm.data);
+  double between_m = 0.0;  // what no frame changes
+  for (const auto& [first, second] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+    const auto at = [&](int anchor) {
+      return placed.contacts.at({"anchor " + std::to_string(anchor + 1), PoseSet::calibration}).frame.translation();
+    };
+    const double truth_m = (measured.data.anchors_m[static_cast<std::size_t>(first)] -
+                            measured.data.anchors_m[static_cast<std::size_t>(second)])
+                               .norm();
+    between_m = std::max(between_m, std::abs((at(first) - at(second)).norm() - truth_m));
+  }
+  EXPECT_LT(between_m, 1e-3);
+  EXPECT_GT(rms_m(nominal_robot(arm.data), arm.data), 20 * kPlay_m);
+}
+
 }  // namespace
 }  // namespace demecal

@@ -226,5 +226,24 @@ TEST(Fit, RefusesDistancesFromUnknownAnchors) {
   EXPECT_THROW(fit_all(arm, kLinks), InputError);
 }
 
+TEST(Fit, OfPosesThatSayHowSureTheyAreIsNearerToTheTruth) {
+  RandomStream stream{9212};
+  double stated_m = 0.0, alike_m = 0.0;
+  for (int trial = 0; trial < 8; ++trial) {
+    KnownArm arm = perfect_arm(seven_joint_arm(), Frame::sensor);
+    misbuild(arm, stream, {.joint_offset = true, .geometry = true});
+    for (const double noise_m : {2e-5, 4e-4}) {
+      const std::size_t before = arm.data.poses.size();
+      measure(arm, stream, {.noise_m = noise_m}, 40);
+      for (std::size_t i = before; i < arm.data.poses.size(); ++i)
+        arm.data.poses[i].position_covariance_m2 = noise_m * noise_m * Eigen::Matrix3d::Identity();
+    }
+    alike_m += largest_error_m(fit_all(arm, kAll).robot, arm, stream);
+    weigh_by_stated_uncertainty(arm.data);
+    stated_m += largest_error_m(fit_all(arm, kAll).robot, arm, stream);
+  }
+  EXPECT_LT(stated_m, 0.5 * alike_m);
+}
+
 }  // namespace
 }  // namespace demecal

@@ -55,7 +55,7 @@ TEST(ContactPlace, LeavesNothingOfPointsThatTouchIt) {
   for (const ContactKind kind : kKinds) {
     for (int trial = 0; trial < 20; ++trial) {
       const ContactPlace place = random_place(stream, kind);
-      const Eigen::VectorXd left = contact_residual(place, touching(stream, place));
+      const Eigen::VectorXd left = contact_residual(place, {touching(stream, place)});
       ASSERT_EQ(left.size(), rows_of(kind));
       EXPECT_LT(left.norm(), 1e-12);
     }
@@ -74,12 +74,12 @@ TEST(ContactPlace, ChangesWithTheToolAndItselfAsItsDerivativesSay) {
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
       const Eigen::VectorXd change =
-          (contact_residual(place, point - step) - contact_residual(place, point + step)) / (2 * kStep);
+          (contact_residual(place, {point - step}) - contact_residual(place, {point + step})) / (2 * kStep);
       EXPECT_LT((jacobian.col(axis) - change).norm(), 1e-8) << to_string(kind) << axis;
     }
     for (const int motion : motions_of(place)) {
-      const Eigen::VectorXd change = (contact_residual(stepped(reference, turn, motion, kStep), point) -
-                                      contact_residual(stepped(reference, turn, motion, -kStep), point)) /
+      const Eigen::VectorXd change = (contact_residual(stepped(reference, turn, motion, kStep), {point}) -
+                                      contact_residual(stepped(reference, turn, motion, -kStep), {point})) /
                                      (2 * kStep);
       EXPECT_LT((-jacobian * equivalent_motion(place, motion, turn, point) - change).norm(), 1e-7)
           << to_string(kind) << motion;
@@ -91,13 +91,28 @@ TEST(ContactPlace, IsFoundFromPointsThatTouchIt) {
   RandomStream stream{9103};
   for (const ContactKind kind : kKinds) {
     const ContactPlace place = random_place(stream, kind);
-    std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 12; ++i) points.push_back(touching(stream, place));
-    const ContactPlace found = contact_place({kind, {}}, points);
-    for (const Eigen::Vector3d& point : points) EXPECT_LT(contact_residual(found, point).norm(), 1e-9);
+    std::vector<Touch> touches;
+    for (int i = 0; i < 12; ++i) touches.push_back({touching(stream, place)});
+    const ContactPlace found = contact_place({kind, {}}, touches);
+    for (const Touch& touch : touches) EXPECT_LT(contact_residual(found, touch).norm(), 1e-9);
     if (kind == ContactKind::sphere) {
       EXPECT_NEAR(found.radius_m, place.radius_m, 1e-9);
     }
+  }
+}
+
+TEST(ContactPlace, OfAWireIsFoundFromItsLengths) {
+  RandomStream stream{9105};
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::Vector3d anchor = random_point(stream, 1.0);
+    std::vector<Touch> touches;
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Vector3d point = random_point(stream, 0.4);
+      touches.push_back({point, (point - anchor).norm()});
+    }
+    const ContactPlace found = contact_place({ContactKind::sphere, 0.0}, touches);
+    EXPECT_LT((found.frame.translation() - anchor).norm(), 1e-9);
+    EXPECT_NEAR(contact_residual(found, {touches[0].point_m, touches[0].length_m + 1e-3})[0], 1e-3, 1e-9);
   }
 }
 

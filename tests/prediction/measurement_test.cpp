@@ -47,6 +47,30 @@ MeasuredPose measured(const DataSet& data, const JointVector& q, const Eigen::Is
   return pose;
 }
 
+TEST(Residual, OfAPositionCountsByItsStatedCovariance) {
+  RandomStream stream{9106};
+  DataSet data = data_with_anchors();
+  const CorrectedRobot robot = nominal_robot(data);
+  for (int i = 0; i < 9; ++i) {
+    MeasuredPose pose;
+    pose.joints = random_joints(stream, data.robot.chain);
+    pose.position_m = robot.predict(Stop(pose), "").translation() + Eigen::Vector3d(1e-3, -2e-3, 5e-4);
+    const Eigen::Matrix3d turn = random_pose(stream).linear();
+    const Eigen::Vector3d sigma_m(stream.real(1e-5, 1e-4), stream.real(1e-5, 1e-4), stream.real(1e-5, 1e-4));
+    pose.position_covariance_m2 = turn * sigma_m.cwiseAbs2().asDiagonal() * turn.transpose();
+    data.poses.push_back(pose);
+  }
+  weigh_by_stated_uncertainty(data);
+  ASSERT_GT(data.usual_sigma_m, 1e-5);
+  for (const MeasuredPose& pose : data.poses) {
+    const Eigen::Vector3d off = *pose.position_m - robot.predict(Stop(pose), "").translation();
+    const double squares =
+        off.dot(pose.position_covariance_m2->inverse() * off) * data.usual_sigma_m * data.usual_sigma_m;
+    EXPECT_NEAR(residual(robot, data, pose).squaredNorm(), squares, 1e-9 * squares);
+    EXPECT_NEAR(tool_error_m(robot, data, pose), off.norm(), 1e-15);  // figures are plain
+  }
+}
+
 /// Calls `check(stream, position, orientation, distances)` for every combination of quantities.
 template <typename Check>
 void on_all_quantities(std::uint64_t seed, Check check) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "config/draft_data_set.hpp"
 #include "config/input_files.hpp"
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"
@@ -33,12 +34,15 @@ std::string comma_text(double value) {
 }
 
 /// A tracker's text with decimal commas and a log of joints with time stamps of another clock, of an arm whose second
-/// joint is off by a milliradian.
-void write_measurement(const SmallJob& job, const std::string& robot_file, RandomStream& random) {
+/// joint is off by a milliradian. The log names joints by number and gives degrees, or by name and gives radians.
+void write_measurement(const SmallJob& job, const std::string& robot_file, RandomStream& random,
+                       const std::vector<std::string>& names = {}) {
   const Robot robot = load_robot(robot_file);
   std::ofstream tracker(job.path("tracker.txt")), log(job.path("joints.log"));
   tracker << "Survey of a robot\n\nTime [s];X [mm];Y [mm];Z [mm]\n";
-  log << "timestamp\tj1\tj2\tj3\tj4\tj5\tj6\n";
+  log << "timestamp";
+  for (std::size_t j = 0; j < 6; ++j) log << '\t' << (names.empty() ? "j" + std::to_string(j + 1) : names[j]);
+  log << '\n';
   JointVector before = JointVector::Zero(6);
   for (int pose = 0; pose < 40; ++pose) {
     JointVector q(6);
@@ -50,7 +54,10 @@ void write_measurement(const SmallJob& job, const std::string& robot_file, Rando
       const double way = std::min(1.0, row / 12.0), time_s = 3.0 * pose + 0.1 * row;
       log << "10:" << (time_s < 60.0 ? "00" : "01") << ':' << (std::fmod(time_s, 60.0) < 9.95 ? "0" : "")
           << number_text(std::round(10.0 * std::fmod(time_s, 60.0)) / 10.0);
-      for (Eigen::Index j = 0; j < 6; ++j) log << '\t' << number_text(degrees((1.0 - way) * before[j] + way * q[j]));
+      for (Eigen::Index j = 0; j < 6; ++j) {
+        const double angle_rad = (1.0 - way) * before[j] + way * q[j];
+        log << '\t' << number_text(names.empty() ? degrees(angle_rad) : angle_rad);
+      }
       log << '\n';
     }
     JointVector real = q;
@@ -80,6 +87,47 @@ TEST_P(FirstHour, MakesAModelOfFilesOfOtherPrograms) {
   ASSERT_EQ(fitted.code, 0) << fitted.err;
   const Ended evaluated = run("demecal", {"evaluate", job.path("result/model.yaml"), job.path("cell/dataset.yaml")});
   EXPECT_EQ(evaluated.code, 0) << evaluated.err;
+}
+
+class FirstHourWithUrdf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(FirstHourWithUrdf, TakesTheUrdfAsItIsAndALogWithItsJointsNames) {
+  const SmallJob job;
+  RandomStream random{313};
+  const std::string urdf = std::string(DEMECAL_SOURCE_DIR) + "/../shared/data/urdf/" + GetParam() + ".urdf";
+  ASSERT_EQ(run("demecal", {"robot", "import", urdf, "--out", job.path("arm.yaml")}).code, 0);
+  const std::vector<std::string> names = joint_names(load_robot(job.path("arm.yaml")));
+  ASSERT_EQ(names.size(), 6U);
+  write_measurement(job, job.path("arm.yaml"), random, names);
+  const Ended made = run(
+      "demecal", {"new", job.path("cell"), "--urdf", urdf, "--poses", job.path("tracker.txt"), job.path("joints.log")});
+  ASSERT_EQ(made.code, 0) << made.err << made.out;
+  EXPECT_THAT(made.out, HasSubstr("40 poses of"));
+  EXPECT_THAT(made.out, HasSubstr("taken to be rad"));
+  const Ended fitted = run("demecal", {"diagnose", job.path("cell/dataset.yaml"), "--declare",
+                                       "registration,joint_offset", "--max-effects", "0", "--out", job.path("result")});
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfArms, FirstHourWithUrdf, ::testing::Values("ur5", "irb120_3_58", "kr6r900_2"));
+
+TEST(New, TakesContactsAndEitherAnArmsFileOrItsUrdf) {
+  const SmallJob job;
+  std::ofstream(job.path("touched.csv")) << "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,contact\n";
+  const std::string robot = shipped_robot("ur10");
+  std::ofstream table(job.path("touched.csv"), std::ios::app);
+  for (int pose = 0; pose < 12; ++pose)
+    table << 5 * pose << ",-60,80," << -100 + 2 * pose << ",-90," << 3 * pose << (pose < 6 ? ",left\n" : ",right\n");
+  table.close();
+  const Ended made =
+      run("demecal", {"new", job.path("cell"), "--robot", robot, "--poses", job.path("touched.csv"), "--force"});
+  EXPECT_THAT(made.out, HasSubstr("equal words under contact")) << made.err;
+  EXPECT_THAT(job.text("cell/dataset.yaml"), HasSubstr("contact: contact"));
+  EXPECT_EQ(run("demecal", {"new", job.path("other"), "--poses", job.path("touched.csv")}).code, 10);
+  EXPECT_EQ(
+      run("demecal", {"new", job.path("other"), "--robot", robot, "--urdf", robot, "--poses", job.path("touched.csv")})
+          .code,
+      10);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfArms, FirstHour, ::testing::Values("ur10", "puma761", "elbow-offset"));

@@ -1,0 +1,123 @@
+#include "planning/refinement.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "planning/travel.hpp"
+
+namespace demecal::inline planning {
+namespace {
+
+constexpr int kRounds = 8, kTries = 30;
+constexpr double kWidest = 0.25, kNarrowing = 0.7;  ///< of a joint's range: how far tries of a round go
+constexpr double kOneJoint = 0.5;                   ///< share of tries that move a single joint, anywhere
+constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
+constexpr double kLeastGain = 2e-3;                 ///< of a round, over what there was
+
+/// What poses leave unknown, kept up while they change.
+class Knowledge {
+ public:
+  Knowledge(const std::vector<Eigen::MatrixXd>& rows, const Eigen::MatrixXd& known, const Eigen::MatrixXd& weight)
+      : known_(known), weight_(weight) {
+    set(rows);
+  }
+
+  void set(const std::vector<Eigen::MatrixXd>& rows) {
+    const Eigen::Index n = weight_.rows();
+    Eigen::MatrixXd information = known_ + Eigen::MatrixXd::Identity(n, n);
+    for (const Eigen::MatrixXd& own : rows) information.noalias() += own.transpose() * own;
+    covariance_ = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  }
+
+  double square_m2() const { return weight_.cwiseProduct(covariance_).sum(); }
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+
+  void add(const Eigen::MatrixXd& rows) {
+    const Eigen::MatrixXd along = rows * covariance_;
+    Eigen::MatrixXd spread = along * rows.transpose();
+    spread.diagonal().array() += 1.0;
+    covariance_ -= along.transpose() * spread.llt().solve(along);
+  }
+
+  void remove(const Eigen::MatrixXd& rows) {
+    const Eigen::MatrixXd along = rows * covariance_;
+    Eigen::MatrixXd left = -along * rows.transpose();
+    left.diagonal().array() += 1.0;
+    covariance_ += along.transpose() * left.ldlt().solve(along);
+  }
+
+  /// For gain_of() at the present state.
+  void look() { wanted_ = covariance_ * weight_ * covariance_; }
+  /// By how much these rows would lower the expected squared error.
+  double gain_of(const Eigen::MatrixXd& rows) const {
+    Eigen::MatrixXd spread = rows * covariance_ * rows.transpose();
+    spread.diagonal().array() += 1.0;
+    return spread.llt().solve(rows * wanted_ * rows.transpose()).trace();
+  }
+
+ private:
+  const Eigen::MatrixXd &known_, &weight_;
+  Eigen::MatrixXd covariance_, wanted_;
+};
+
+PlannedPose moved_pose(const FeasibleSpace& space, const PlannedPose& pose, double width, RandomStream& random) {
+  const std::vector<Interval>& ranges = space.ranges();
+  PlannedPose tried = pose;
+  const auto set = [&](std::size_t joint, double value) {
+    tried.joints[static_cast<Eigen::Index>(joint)] = std::clamp(value, ranges[joint].lower, ranges[joint].upper);
+  };
+  if (random.chance(kOneJoint)) {
+    const std::size_t joint = random.index(ranges.size());
+    set(joint, random.real(ranges[joint].lower, ranges[joint].upper));
+  } else {
+    for (std::size_t joint = 0; joint < ranges.size(); ++joint)
+      set(joint, tried.joints[static_cast<Eigen::Index>(joint)] +
+                     width * (ranges[joint].upper - ranges[joint].lower) * random.normal());
+  }
+  tried.joints = rounded(space.robot().chain, tried.joints);
+  if (random.chance(kOtherSide))
+    for (double& sign : tried.approach) sign = random.chance(0.5) ? 1.0 : -1.0;
+  return tried;
+}
+
+bool is_feasible(const FeasibleSpace& space, const PlannedPose& pose) {
+  return space.obstruction(pose.joints) == Obstruction::none &&
+         space.in_passing(approach_stop(space.robot().chain, pose)) == Obstruction::none;
+}
+
+}  // namespace
+
+RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, std::vector<PlannedPose> poses,
+                     const Eigen::MatrixXd& known, const Eigen::MatrixXd& weight, RandomStream random) {
+  std::vector<Eigen::MatrixXd> rows;
+  std::ranges::transform(poses, std::back_inserter(rows),
+                         [&](const PlannedPose& pose) { return model.measured_rows(pose); });
+  Knowledge knowledge(rows, known, weight);
+  double width = kWidest;
+  for (int round = 0; round < kRounds; ++round, width *= kNarrowing) {
+    const double before = knowledge.square_m2();
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      knowledge.remove(rows[i]);
+      knowledge.look();
+      double most = knowledge.gain_of(rows[i]);
+      for (int attempt = 0; attempt < kTries; ++attempt) {
+        PlannedPose tried = moved_pose(space, poses[i], width, random);
+        Eigen::MatrixXd tells = model.measured_rows(tried);
+        const double gain = knowledge.gain_of(tells);
+        if (!(gain > most) || !is_feasible(space, tried)) continue;
+        most = gain;
+        poses[i] = std::move(tried);
+        rows[i] = std::move(tells);
+      }
+      knowledge.add(rows[i]);
+    }
+    knowledge.set(rows);
+    if (knowledge.square_m2() > (1.0 - kLeastGain) * before) break;
+  }
+  return {std::move(poses), knowledge.covariance()};
+}
+
+}  // namespace demecal::inline planning
