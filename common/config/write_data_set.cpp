@@ -81,6 +81,23 @@ ColumnGroup position_columns() {
   return group;
 }
 
+/// Of covariances without correlation, the only ones that columns can hold whatever the instrument.
+ColumnGroup sigma_columns() {
+  ColumnGroup group{.key = "sigma", .columns = {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    group.columns.push_back({std::string("s") + "xyz"[axis] + "_mm", [=](const MeasuredPose& pose) {
+                               return millimetres_text(std::sqrt((*pose.position_covariance_m2)(axis, axis)));
+                             }});
+  }
+  return group;
+}
+
+bool states_sigma(const DataSet& data) {
+  return measured(data, [](const MeasuredPose& pose) {
+    return pose.position_covariance_m2 && pose.position_covariance_m2->isDiagonal(1e-12);
+  });
+}
+
 ColumnGroup orientation_columns() {
   ColumnGroup group{.key = "orientation", .columns = {}};
   for (int part = 0; part < 4; ++part) {
@@ -135,6 +152,7 @@ std::vector<ColumnGroup> column_groups(const DataSet& data) {
       single("pose", "pose_id", &MeasuredPose::pose_id),
       joint_columns(data.robot.chain)};
   if (has(&MeasuredPose::position_m)) groups.push_back(position_columns());
+  if (states_sigma(data)) groups.push_back(sigma_columns());
   if (has(&MeasuredPose::orientation)) groups.push_back(orientation_columns());
   if (distances > 0) groups.push_back(distance_columns(distances));
   if (has(&MeasuredPose::approach)) groups.push_back(approach_columns(data.robot.chain.joints.size()));

@@ -35,7 +35,7 @@ std::array<View, 4> views() {
 }
 
 /// The points of an arm that a picture shows, m, base frame.
-struct Shape {
+struct ArmPoints {
   std::vector<Eigen::Isometry3d> joints;  ///< z along the axis
   Eigen::Isometry3d flange;
   Eigen::Vector3d tool;
@@ -48,10 +48,10 @@ struct Shape {
   }
 };
 
-Shape shape_of(const Chain& chain, const JointVector& joints) {
+ArmPoints points_of(const Chain& chain, const JointVector& joints) {
   const PlaceMotions none = PlaceMotions::Zero(6, chain.size() + 1);
   const DisplacedKinematics arm = differential_kinematics(chain, joints, chain.tool_m, none);
-  Shape shape;
+  ArmPoints shape;
   for (int i = 0; i < chain.size(); ++i) shape.joints.push_back(arm.places[static_cast<std::size_t>(i)]);
   shape.flange = arm.kinematics.flange;
   shape.tool = shape.flange * chain.tool_m;
@@ -65,7 +65,7 @@ struct Extent {
   double half_m;  ///< of what is shown, each way
 };
 
-Extent extent_of(const Shape& shape) {
+Extent extent_of(const ArmPoints& shape) {
   constexpr double kLeast_m = 0.05, kRoom = 1.15;
   Eigen::AlignedBox3d box(Eigen::Vector3d::Zero());
   for (const Eigen::Vector3d& point : shape.line()) box.extend(point);
@@ -78,7 +78,7 @@ class ViewDrawing {
  public:
   ViewDrawing(const View& view, const Extent& extent) : view_(view), extent_(extent) {}
 
-  std::string drawn(const Shape& shape, const Chain& chain) const {
+  std::string drawn(const ArmPoints& shape, const Chain& chain) const {
     std::string text = fmt::format("<rect class=\"frame\" width=\"{0}\" height=\"{0}\"/>\n", kView_px);
     text += grid() + base_axes(axis_m());
     std::string line;
@@ -87,7 +87,7 @@ class ViewDrawing {
       line += fmt::format("{}{:.1f},{:.1f}", line.empty() ? "" : " ", x, y);
     }
     text += "<polyline class=\"link\" points=\"" + line + "\"/>\n";
-    text += segment("tool", shape.flange.translation(), shape.tool);
+    text += segment("to-tool", shape.flange.translation(), shape.tool);
     for (std::size_t i = 0; i < shape.joints.size(); ++i) text += joint(shape, chain, i);
     const auto [x, y] = at(shape.tool);
     text += fmt::format("<circle class=\"tool-point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>\n", x, y);
@@ -112,7 +112,7 @@ class ViewDrawing {
   }
 
   /// A bar along the joint's axis, as long whichever way it points in space, and its number beside it.
-  std::string joint(const Shape& shape, const Chain& chain, std::size_t i) const {
+  std::string joint(const ArmPoints& shape, const Chain& chain, std::size_t i) const {
     const Eigen::Isometry3d& place = shape.joints[i];
     const Eigen::Vector3d along = axis_m() * place.linear().col(2);
     const bool turns = is_revolute(chain.joints[i]);
@@ -171,7 +171,7 @@ constexpr const char* kStyle =
     "text{font:13px sans-serif;fill:#222}.title{font-weight:bold}.tick{font-size:11px;fill:#666}"
     ".frame{fill:#fff;stroke:#bbb}.grid{stroke:#e4e4e4}.link{fill:none;stroke:#52667a;stroke-width:7;stroke-linecap:"
     "round;"
-    "stroke-linejoin:round}.tool{stroke:#52667a;stroke-width:2;stroke-dasharray:5 "
+    "stroke-linejoin:round}.to-tool{stroke:#52667a;stroke-width:2;stroke-dasharray:5 "
     "3}.axis{stroke:#d9822b;stroke-width:4}"
     ".slide{stroke:#7a4fb5;stroke-width:4;stroke-dasharray:6 3}.joint{fill:#fff;stroke:#222;stroke-width:1.5}"
     ".number{font-weight:bold}.tool-point{fill:none;stroke:#c0392b;stroke-width:2}.base-x{stroke:#c0392b;stroke-width:"
@@ -181,7 +181,7 @@ constexpr const char* kStyle =
 }  // namespace
 
 std::string arm_picture(const Robot& robot, const JointVector& joints) {
-  const Shape shape = shape_of(robot.chain, joints);
+  const ArmPoints shape = points_of(robot.chain, joints);
   const Extent extent = extent_of(shape);
   std::string at;
   for (int i = 0; i < robot.chain.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace demecal::inline planning {
 namespace {
 
-constexpr int kRounds = 8, kTries = 30;
+constexpr int kRefinements = 8, kTries = 30;
 constexpr double kWidest = 0.25, kNarrowing = 0.7;  ///< of a joint's range: how far tries of a round go
 constexpr double kOneJoint = 0.5;                   ///< share of tries that move a single joint, anywhere
 constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
@@ -97,7 +97,7 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
                          [&](const PlannedPose& pose) { return model.measured_rows(pose); });
   Knowledge knowledge(rows, known, weight);
   double width = kWidest;
-  for (int round = 0; round < kRounds; ++round, width *= kNarrowing) {
+  for (int round = 0; round < kRefinements; ++round, width *= kNarrowing) {
     const double before = knowledge.square_m2();
     for (std::size_t i = 0; i < poses.size(); ++i) {
       knowledge.remove(rows[i]);
