@@ -17,6 +17,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/robot_fleet.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
@@ -117,6 +118,7 @@ const Language& language_asked(const ApplyRequest& request, const std::string& t
 ExitCode run(const ApplyRequest& request) {
   require_writable(request);
   const CalibratedModel calibrated = load_model(request.model_file);
+  say_if_fleet(calibrated, request.model_file);
   const CommandModel model = command_model_of(calibrated, request);
   const std::string text = read_file(request.program_file);
   refuse_corrected(request, text);

@@ -9,6 +9,7 @@
 
 #include "config/data_set_file.hpp"
 #include "config/model_file.hpp"
+#include "coordinator/robot_fleet.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/forward.hpp"
@@ -66,6 +67,7 @@ Json misses(const CorrectedRobot& robot, const std::vector<const MeasuredPose*>&
 Json misses_of_model(const std::string& file, const DataSet& data, const std::vector<const MeasuredPose*>& poses) {
   if (file.empty()) return Json::array();
   const CalibratedModel model = load_model(file);
+  require_one_robot(model, file, "the picture");
   require_same_arm(model.robot, data);
   return misses(model.robot, poses);
 }

@@ -18,6 +18,7 @@
 #include "coordinator/commands.hpp"
 #include "coordinator/pdf_printer.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/robot_fleet.hpp"
 #include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
@@ -85,6 +86,7 @@ std::string print_page(const CertifyRequest& request) {
 ExitCode run(const CertifyRequest& request) {
   if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
   CalibratedModel model = load_model(request.model_file);
+  require_one_robot(model, request.model_file, "certify");
   CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
   require_positions(data, "certify");

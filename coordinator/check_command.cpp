@@ -9,6 +9,7 @@
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/robot_fleet.hpp"
 #include "html/check_page.hpp"
 #include "report/change_report.hpp"
 #include "report/check_history.hpp"
@@ -39,6 +40,7 @@ void keep(const CheckRequest& request, const ChangeReport& change, const DataSet
 
 ExitCode run(const CheckRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
+  require_one_robot(model, request.model_file, "check");
   const DataSet data = load_data_set(request.data_file);
   require_positions(data, "check");
   require_same_nominal_arm(model, data);

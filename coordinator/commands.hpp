@@ -43,6 +43,7 @@ void add_certify(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_diagnose(CLI::App& app, ExitCode& exit_code);
 void add_evaluate(CLI::App& app, ExitCode& exit_code);
+void add_fleet(CLI::App& app, ExitCode& exit_code);
 void add_export(CLI::App& app, ExitCode& exit_code);
 void add_plan(CLI::App& app, ExitCode& exit_code);
 void add_prepare(CLI::App& app, ExitCode& exit_code);

@@ -24,6 +24,7 @@
 #include "coordinator/displays.hpp"
 #include "coordinator/prior_runs.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/robot_fleet.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "data_check/finding.hpp"
@@ -109,6 +110,7 @@ ExitCode run(const DiagnoseRequest& request) {
   if (request.proposed > 0) require_instrument(data, "--propose");
   std::optional<CalibratedModel> known;
   if (!request.model_file.empty()) known = load_model(request.model_file);
+  if (known) require_one_robot(*known, request.model_file, "--model");
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   std::vector<std::string> files = result_files(Method::diagnose);
   if (request.proposed > 0) files.emplace_back("proposed.csv");

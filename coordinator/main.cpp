@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   demecal::add_evaluate(app, exit_code);
   demecal::add_apply(app, exit_code);
   demecal::add_certify(app, exit_code);
+  demecal::add_fleet(app, exit_code);
   demecal::add_export(app, exit_code);
   demecal::add_plan(app, exit_code);
   demecal::add_prepare(app, exit_code);

@@ -15,6 +15,7 @@
 #include "config/model_export.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/robot_fleet.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
@@ -90,6 +91,7 @@ ExportedListing listing_asked(Algebra& algebra, const ExportRequest& request) {
     return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it");
   }
   const CalibratedModel model = load_model(request.file);
+  say_if_fleet(model, request.file);
   const std::string title =
       fmt::format("{} as calibrated by the job {} (demecal {})", model.nominal.name, model.job, model.version);
   return listing_of_robot(algebra, request, model.robot, title);
@@ -114,6 +116,7 @@ CalibratedModel model_asked(const ExportRequest& request) {
 
 ExitCode run_links(const ExportRequest& request) {
   const CalibratedModel model = model_asked(request);
+  say_if_fleet(model, request.file);
   const ExportedArm exported = request.format == "urdf"          ? calibrated_urdf(model, request.urdf)
                                : request.format == "ros2-params" ? ros2_parameters(model, request.urdf)
                                                                  : ur_calibration(model);
@@ -145,18 +148,22 @@ struct EvaluateRequest {
 /// The model in the data's own frame: base and tool fitted on the calibration poses, everything else as it is.
 CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
   const DeclaredModel base_and_tool{.registration = true, .tool = true};
-  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), base_and_tool, model.robot);
+  CorrectedRobot start = model.robot;
+  if (model.fleet) start.tools = nominal_robot(data).tools;
+  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), base_and_tool, start);
   if (fit.status != FitStatus::converged) throw InputError({data.file, 0}, "", fit.sentence);
   return fit.robot;
 }
 
 ExitCode run(const EvaluateRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
+  say_if_fleet(model, request.model_file);
   CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
   const DataSet& data = checked.data;
   if (refuses(checked, request.force)) return ExitCode::contradiction;
+  // A fleet stands nowhere: base and tool are those of the data.
   const CorrectedRobot robot =
-      request.refit_base ? registered(model, data) : seen_from_stations(model.robot, model.stations, data);
+      request.refit_base || model.fleet ? registered(model, data) : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
   check_fitted(data, robot, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),

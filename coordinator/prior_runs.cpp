@@ -28,9 +28,11 @@ ExitCode run_with_prior(PriorRun run) {
   }
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   LoopDisplay display(stderr, data.robot, run.quiet);
-  display.say(fmt::format("{} on {}: {} poses, beginning with the model of {} ({}), declared: {}", data.robot.name,
-                          data.name, data.poses.size(), prior.job, prior.data_name,
-                          fmt::join(run.job.declared.words(), ", ")));
+  const std::string beginning = prior.fleet
+                                    ? fmt::format("the mean of {} robots of its type", prior.fleet->robots.size())
+                                    : fmt::format("the model of {} ({})", prior.job, prior.data_name);
+  display.say(fmt::format("{} on {}: {} poses, beginning with {}, declared: {}", data.robot.name, data.name,
+                          data.poses.size(), beginning, fmt::join(run.job.declared.words(), ", ")));
   CalibrateResult result = fit_or_report(run.out, run.job.name, checked, [&] {
     return update_model(data, run.job, prior, [&](const Round& round) {
       display.on_round(round);

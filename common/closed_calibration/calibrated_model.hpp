@@ -22,6 +22,31 @@
 
 namespace demecal::inline closed_calibration {
 
+/// A robot whose model is one of those that a fleet's was made from.
+struct FleetMember {
+  std::string file, job, data_name, data_sha256;
+};
+
+/// What the robots of a fleet have in one number, in the unit that its name states (of an effect's: SI).
+struct FleetNumber {
+  std::string name;
+  double mean = 0.0, standard_error = 0.0;  ///< of the type
+  double spread = 0.0;                      ///< standard deviation of the robots about it
+};
+
+/// How the robots' corrections of one joint differ from their mean.
+struct FleetCurve {
+  int joint = 0;                           ///< from 0
+  std::vector<double> wave_deviations_rad;  ///< of a cosine or sine of 1, 2, ... cycles a turn
+};
+
+/// What a model that is the mean of several robots of one type states besides.
+struct FleetOrigin {
+  std::vector<FleetMember> robots;
+  std::vector<FleetNumber> numbers;
+  std::vector<FleetCurve> curves;
+};
+
 struct CalibratedModel {
   std::string job;
   Robot nominal;  ///< the robot as its maker describes it
@@ -37,6 +62,9 @@ struct CalibratedModel {
   KnownFunctions functions{};
   CertificateFields certificate{};  ///< what the job states for certificates
   std::vector<Station> stations{};  ///< where the data were measured from; empty: one place
+  /// Of the mean of several robots of one type, whose posterior says how far one of them may be from it; such a model
+  /// has no base and the tool of the drawing.
+  std::optional<FleetOrigin> fleet{};
   std::string data_name;
   std::string data_sha256;
   std::uint64_t seed = 0;

@@ -220,7 +220,7 @@ std::string model_text(const CalibratedModel& model) {
     const JointCorrection& correction = model.robot.corrections[static_cast<std::size_t>(summary.joint)];
     text << correction_text(summary, correction, model.functions);
   }
-  text << posterior_text(model) << prediction_text(model) << certificate_text(model.certificate);
+  text << posterior_text(model) << fleet_text(model) << prediction_text(model) << certificate_text(model.certificate);
   return text.str();
 }
 
@@ -244,6 +244,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
                   "corrections",
                   "measured_ranges",
                   "posterior",
+                  "fleet",
                   "prediction_interval",
                   "certificate"});
   CalibratedModel model;
@@ -275,6 +276,7 @@ CalibratedModel load_model(const std::filesystem::path& path) {
   model.robot.effects = read_effects(file.at("effects"), model.nominal);
   model.robot.described = model.nominal;
   read_posterior(file, model);
+  read_fleet(file, model);
   read_prediction(file, model);
   if (const YamlNode* certificate = file.find("certificate")) model.certificate = read_certificate(*certificate);
   return model;

@@ -35,6 +35,12 @@ std::string posterior_text(const CalibratedModel& model);
 /// Reads the keys of a model file, where they are, into a model whose robot is already read. Throws InputError.
 void read_posterior(const YamlNode& file, CalibratedModel& model);
 
+/// The key `fleet`, where the model is the mean of several robots.
+std::string fleet_text(const CalibratedModel& model);
+
+/// Reads the key, where it is, into a model whose posterior is already read. Throws InputError.
+void read_fleet(const YamlNode& file, CalibratedModel& model);
+
 /// The key `prediction_interval`, where the model has it.
 std::string prediction_text(const CalibratedModel& model);
 

@@ -11,16 +11,17 @@
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/units.hpp"
 #include "primitives/primitive.hpp"
 #include "random/random_stream.hpp"
+#include "updating/waves.hpp"
 
 namespace demecal::inline updating {
 namespace {
 
-constexpr int kHighestWave = 32;              ///< cycles a turn: gears' errors are slower than 1 in 10 deg
-constexpr double kWaveDecay = 25.0;           ///< cycles a turn beyond which they get rarer
 constexpr double kBase = 5e-3, kTool = 5e-3;  ///< m and rad about where base and tool were found
-constexpr double kKnownWithin_rad = 3e-5;     ///< to which a joint is known at one place of the model's range
+/// To which a joint is known at one place of the model's range; of a fleet, to which its robots' spread tells it.
+constexpr double kKnownWithin_rad = 3e-5, kToldWithin_rad = 3e-6;
 
 bool is_place(const ParameterId& id) {
   using Kind = ParameterId::Kind;
@@ -43,14 +44,18 @@ std::vector<ParameterId> numbers_of(const CalibratedModel& model, const Correcte
   return ids;
 }
 
-/// Waves of every revolute joint that the model does not correct already, over what was measured then or now.
+/// Waves of every revolute joint that the model does not correct already, over what was measured then or now. About a
+/// fleet's mean curve each robot has its own: waves over the range of the mean.
 SmoothCorrections waves_about(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data,
                               std::span<const std::size_t> poses) {
   SmoothCorrections waves = smooth_corrections(data, poses, robot, false);
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
     const auto at = static_cast<std::size_t>(joint);
-    if (!is_revolute(robot.chain, joint) || !waves.base[at].is_neutral()) continue;
-    if (at < model.measured.size()) {
+    const bool corrected = !waves.base[at].is_neutral();
+    if (!is_revolute(robot.chain, joint) || (corrected && !model.fleet)) continue;
+    if (corrected) {
+      waves.ranges[at] = waves.base[at].range_rad();
+    } else if (at < model.measured.size()) {
       Interval& range = waves.ranges[at];
       range = {std::min(range.lower, waves.branches[at](model.measured[at].lower)),
                std::max(range.upper, waves.branches[at](model.measured[at].upper))};
@@ -65,14 +70,26 @@ SmoothCorrections waves_about(const CalibratedModel& model, const CorrectedRobot
   return waves;
 }
 
-/// Shares of a joint's variance that its waves of n cycles have, cosine and sine alike; they add up to one over n.
-double wave_share(int n) {
-  static const double whole = [] {
-    double sum = 0.0;
-    for (int k = 1; k <= kHighestWave; ++k) sum += 1.0 / (1.0 + std::pow(k / kWaveDecay, 2.0));
-    return sum;
-  }();
-  return 1.0 / (1.0 + std::pow(n / kWaveDecay, 2.0)) / whole;
+/// How far robots of the type are from the mean in a number of the posterior, SI.
+double spread_of(const FleetOrigin& fleet, const ParameterId& id, Eigen::Index place) {
+  const double stated = fleet.numbers[static_cast<std::size_t>(place)].spread;
+  if (id.kind == ParameterId::Kind::effect) return stated;
+  return id.is_angle() ? radians(stated) : metres(stated);
+}
+
+/// Variances of a joint's waves of 1, 2, ... cycles a turn within the range that the model knows, rad^2.
+std::vector<double> variances_within(const CalibratedModel& model, const AssumedDrift& drift, int joint) {
+  constexpr double kOfFleet_rad = 5e-6;  ///< where its models have no corrections; the new poses may show more
+  const double ripple_rad = model.fleet ? kOfFleet_rad : drift.ripple_rad;
+  std::vector<double> result;
+  for (int n = 1; n <= kHighestWave; ++n) result.push_back(ripple_rad * ripple_rad * wave_share(n));
+  if (!model.fleet) return result;
+  for (const FleetCurve& curve : model.fleet->curves) {
+    if (curve.joint != joint) continue;
+    for (std::size_t i = 0; i < std::min(result.size(), curve.wave_deviations_rad.size()); ++i)
+      result[i] = std::pow(curve.wave_deviations_rad[i], 2.0);
+  }
+  return result;
 }
 
 /// The variance of what the model's effects do to a joint within the range it knows, rad^2.
@@ -176,17 +193,30 @@ void StoredKnowledge::believe_numbers(const CalibratedModel& model, const DataSe
   const Eigen::MatrixXd rows = model.posterior->factor(there, Eigen::all);
   const Eigen::MatrixXd known = rows * rows.transpose();
   stated_(here, here) += known;
+  if (!model.fleet) return;
+  // Nothing has drifted, but robots of a type are spread: the new poses tell whether this one differs from the mean
+  // more or less than the others do. How well the mean is known is another matter.
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const Eigen::Index at = here[i];
+    const double variance = std::pow(spread_of(*model.fleet, model.posterior->ids[static_cast<std::size_t>(there[i])], there[i]), 2.0);
+    stated_(at, at) -= variance;
+    (ids_[static_cast<std::size_t>(at)].kind == ParameterId::Kind::link ? link_drift_ : effect_drift_)[at] = variance;
+  }
 }
 
 void StoredKnowledge::believe_ripples(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift) {
   constexpr double kStep_rad = 0.035;
+  const double known_rad = model.fleet ? kToldWithin_rad : kKnownWithin_rad;
   const auto terms = static_cast<Eigen::Index>(ripples_.terms.size());
   ripple_.setZero(terms);
   outside_.resize(ripples_.base.size());
+  std::vector<std::vector<double>> within;
+  for (std::size_t joint = 0; joint < ripples_.base.size(); ++joint)
+    within.push_back(variances_within(model, drift, static_cast<int>(joint)));
   std::vector<std::vector<Eigen::Index>> of_joint(ripples_.base.size());
   for (Eigen::Index i = 0; i < terms; ++i) {
     const SmoothTerm& term = ripples_.terms[static_cast<std::size_t>(i)];
-    ripple_[i] = std::pow(drift.ripple_rad, 2.0) * wave_share(term.harmonic);
+    ripple_[i] = within[static_cast<std::size_t>(term.joint)][static_cast<std::size_t>(term.harmonic - 1)];
     of_joint[static_cast<std::size_t>(term.joint)].push_back(i);
   }
   for (std::size_t joint = 0; joint < of_joint.size(); ++joint) {
@@ -208,7 +238,7 @@ void StoredKnowledge::believe_ripples(const CalibratedModel& model, const DataSe
           const int n = ripples_.terms[static_cast<std::size_t>(of_joint[joint][static_cast<std::size_t>(i)])].harmonic;
           wave[i] = i % 2 == 0 ? std::cos(n * theta) : std::sin(n * theta);
         }
-        information += wave * wave.transpose() / (kKnownWithin_rad * kKnownWithin_rad);
+        information += wave * wave.transpose() / (known_rad * known_rad);
       }
     }
     outside_[joint] = information.llt().solve(Eigen::MatrixXd::Identity(count, count));

@@ -37,6 +37,7 @@ std::string_view to_string(BeliefPart part);
 using PartFactors = std::array<double, kBeliefParts>;
 
 /// The numbers of a model that may change, and what is believed of their changes: normal, with zero mean about `robot`.
+/// A fleet's mean does not change: what is believed is how far a robot of the type is from it, as its posterior states.
 class StoredKnowledge {
  public:
   /// `placed`: the model's robot with base and tool where `data` have them. Numbers declared that the model does not
@@ -70,7 +71,7 @@ class StoredKnowledge {
   std::vector<ParameterId> ids_;
   SmoothCorrections ripples_;
   Eigen::MatrixXd stated_;                     ///< ids x ids
-  Eigen::VectorXd link_drift_, effect_drift_;  ///< variances, ids
+  Eigen::VectorXd link_drift_, effect_drift_;  ///< variances, ids; about a fleet's mean those of its robots
   std::vector<Eigen::MatrixXd> outside_;       ///< by joint: of its waves
   Eigen::VectorXd ripple_;                     ///< variances of the waves
 };

@@ -227,14 +227,21 @@ Posterior posterior_of_update(const StoredKnowledge& knowledge, const Eigen::Mat
   return posterior;
 }
 
-void say_changes(const Sizes& sizes, Update& update) {
+void say_changes(const Sizes& sizes, bool of_fleet, Update& update) {
   constexpr double kMuch = 3.0;
   for (std::size_t part = 0; part < kBeliefParts; ++part) {
     const double times = std::sqrt(sizes.factors[part]);
-    if (times > kMuch)
-      update.sentences.push_back(fmt::format("The new poses show {} to have changed {:.1f} times as much as is usual.",
-                                             to_string(static_cast<BeliefPart>(part)), times));
+    if (times <= kMuch) continue;
+    const std::string_view what = to_string(static_cast<BeliefPart>(part));
+    update.sentences.push_back(
+        of_fleet ? fmt::format("The new poses show {} to be {:.1f} times as far from the fleet's mean as is usual for "
+                               "its robots: is this one of the type?",
+                               what, times)
+                 : fmt::format("The new poses show {} to have changed {:.1f} times as much as is usual.", what, times));
   }
+  if (update.base_and_tool_only)
+    update.sentences.emplace_back(
+        "Base and tool alone explain the new poses best: nothing else of the old model was changed.");
 }
 
 }  // namespace
@@ -260,8 +267,9 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
     if (!many) {
       const LeftOut all = left_out(covariance, rows, sizes.noise);
       if (step == 0) used = without_gross(all, rows);
+      // A robot may be as it was; none is its fleet's mean.
       const Eigen::MatrixXd little = knowledge.covariance({kNothing, kNothing, kNothing, kNothing});
-      update.base_and_tool_only = left_out(little, rows, sizes.noise).squares < all.squares;
+      update.base_and_tool_only = !model.fleet && left_out(little, rows, sizes.noise).squares < all.squares;
       if (update.base_and_tool_only) covariance = little;
     }
     solution = solve(covariance, rows, sizes.noise);
@@ -273,10 +281,7 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   update.estimates = estimates_of(knowledge, update.robot, data, solution.root);
   update.factors = sizes.factors;
   update.noise_factor = sizes.noise;
-  say_changes(sizes, update);
-  if (update.base_and_tool_only)
-    update.sentences.emplace_back(
-        "Base and tool alone explain the new poses best: nothing else of the old model was changed.");
+  say_changes(sizes, model.fleet.has_value(), update);
   return update;
 }
 

@@ -62,6 +62,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
   constexpr std::size_t kManyPoses = 150;
   const auto begin = std::chrono::steady_clock::now();
   CalibratedModel prior = found_before;
+  if (prior.fleet) prior.robot.tools = nominal_robot(data).tools;  // the new robot's: a fleet has none
   prior.robot = with_tools_of_stations(std::move(prior.robot), data);
   require_same_nominal_arm(prior, data);
   const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);

@@ -1,0 +1,101 @@
+#include "coordinator/robot_fleet.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "config/model_file.hpp"
+#include "coordinator/commands.hpp"
+#include "errors/input_error.hpp"
+#include "updating/fleet_model.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+struct FleetRequest {
+  std::vector<std::string> model_files;
+  std::string out;
+  bool force = false;
+};
+
+/// A fleet's file may be written again; nothing else is overwritten unasked.
+void require_writable(const FleetRequest& request) {
+  if (request.force || !std::filesystem::exists(request.out)) return;
+  try {
+    if (load_model(request.out).fleet) return;
+  } catch (const InputError&) {
+    // No model at all: said below.
+  }
+  throw ArgumentError("--out: " + request.out +
+                      " is there already, and not a fleet's file; name another, or give --force to overwrite it");
+}
+
+std::string table(const CalibratedModel& model) {
+  std::size_t width = 6;
+  for (const FleetNumber& one : model.fleet->numbers) width = std::max(width, one.name.size());
+  std::string text = fmt::format("  {:<{}} {:>12} {:>12} {:>12}\n", "number", width, "mean", "spread", "mean within");
+  for (const FleetNumber& one : model.fleet->numbers)
+    text +=
+        fmt::format("  {:<{}} {:>12.5g} {:>12.2g} {:>12.2g}\n", one.name, width, one.mean, one.spread, one.standard_error);
+  for (const FleetCurve& curve : model.fleet->curves) {
+    double squares = 0.0;
+    for (const double deviation : curve.wave_deviations_rad) squares += deviation * deviation;
+    text += fmt::format("  correction of joint {}: robots differ by {:.2g} mrad rms over its range\n", curve.joint + 1,
+                        1e3 * std::sqrt(squares));
+  }
+  for (const JointSummary& joint : model.joints)
+    if (!joint.note.empty()) text += fmt::format("  correction of joint {}: none, {}\n", joint.joint + 1, joint.note);
+  return text;
+}
+
+ExitCode run(const FleetRequest& request) {
+  std::vector<NamedModel> models;
+  for (const std::string& file : request.model_files) models.push_back({file, load_model(file)});
+  require_writable(request);
+  CalibratedModel fleet = fleet_model(models);
+  std::string hashes;
+  for (const FleetMember& one : fleet.fleet->robots) hashes += one.data_sha256 + '\n';
+  fleet.data_sha256 = sha256(hashes);
+  fleet.version = DEMECAL_VERSION;
+  write_file(request.out, model_text(fleet));
+  fmt::print("{}: {} robots of the type {}\n{}", request.out, models.size(), fleet.nominal.name, table(fleet));
+  fmt::print("A further robot of the type begins with it: demecal calibrate JOB.yaml --prior {} --out DIR\n",
+             request.out);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void say_if_fleet(const CalibratedModel& model, const std::string& file) {
+  if (!model.fleet) return;
+  fmt::print(stderr,
+             "{}: the mean of {} robots of the type {}, and no calibrated robot: each of them differs from it (--prior "
+             "makes a model of one from a few poses)\n",
+             file, model.fleet->robots.size(), model.nominal.name);
+}
+
+void require_one_robot(const CalibratedModel& model, const std::string& file, const std::string& what) {
+  if (!model.fleet) return;
+  throw InputError({file, 0}, model.job,
+                   fmt::format("is the mean of several robots, and {} needs the model of one: make it with `demecal "
+                               "calibrate --prior {}`",
+                               what, file));
+}
+
+void add_fleet(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<FleetRequest>();
+  CLI::App* command =
+      app.add_subcommand("fleet", "the mean and spread of several robots of one type, to begin a further one with");
+  command->add_option("models", request->model_files, "MODEL.yaml of every robot, two at least, better five")
+      ->required();
+  command->add_option("--out", request->out, "fleet.yaml, for calibrate --prior and diagnose --prior")->required();
+  command->add_flag("--force", request->force, "overwrite a file that is not a fleet's");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal
