@@ -162,8 +162,9 @@ ExitCode run(const EvaluateRequest& request) {
   const DataSet& data = checked.data;
   if (refuses(checked, request.force)) return ExitCode::contradiction;
   // A fleet stands nowhere: base and tool are those of the data.
-  const CorrectedRobot robot =
-      request.refit_base || model.fleet ? registered(model, data) : seen_from_stations(model.robot, model.stations, data);
+  const CorrectedRobot robot = request.refit_base || model.fleet
+                                   ? registered(model, data)
+                                   : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
   check_fitted(data, robot, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),

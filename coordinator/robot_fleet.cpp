@@ -40,8 +40,8 @@ std::string table(const CalibratedModel& model) {
   for (const FleetNumber& one : model.fleet->numbers) width = std::max(width, one.name.size());
   std::string text = fmt::format("  {:<{}} {:>12} {:>12} {:>12}\n", "number", width, "mean", "spread", "mean within");
   for (const FleetNumber& one : model.fleet->numbers)
-    text +=
-        fmt::format("  {:<{}} {:>12.5g} {:>12.2g} {:>12.2g}\n", one.name, width, one.mean, one.spread, one.standard_error);
+    text += fmt::format("  {:<{}} {:>12.5g} {:>12.2g} {:>12.2g}\n", one.name, width, one.mean, one.spread,
+                        one.standard_error);
   for (const FleetCurve& curve : model.fleet->curves) {
     double squares = 0.0;
     for (const double deviation : curve.wave_deviations_rad) squares += deviation * deviation;

@@ -36,7 +36,7 @@ struct FleetNumber {
 
 /// How the robots' corrections of one joint differ from their mean.
 struct FleetCurve {
-  int joint = 0;                           ///< from 0
+  int joint = 0;                            ///< from 0
   std::vector<double> wave_deviations_rad;  ///< of a cosine or sine of 1, 2, ... cycles a turn
 };
 

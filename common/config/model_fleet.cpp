@@ -56,8 +56,7 @@ void read_fleet(const YamlNode& file, CalibratedModel& model) {
         {one.at("file").text(), one.at("job").text(), one.at("data").text(), one.at("data_sha256").text()});
   }
   for (const YamlNode& one : node->at("numbers").list()) fleet.numbers.push_back(read_number(one));
-  for (const YamlNode& one : node->at("curves").list())
-    fleet.curves.push_back(read_curve(one, model.nominal.chain));
+  for (const YamlNode& one : node->at("curves").list()) fleet.curves.push_back(read_curve(one, model.nominal.chain));
   if (!model.posterior || model.posterior->ids.size() != fleet.numbers.size())
     node->fail("", "must have the numbers of the posterior, in its order: make the file anew by `demecal fleet`");
   model.fleet = std::move(fleet);

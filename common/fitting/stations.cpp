@@ -1,38 +1,24 @@
 #include "fitting/stations.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/difference.hpp"
 
 namespace demecal::inline fitting {
 namespace {
 
-bool same_arm(const Robot& one, const Robot& other) {
-  constexpr double kRounding = 1e-9;  // m or rad
-  if (one.chain.size() != other.chain.size() || one.chain.convention != other.chain.convention) return false;
-  for (std::size_t i = 0; i < one.chain.joints.size(); ++i) {
-    if (one.chain.joints[i].type != other.chain.joints[i].type) return false;
-    for (int parameter = 0; parameter < kLinkParameters; ++parameter) {
-      const auto which = static_cast<LinkParameter>(parameter);
-      if (std::abs(one.chain.joints[i].parameter(which) - other.chain.joints[i].parameter(which)) > kRounding)
-        return false;
-    }
-  }
-  return one.chain.base.isApprox(other.chain.base, kRounding) &&
-         one.chain.flange.isApprox(other.chain.flange, kRounding) && one.chain.couplings == other.chain.couplings;
-}
-
 void require_joinable(const DataSet& set, const DataSet& first) {
-  if (!same_arm(set.robot, first.robot))
-    throw InputError({set.file, 0}, set.robot.name, "is not the arm of " + first.name + ": stations measure one robot");
+  const std::string difference = first_difference(first.robot.chain, set.robot.chain);
+  if (!difference.empty())
+    throw InputError({set.file, 0}, set.robot.name,
+                     "is not the arm of " + first.name + ": " + difference + "; stations measure one robot");
   const auto other = [](const MeasuredPose& pose) {
     return !pose.distances_m.empty() || !pose.contact.empty() || !(pose.position_m || pose.orientation);
   };

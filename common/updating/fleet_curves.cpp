@@ -75,8 +75,7 @@ class JointCurves {
       const JointCorrection& one = correction(*model);
       if (one.is_neutral()) continue;
       const double shift = -turns_between(one.range_rad(), first_, revolute_);
-      sum = apply(Primitive::add,
-                  apply(Primitive::multiply, constant_tree(share), shifted(one.formula(), shift)), sum);
+      sum = apply(Primitive::add, apply(Primitive::multiply, constant_tree(share), shifted(one.formula(), shift)), sum);
     }
     return {std::move(sum), branch_, *known_};
   }

@@ -4,16 +4,16 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "calibration/calibration.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/parameter_space.hpp"
+#include "kinematics/difference.hpp"
 #include "kinematics/units.hpp"
 #include "updating/fleet_curves.hpp"
 #include "updating/fleet_numbers.hpp"
@@ -25,47 +25,17 @@ using Models = std::vector<const CalibratedModel*>;
 
 constexpr double kRounding = 1e-9;  ///< m, rad, kg
 
-/// How a joint is described otherwise, in a few words; empty where it is not.
-std::string difference_of_joints(const Joint& one, const Joint& other) {
-  constexpr std::array<std::string_view, kLinkParameters> kNames{"theta_offset", "d", "a", "alpha", "beta"};
-  if (one.type != other.type) return "slides in one and turns in the other";
-  for (int i = 0; i < kLinkParameters; ++i) {
-    const auto which = static_cast<LinkParameter>(i);
-    const double here = one.parameter(which), there = other.parameter(which);
-    if (std::abs(here - there) < kRounding) continue;
-    const bool length = which == LinkParameter::d || which == LinkParameter::a;
-    return length ? fmt::format("has {} {:.10g} mm, not {:.10g} mm", kNames[static_cast<std::size_t>(i)],
-                                millimetres(there), millimetres(here))
-                  : fmt::format("has {} {:.10g} deg, not {:.10g} deg", kNames[static_cast<std::size_t>(i)],
-                                degrees(there), degrees(here));
-  }
-  return {};
-}
-
 bool same_masses(const Robot& one, const Robot& other) {
   return std::ranges::equal(one.masses, other.masses, [](const LinkMass& here, const LinkMass& there) {
     return std::abs(here.mass_kg - there.mass_kg) < kRounding && (here.centre_m - there.centre_m).norm() < kRounding;
   });
 }
 
-bool same_place(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
-  return (one.matrix() - other.matrix()).cwiseAbs().maxCoeff() < kRounding;
-}
-
-/// The first difference between two arms as their makers describe them; empty where there is none. Tools, gravity and
-/// limits may differ.
-std::string first_difference(const Robot& one, const Robot& other) {
-  const Chain &here = one.chain, &there = other.chain;
-  if (here.size() != there.size()) return fmt::format("it has {} joints, not {}", there.size(), here.size());
-  if (here.convention != there.convention) return "its convention is another";
-  for (std::size_t i = 0; i < here.joints.size(); ++i) {
-    const std::string difference = difference_of_joints(here.joints[i], there.joints[i]);
-    if (!difference.empty()) return fmt::format("its joint {} {}", i + 1, difference);
-  }
-  if (!same_place(here.base, there.base) || !same_place(here.flange, there.flange))
-    return "its base or its flange stands elsewhere";
-  if (here.couplings != there.couplings) return "its couplings are others";
-  return same_masses(one, other) ? "" : "its links' masses are others";
+/// The first difference between two arms as their makers describe them, masses included; empty where there is none.
+std::string difference_of_types(const Robot& one, const Robot& other) {
+  std::string difference = first_difference(one.chain, other.chain);
+  if (difference.empty() && !same_masses(one, other)) difference = "its links' masses are others";
+  return difference;
 }
 
 void require_one_type(const std::vector<NamedModel>& models) {
@@ -79,11 +49,11 @@ void require_one_type(const std::vector<NamedModel>& models) {
     if (!one.model.posterior)
       throw InputError({one.file, 0}, "",
                        "states no covariance of its numbers (it is of an older version): calibrate again");
-    const std::string difference = first_difference(first.model.nominal, one.model.nominal);
+    const std::string difference = difference_of_types(first.model.nominal, one.model.nominal);
     if (!difference.empty())
-      throw InputError({one.file, 0}, one.model.nominal.name,
-                       fmt::format("is another arm than that of {}: {}; a fleet is of one type of arm", first.file,
-                                   difference));
+      throw InputError(
+          {one.file, 0}, one.model.nominal.name,
+          fmt::format("is another arm than that of {}: {}; a fleet is of one type of arm", first.file, difference));
     const auto same = std::ranges::find_if(models, [&](const NamedModel& other) {
       return &other < &one && !one.model.data_sha256.empty() && other.model.data_sha256 == one.model.data_sha256;
     });
@@ -102,10 +72,11 @@ std::vector<Interval> common_ranges(const std::vector<NamedModel>& models) {
       const Interval &known = common[joint], &own = model.measured[joint];
       const Interval both{std::max(known.lower, own.lower), std::min(known.upper, own.upper)};
       if (both.lower > both.upper)
-        throw InputError({file, 0}, "",
-                         fmt::format("was measured with joint {} where the other models were not: a fleet's models need "
-                                     "a range that all know",
-                                     joint + 1));
+        throw InputError(
+            {file, 0}, "",
+            fmt::format("was measured with joint {} where the other models were not: a fleet's models need "
+                        "a range that all know",
+                        joint + 1));
       common[joint] = both;
     }
   }
@@ -186,10 +157,10 @@ void summarise_joints(const Models& models, CalibratedModel& fleet) {
   fleet.joints = joint_summaries({}, {}, fleet.robot);
   for (JointSummary& summary : fleet.joints) {
     const auto at = static_cast<std::size_t>(summary.joint);
-    const bool lost = fleet.robot.corrections[at].is_neutral() &&
-                      std::ranges::any_of(models, [&](const CalibratedModel* model) {
-                        return !model->robot.corrections[at].is_neutral();
-                      });
+    const bool lost =
+        fleet.robot.corrections[at].is_neutral() && std::ranges::any_of(models, [&](const CalibratedModel* model) {
+          return !model->robot.corrections[at].is_neutral();
+        });
     if (lost) summary.note = "the robots' corrections have no range in common";
   }
 }

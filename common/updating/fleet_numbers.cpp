@@ -93,8 +93,8 @@ void FleetNumbers::find_ids(const std::vector<std::vector<double>>& averages) {
   for (int joint = 0; joint < robot_.chain.size(); ++joint) {
     for (int link = 0; link < kLinkParameters; ++link) {
       const ParameterId id{ParameterId::Kind::link, joint, static_cast<LinkParameter>(link)};
-      const bool known = std::ranges::any_of(
-          models_, [&](const CalibratedModel* model) { return place(*model, id) >= 0; });
+      const bool known =
+          std::ranges::any_of(models_, [&](const CalibratedModel* model) { return place(*model, id) >= 0; });
       const bool corrected = is_zero_of(id) && std::ranges::any_of(averages, [&](const std::vector<double>& one) {
                                return one[static_cast<std::size_t>(joint)] != 0.0;
                              });
@@ -109,9 +109,8 @@ Eigen::Index FleetNumbers::place(const CalibratedModel& model, const ParameterId
   const auto found = std::ranges::find_if(own, [&](const ParameterId& one) {
     if (one.kind != id.kind) return false;
     if (id.kind == ParameterId::Kind::link) return one.index == id.index && one.link == id.link;
-    return one.coefficient == id.coefficient &&
-           same_effect(model.robot.effects[static_cast<std::size_t>(one.index)],
-                       robot_.effects[static_cast<std::size_t>(id.index)]);
+    return one.coefficient == id.coefficient && same_effect(model.robot.effects[static_cast<std::size_t>(one.index)],
+                                                            robot_.effects[static_cast<std::size_t>(id.index)]);
   });
   return found == own.end() ? -1 : found - own.begin();
 }

@@ -198,7 +198,8 @@ void StoredKnowledge::believe_numbers(const CalibratedModel& model, const DataSe
   // more or less than the others do. How well the mean is known is another matter.
   for (std::size_t i = 0; i < here.size(); ++i) {
     const Eigen::Index at = here[i];
-    const double variance = std::pow(spread_of(*model.fleet, model.posterior->ids[static_cast<std::size_t>(there[i])], there[i]), 2.0);
+    const double variance =
+        std::pow(spread_of(*model.fleet, model.posterior->ids[static_cast<std::size_t>(there[i])], there[i]), 2.0);
     stated_(at, at) -= variance;
     (ids_[static_cast<std::size_t>(at)].kind == ParameterId::Kind::link ? link_drift_ : effect_drift_)[at] = variance;
   }

@@ -76,8 +76,8 @@ TypeSpread type_spread(std::span<const KnownNumbers> robots, std::span<const int
   for (int round = 0; round < kMostRounds; ++round) {
     const Expected now = expected(robots, variance, mean_precision);
     const Eigen::VectorXd alike = pooled(variance, now.known, groups);
-    const Eigen::VectorXd next = ((kAlike * alike + now.squares) / (kAlike + count))
-                                     .cwiseMax(kLeastSpread * kLeastSpread);
+    const Eigen::VectorXd next =
+        ((kAlike * alike + now.squares) / (kAlike + count)).cwiseMax(kLeastSpread * kLeastSpread);
     const double moved = (next - variance).cwiseAbs().cwiseQuotient(variance).maxCoeff();
     variance = next;
     if (moved < kSettled) break;

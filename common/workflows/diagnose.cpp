@@ -23,7 +23,7 @@
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/difference.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/make_report.hpp"
@@ -50,21 +50,6 @@ Preparation start_of(const DataSet& data, const Job& job, const std::optional<Ca
   return prepare_from(data, job.declared, model.robot, job.targets);
 }
 
-bool same_link(const Joint& one, const Joint& other) {
-  constexpr double kRounding = 1e-9;  // m or rad
-  bool same = one.type == other.type;
-  for (int parameter = 0; parameter < kLinkParameters; ++parameter) {
-    const auto which = static_cast<LinkParameter>(parameter);
-    same = same && std::abs(one.parameter(which) - other.parameter(which)) < kRounding;
-  }
-  return same;
-}
-
-bool same_place(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
-  constexpr double kRounding = 1e-9;  // m or rad
-  return (one.matrix() - other.matrix()).cwiseAbs().maxCoeff() < kRounding;
-}
-
 }  // namespace
 
 void require_same_arm(const CorrectedRobot& robot, const DataSet& data) {
@@ -81,18 +66,9 @@ void require_same_arm(const CorrectedRobot& robot, const DataSet& data) {
 
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data) {
   require_same_arm(model.robot, data);
-  const Chain &one = model.nominal.chain, &other = data.robot.chain;
-  for (std::size_t i = 0; i < one.joints.size(); ++i) {
-    if (one.convention == other.convention && same_link(one.joints[i], other.joints[i])) continue;
-    throw InputError({data.file, 0}, data.robot.name,
-                     fmt::format("is not the arm that the model corrects: joint {} differs", i + 1));
-  }
-  const bool ends = same_place(one.base, other.base) && same_place(one.flange, other.flange);
-  if (!ends || one.couplings != other.couplings) {
-    throw InputError({data.file, 0}, data.robot.name,
-                     fmt::format("is not the arm that the model corrects: {}",
-                                 ends ? "its couplings differ" : "where its base or flange stands differs"));
-  }
+  const std::string difference = first_difference(model.nominal.chain, data.robot.chain);
+  if (!difference.empty())
+    throw InputError({data.file, 0}, data.robot.name, "is not the arm that the model corrects: " + difference);
 }
 
 DeclaredModel declared_by_default(const DataSet& data) {

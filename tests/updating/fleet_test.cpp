@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kLink2_m = 6e-4;        ///< that the a of link 2 of every robot of the type is longer than drawn
+constexpr double kLink2_m = 6e-4;  ///< that the a of link 2 of every robot of the type is longer than drawn
 constexpr double kOffsetSpread_rad = 1e-3;
 
 /// Zeros are a robot's own; lengths are those of the type within a few micrometres.
@@ -40,8 +40,8 @@ std::vector<NamedModel> models_of_type(int robots, RandomStream& random) {
   std::vector<NamedModel> models;
   for (int i = 0; i < robots; ++i) {
     const auto seed = static_cast<std::uint64_t>(700 + i);
-    models.push_back({"robot" + std::to_string(i) + ".yaml",
-                      model_of_wrist(measured_wrist(robot_of_type(random), 60, 30, seed))});
+    models.push_back(
+        {"robot" + std::to_string(i) + ".yaml", model_of_wrist(measured_wrist(robot_of_type(random), 60, 30, seed))});
     models.back().model.data_sha256 = std::to_string(i);
   }
   return models;
@@ -78,8 +78,8 @@ TEST(TypeSpread, IsNotTakenForTheNoiseOfTheRobotsModels) {
   std::vector<KnownNumbers> robots;
   for (int i = 0; i < 60; ++i) {
     const double noise = 2.0, own = 0.2 * random.normal() + noise * random.normal();
-    robots.push_back({Eigen::MatrixXd::Constant(1, 1, 1 / (noise * noise)),
-                      Eigen::VectorXd::Constant(1, own / (noise * noise))});
+    robots.push_back(
+        {Eigen::MatrixXd::Constant(1, 1, 1 / (noise * noise)), Eigen::VectorXd::Constant(1, own / (noise * noise))});
   }
   const std::vector<int> groups{0};
   EXPECT_LT(type_spread(robots, groups, Eigen::VectorXd::Constant(1, 1e-9)).spread[0], 1.0);
@@ -93,7 +93,10 @@ TEST(Fleet, HasTheMeanAndTheSpreadOfItsRobots) {
   EXPECT_LT(number(fleet, "joint 2 a_mm").spread, 0.05);
   double squares = 0.0;
   for (const int joint : {2, 3, 4, 5})
-    squares += std::pow(number(fleet, "joint " + std::to_string(joint) + " theta_deg").spread * std::numbers::pi / 180.0, 2.0) / 4.0;
+    squares +=
+        std::pow(number(fleet, "joint " + std::to_string(joint) + " theta_deg").spread * std::numbers::pi / 180.0,
+                 2.0) /
+        4.0;
   EXPECT_GT(std::sqrt(squares), 0.5 * kOffsetSpread_rad);
   EXPECT_LT(std::sqrt(squares), 2.0 * kOffsetSpread_rad);
 }

@@ -82,8 +82,7 @@ CorrectedRobot robot_of(const Type& type, RandomStream& random) {
   }
   robot.tools.at("").translation() += kTool_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
   robot.sensor_from_base.translation() = Eigen::Vector3d(2.0, 1.0, 0.5);
-  robot.sensor_from_base.linear() =
-      Eigen::AngleAxisd(random.real(-3, 3), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  robot.sensor_from_base.linear() = Eigen::AngleAxisd(random.real(-3, 3), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return robot;
 }
 
@@ -180,8 +179,8 @@ void print(const Robot& robot, double spread_m, int poses, const Errors& errors,
     fmt::print("{}\n", line.dump());
     return;
   }
-  fmt::print("{:<17} {:>6.2f} {:>5} {:>9.3f} {:>9.3f} {:>9.3f} {:>10.2f}", robot.name, 1e3 * spread_m, poses, with, alone,
-             twice, median(errors.over_twice));
+  fmt::print("{:<17} {:>6.2f} {:>5} {:>9.3f} {:>9.3f} {:>9.3f} {:>10.2f}", robot.name, 1e3 * spread_m, poses, with,
+             alone, twice, median(errors.over_twice));
   if (diagnosed) fmt::print(" {:>12.3f} {:>10.2f}", found, over_found);
   fmt::print("\n");
 }
@@ -191,7 +190,8 @@ void print(const Robot& robot, double spread_m, int poses, const Errors& errors,
 void bench_fleets(int seeds, bool json) {
   if (!json)
     fmt::print(
-        "rms error, mm, of the sixth robot: with the fleet; alone, told which effects there are, of as many poses and of "
+        "rms error, mm, of the sixth robot: with the fleet; alone, told which effects there are, of as many poses and "
+        "of "
         "twice as many; diagnosed alone of twice as many\n{:<17} {:>6} {:>5} {:>9} {:>9} {:>9} {:>10} {:>12} {:>10}\n",
         "robot", "spread", "poses", "fleet", "alone", "twice", "ratio", "diagnosed", "ratio");
   std::vector<Robot> robots = arms();

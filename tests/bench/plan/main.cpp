@@ -10,12 +10,12 @@
 #include <optional>
 
 #include "config/input_files.hpp"
+#include "fleets.hpp"
 #include "planning/candidates.hpp"
 #include "planning/plan.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 #include "scene.hpp"
-#include "fleets.hpp"
 #include "updating/change.hpp"
 #include "workflows/workflows.hpp"
 
