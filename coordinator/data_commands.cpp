@@ -10,18 +10,22 @@
 
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
+#include "config/joint_log_file.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/prepared_recordings.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"
 #include "preparation/prepared.hpp"
+#include "preparation/recorded_contacts.hpp"
 #include "preparation/results.hpp"
 #include "report/evaluation.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "terminal/report_text.hpp"
 #include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -29,7 +33,8 @@ namespace {
 constexpr double kFar_mm = 1.0;  // between a programmed point and the nominal arm's: more than rounding explains
 
 struct PrepareRequest {
-  std::string file, out, frame;
+  std::string file, out, frame, robot;
+  std::vector<std::string> logs;
   bool json = false, force = false;
 };
 
@@ -75,7 +80,24 @@ void warn(const PrepareRequest& request, const RawMeasurements& raw, const Prepa
   }
 }
 
+/// The recordings that are asked for, by options or by the file; nothing where an instrument measured.
+std::optional<Recordings> recordings_asked(const PrepareRequest& request) {
+  if (request.file.empty() == request.logs.empty())
+    throw ArgumentError("prepare needs either a PREPARATION.yaml, or --log with --robot");
+  std::optional<Recordings> recordings;
+  if (!request.logs.empty()) {
+    recordings = load_recordings(request.robot, {request.logs.begin(), request.logs.end()});
+  } else if (const YamlNode preparation = read_preparation(request.file); names_recordings(preparation)) {
+    recordings = load_recordings(preparation);
+  }
+  if (recordings && !request.frame.empty())
+    throw ArgumentError("--frame says nothing of recordings: nothing in them is measured in a frame");
+  return recordings;
+}
+
 ExitCode run(const PrepareRequest& request) {
+  if (const auto recordings = recordings_asked(request))
+    return prepare_recordings(*recordings, {request.out, request.json, request.force});
   const RawMeasurements raw = load_preparation(request.file);
   const Prepared prepared = prepare_measurements(raw);
   const std::optional<FrameKind> asked = frame_asked(request, raw, prepared);
@@ -129,8 +151,17 @@ ExitCode run(const SimulateRequest& request) {
 void add_prepare(CLI::App& app, ExitCode& exit_code) {
   const auto request = std::make_shared<PrepareRequest>();
   CLI::App* command =
-      app.add_subcommand("prepare", "raw measurements, taught points and programs to a data set and its errors");
-  command->add_option("preparation", request->file, "PREPARATION.yaml")->required();
+      app.add_subcommand("prepare", "raw measurements, or recordings of an arm that touches points, to a data set");
+  command->add_option("preparation", request->file, "PREPARATION.yaml");
+  CLI::Option* const log =
+      command
+          ->add_option("--log", request->logs,
+                       "in its place, recordings of joints with times, as loggers and ROS write them: the arm stood "
+                       "still at every touch")
+          ->check(CLI::ExistingFile);
+  log->needs(command->add_option("--robot", request->robot, "ROBOT.yaml of the recorded arm")
+                 ->check(CLI::ExistingFile)
+                 ->needs(log));
   command->add_option("--out", request->out, "folder for the data set")->required();
   command
       ->add_option("--frame", request->frame,

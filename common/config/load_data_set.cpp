@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "config/certificate_keys.hpp"
+#include "config/column_name.hpp"
 #include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
@@ -94,13 +95,6 @@ void exclude(const YamlNode* ids, DataSet& data) {
   }
 }
 
-ColumnName read_column(const YamlNode& node) {
-  ColumnName name{node.text(), {node.file, node.line}};
-  const bool number = !node.quoted && node.scalar.find_first_not_of("0123456789") == std::string::npos;
-  if (number) name.number = static_cast<std::size_t>(node.whole_number(1, 10000));
-  return name;
-}
-
 std::vector<ColumnName> read_columns(const YamlNode* node) {
   std::vector<ColumnName> columns;
   if (node) {
@@ -115,6 +109,13 @@ std::optional<ColumnName> read_single(const YamlNode* node) {
 }
 
 }  // namespace
+
+ColumnName read_column(const YamlNode& node) {
+  ColumnName name{node.text(), {node.file, node.line}};
+  const bool number = !node.quoted && node.scalar.find_first_not_of("0123456789") == std::string::npos;
+  if (number) name.number = static_cast<std::size_t>(node.whole_number(1, 10000));
+  return name;
+}
 
 DataSet load_data_set(const std::filesystem::path& path) {
   return load_described_data_set(path).data;

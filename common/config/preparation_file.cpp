@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/joint_log_file.hpp"
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
@@ -134,9 +135,8 @@ CordInstrument read_cords(const YamlNode& node) {
 }  // namespace
 
 RawMeasurements load_preparation(const std::filesystem::path& path) {
-  const YamlNode root = read_yaml(path);
-  root.with_version("preparation", 1)
-      .with_keys({"demecal_preparation", "name", "robot", "instrument", "local_frame", "repeats", "sets"});
+  const YamlNode root = read_preparation(path);
+  if (names_recordings(root)) root.at("log").fail("", "is of recordings, which have no measurements");
   RawMeasurements raw;
   raw.name = root.find("name") ? root.at("name").text() : path.stem().string();
   raw.file = path.string();

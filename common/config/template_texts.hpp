@@ -95,6 +95,12 @@ sets:
   - {set: calibration, joints: @PROGRAM@, readings: @READINGS@}
   # - {set: validation, joints: validation.csv, readings: validation-readings.csv}
 # local_frame: {robot: frame.csv, instrument: frame-readings.csv, tolerance_mm: 5}   # three points that both know
+# In place of instrument, repeats and sets: recordings of the joints while the arm touched points and stood still there
+# log:
+#   files: recording.csv     # or a list; columns of joints and times are found by their headings
+#   still_s: 0.5             # how long it stood at a touch, at least
+#   names: [left, right]     # in the order in which they were first touched; without it A, B, ...
+#   distances: [{between: [left, right], mm: 50, sigma_mm: 0.05}]   # known lengths give the scale
 )yaml";
 
 }  // namespace demecal::inline config

@@ -16,9 +16,18 @@ namespace {
 
 constexpr std::size_t kMostJoints = 9;
 
+/// What a recorder of ROS topics heads positions of a joint with, "/joint_states/NAME/position", is its name.
+std::string without_topic(std::string name) {
+  constexpr std::string_view kPosition = "/position";
+  if (!name.ends_with(kPosition)) return name;
+  name.resize(name.size() - kPosition.size());
+  const std::size_t stroke = name.rfind('/');
+  return stroke == std::string::npos ? name : name.substr(stroke + 1);
+}
+
 /// A name in small letters, without signs between them and without a unit at its end: "Joint_1_deg" becomes "joint1".
 std::string plain_name(std::string_view column) {
-  std::string name = lower_case(column);
+  std::string name = without_topic(lower_case(column));
   const std::size_t ending = name.rfind('_');
   if (ending != std::string::npos && find_heading_unit(name.substr(ending + 1))) name.resize(ending);
   std::erase_if(name, [](char c) { return std::string_view(" _-.:$").find(c) != std::string_view::npos; });
@@ -45,6 +54,8 @@ class NamedColumns {
     return std::nullopt;
   }
 
+  const std::vector<std::string>& names() const { return names_; }
+
   /// All of the names; empty where one is missing.
   std::vector<std::size_t> all_of(const std::vector<std::string>& names) const {
     std::vector<std::size_t> columns;
@@ -60,13 +71,30 @@ class NamedColumns {
   std::vector<std::string> names_;
 };
 
-constexpr std::array<std::string_view, 11> kJointStems{
-    "q", "j", "joint", "axis", "a", "theta", "actualq", "jointangle", "jointposition", "position", "t"};
+constexpr std::array<std::string_view, 12> kJointStems{
+    "q",       "j",          "joint",         "axis",     "a", "theta",
+    "actualq", "jointangle", "jointposition", "position", "t", "fieldposition"};
 
 std::vector<std::string> numbered_names(std::string_view stem, std::size_t from, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count; ++i) names.push_back(std::string(stem) + std::to_string(from + i));
   return names;
+}
+
+/// The first column named PREFIXjointN for a number, with the same prefix for all, which is no word for something else
+/// of joints than where they stand: "panda_joint1".
+std::vector<std::size_t> prefixed_joints(const NamedColumns& named, std::size_t from, std::size_t joints) {
+  constexpr std::array<std::string_view, 8> kOtherwise{"vel",    "eff",  "acc",    "cur",
+                                                       "torque", "temp", "target", "desired"};
+  const std::string first = "joint" + std::to_string(from);
+  for (const std::string& name : named.names()) {
+    if (!name.ends_with(first)) continue;
+    const std::string prefix = name.substr(0, name.size() - first.size());
+    if (std::ranges::any_of(kOtherwise, [&](auto word) { return prefix.find(word) != std::string::npos; })) continue;
+    auto columns = named.all_of(numbered_names(prefix + "joint", from, joints));
+    if (!columns.empty()) return columns;
+  }
+  return {};
 }
 
 /// Joints counted from one, or from zero as recorders of UR arms do.
@@ -76,6 +104,10 @@ std::vector<std::size_t> joint_columns(const NamedColumns& named, std::size_t jo
       auto columns = named.all_of(numbered_names(stem, from, joints));
       if (!columns.empty()) return columns;
     }
+  }
+  for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
+    auto columns = prefixed_joints(named, from, joints);
+    if (!columns.empty()) return columns;
   }
   return {};
 }

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 #include "../errors/complaint.hpp"
 #include "config/data_set_file.hpp"
+#include "kinematics/forward.hpp"
 #include "prediction/measurement.hpp"
+#include "preparation/touched_places.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 
@@ -115,6 +118,29 @@ TEST_F(ContactFiles, WiresFromUnknownAnchorsAreContactsEachInARowOfItsOwn) {
   EXPECT_THAT(
       complaint([&] { load_data_set(folder_.write("dataset.yaml", text + "contacts: {kinds: {anchor 1: plane}}\n")); }),
       HasSubstr("is where a wire ends"));
+}
+
+TEST(RealContacts, AreToldApartByWhereTheNominalArmHasThem) {
+  for (const char* robot : {"panda-1", "panda-4"}) {
+    const std::string file =
+        std::string(DEMECAL_SOURCE_DIR) + "/../shared/data/panda-sockets/" + robot + "/dataset.yaml";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "the measured robots are not on this machine: " << file;
+    const DataSet data = load_data_set(file);
+    const Chain& arm = data.robot.chain;
+    std::vector<Eigen::Isometry3d> flanges;
+    for (const MeasuredPose& pose : data.poses) flanges.push_back(forward(arm, pose.joints));
+    const Eigen::Vector3d tool_m = common_tool_point(flanges, arm.tool_m);
+    EXPECT_GT((tool_m - arm.tool_m).norm(), 0.05);  // their robot file knows the ball to some cm
+    std::vector<Eigen::Vector3d> places_m;
+    for (const Eigen::Isometry3d& flange : flanges) places_m.push_back(flange * tool_m);
+    const PlaceGroups groups = group_places(places_m, {});
+    std::map<std::string, std::size_t> numbers;
+    for (std::size_t i = 0; i < data.poses.size(); ++i) {
+      const auto number = numbers.emplace(data.poses[i].contact, numbers.size()).first->second;
+      EXPECT_EQ(groups.group_of[i], number) << robot << ", " << data.poses[i].pose_id;
+    }
+    EXPECT_EQ(groups.groups, 6u);
+  }
 }
 
 }  // namespace

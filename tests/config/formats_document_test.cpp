@@ -13,6 +13,7 @@
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/joint_log_file.hpp"
 #include "config/model_file.hpp"
 #include "config/study_grid.hpp"
 #include "formats_document.hpp"
@@ -172,7 +173,14 @@ TEST(FormatsDocument, HasTheKeysOfScenarios) {
 }
 
 TEST(FormatsDocument, HasTheKeysOfPreparations) {
-  expect_keys_of({.title = "PREPARATION.yaml", .read = load_preparation});
+  const auto read = [](const std::filesystem::path& path) {
+    const YamlNode preparation = read_preparation(path);
+    if (names_recordings(preparation))
+      load_recordings(preparation);
+    else
+      load_preparation(path);
+  };
+  expect_keys_of({.title = "PREPARATION.yaml", .read = read});
 }
 
 TEST(FormatsDocument, HasTheKeysOfMatrices) {

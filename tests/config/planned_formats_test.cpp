@@ -1,5 +1,5 @@
-// docs/FORMATS.md names the keys of cell files, of plan.json and of what `check --json` prints; a plan's files are read
-// back.
+// docs/FORMATS.md names the keys of plan.json, of what `check --json` and `prepare --log --json` print, and the columns
+// of standstills.csv; a plan's files are read back.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,9 @@
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "data/csv.hpp"
 #include "formats_document.hpp"
+#include "made_up_recording.hpp"
 #include "report/change_report.hpp"
 #include "report/plan_report.hpp"
 #include "temporary_folder.hpp"
@@ -62,6 +64,14 @@ TEST(PlannedFormats, CheckHasTheKeysOfThePage) {
   DataSet data;
   data.robot = small_request().robot;
   expect_documented(formats_section("check --json"), all_paths(Json::parse(to_json(change, data, "model.yaml"))));
+}
+
+TEST(RecordedFormats, AreThoseOfThePage) {
+  const auto [json, standstills] = made_up_recording();
+  expect_documented(formats_section("prepare --log --json"), all_paths(Json::parse(json)));
+  std::istringstream text(standstills);
+  const std::vector<std::string> columns = read_csv(text, "standstills.csv").columns;
+  EXPECT_EQ(formats_section("standstills.csv").keys(), std::set<std::string>(columns.begin(), columns.end()));
 }
 
 TEST(PlannedFormats, FilesOfAPlanAreReadBackOnceWhatIsMeasuredIsThere) {
