@@ -56,6 +56,14 @@ TEST(CheckContacts, NamesThePoseThatWasNotSeated) {
   EXPECT_THAT(check.findings[0].poses, ElementsAre(data.poses[20].pose_id));
 }
 
+TEST(CheckContacts, BlamesNoPoseForWhatAnEffectDoesToMany) {
+  for (const std::uint64_t seed : {9307u, 9308u}) {
+    DataSet data = socket_data(seed);
+    for (std::size_t pose = 0; pose < data.poses.size(); pose += 6) data.poses[pose].joints[1] += 1.5e-3;
+    EXPECT_THAT(check_data(data).findings, IsEmpty());
+  }
+}
+
 TEST(CheckContacts, FindsTheJointThatCountsTheOtherWay) {
   DataSet data = socket_data(9306);
   for (MeasuredPose& pose : data.poses) pose.joints[2] = -pose.joints[2];
