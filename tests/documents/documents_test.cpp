@@ -95,10 +95,14 @@ std::string help_of(const std::string& command) {
     const Ended ended = run("/bin/sh", {"-c", call + " --help"});
     EXPECT_EQ(ended.code, 0) << command;
     known[call] = ended.out + ended.err;
-    // Benchmarks take the options of their programs, which are built when they are run.
-    if (words[1].str() == "scripts/bench") known[call] += " --condition --cases";
   }
-  return known[call];
+  if (words[1].str() != "scripts/bench" || !words[2].matched) return known[call];
+  // Benchmarks take the options of their programs, which are built when they are run.
+  std::smatch bench;
+  std::regex_search(command, bench, std::regex("^\\S+ ([a-z-]+)"));
+  std::string folder = bench[1].str();
+  std::ranges::replace(folder, '-', '_');
+  return known[call] + text_of_file(kRoot / "tests/bench" / folder / "main.cpp");
 }
 
 bool is_of_the_project(const std::string& command) {
