@@ -184,15 +184,22 @@ class PredictionScores {
         std::erase_if(scored_, [&](const ScoredPose& one) { return most > 0.0 && score(one) > most; }));
   }
 
-  /// What unseen poses show beyond noise and posterior, per axis.
+  /// What unseen poses show beyond noise and posterior, per axis, and one standard error of that: so few poses tell it
+  /// badly, and an error that is small beside the noise would otherwise be taken for none every other time.
   void set_model_error() {
-    double excess_m2 = 0.0, axes = 0.0;
+    double sum_m2 = 0.0, squares_m4 = 0.0, axes = 0.0;
     for (const ScoredPose& one : scored_) {
       const MeasuredPose& pose = data_.poses[one.pose];
-      excess_m2 += one.error_m2 - one.posterior_m2 - noise_square_m2(interval_, pose);
+      const double excess_m2 = one.error_m2 - one.posterior_m2 - noise_square_m2(interval_, pose);
+      sum_m2 += excess_m2;
+      squares_m4 += excess_m2 * excess_m2;
       axes += measures_point(pose) ? point_axes(pose) : 1.0;
     }
-    if (excess_m2 > 0.0) interval_.model_error_m = std::sqrt(excess_m2 / axes);
+    const auto count = static_cast<double>(scored_.size());
+    const double spread_m4 =
+        count > 1.0 ? std::max(0.0, squares_m4 - sum_m2 * sum_m2 / count) * count / (count - 1.0) : 0.0;
+    const double most_m2 = sum_m2 + std::sqrt(spread_m4);
+    if (most_m2 > 0.0) interval_.model_error_m = std::sqrt(most_m2 / axes);
   }
 
   const DataSet& data_;
