@@ -42,6 +42,11 @@ std::vector<std::string> contact_notes(const DataSet& data);
 /// Where the radii of poses come from.
 PredictionEntry prediction_entry(const PredictionInterval& interval);
 
+/// Whether most poses were measured near the one before them, as along a path: their median step, of the joint that
+/// moves most, is less than a quarter of what the poses cover (random ones go over two thirds of it). Repeats are no
+/// steps.
+bool follow_each_other(const DataSet& data);
+
 /// How many accept poses lie within their radius, of how many, and the radii's median, mm.
 struct IntervalCoverage {
   std::size_t poses = 0, inside = 0;

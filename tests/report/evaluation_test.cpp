@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kinematics/random_arm.hpp"
 #include "made_up_comparison.hpp"
 #include "made_up_loop.hpp"
 
@@ -77,6 +78,29 @@ TEST(Comparison, HoldsItsFiguresInJsonAndNullWhereThereAreNone) {
   EXPECT_EQ(json["methods"][0]["parameters"], 81);
   EXPECT_TRUE(json["methods"][0]["error_mm"]["accept"]["rms"].is_null());
   EXPECT_TRUE(json["methods"][1]["error_mm"]["calibration"]["max"].is_null());
+}
+
+TEST(FollowEachOther, PosesOfAPathDoAndScatteredOnesDoNot) {
+  RandomStream stream{6101};
+  for (int trial = 0; trial < 20; ++trial) {
+    DataSet scattered, path;
+    scattered.robot.chain = path.robot.chain = random_arm(stream, 6, Convention::standard_dh);
+    JointVector from = random_joints(stream, path.robot.chain), to = from;
+    for (int i = 0; i < 60; ++i) {
+      MeasuredPose pose;
+      pose.joints = random_joints(stream, scattered.robot.chain);
+      scattered.poses.push_back(pose);
+      scattered.poses.push_back(pose);  // a repeat is no step
+      if (i % 6 == 0) {
+        from = to;
+        to = random_joints(stream, path.robot.chain);
+      }
+      pose.joints = from + (i % 6) / 6.0 * (to - from);
+      path.poses.push_back(pose);
+    }
+    EXPECT_FALSE(follow_each_other(scattered));
+    EXPECT_TRUE(follow_each_other(path));
+  }
 }
 
 }  // namespace
