@@ -17,7 +17,6 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/robot_fleet.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"

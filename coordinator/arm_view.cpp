@@ -9,11 +9,11 @@
 
 #include "config/data_set_file.hpp"
 #include "config/model_file.hpp"
-#include "coordinator/robot_fleet.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/forward.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal {

@@ -9,11 +9,11 @@
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
-#include "coordinator/robot_fleet.hpp"
 #include "html/check_page.hpp"
 #include "report/change_report.hpp"
 #include "report/check_history.hpp"
 #include "updating/change.hpp"
+#include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
@@ -55,6 +56,9 @@ void add_study(CLI::App& app, ExitCode& exit_code);
 void add_monitor(CLI::App& app, ExitCode& exit_code);
 void add_template(CLI::App& app, ExitCode& exit_code);
 void add_new(CLI::App& app, ExitCode& exit_code);
+
+/// Says on standard error that a fleet's mean is no calibrated robot.
+void say_if_fleet(const CalibratedModel& model, const std::string& file);
 
 /// A data set as every command takes it up: read, checked against its robot, and what was found said first.
 struct CheckedData {

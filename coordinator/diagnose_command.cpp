@@ -24,7 +24,6 @@
 #include "coordinator/displays.hpp"
 #include "coordinator/prior_runs.hpp"
 #include "coordinator/result_folder.hpp"
-#include "coordinator/robot_fleet.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "data_check/finding.hpp"
@@ -40,6 +39,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
+#include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal {

@@ -15,7 +15,6 @@
 #include "config/model_export.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/robot_fleet.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "errors/input_error.hpp"

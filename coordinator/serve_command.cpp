@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "coordinator/commands.hpp"
-#include "coordinator/fleet.hpp"
 #include "coordinator/job_folders.hpp"
 #include "coordinator/job_service.hpp"
+#include "coordinator/workers.hpp"
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
 #include "http/access.hpp"

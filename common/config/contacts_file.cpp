@@ -28,6 +28,13 @@ std::vector<std::string> contact_names(const DataSet& data) {
   return {names.begin(), names.end()};
 }
 
+/// The two names under `between`.
+std::pair<std::string, std::string> between(const YamlNode& node) {
+  const std::vector<YamlNode>& names = node.at("between").list(2);
+  if (names[0].text() == names[1].text()) names[1].fail("is named twice: two contacts are expected");
+  return {names[0].text(), names[1].text()};
+}
+
 class ContactsReader {
  public:
   explicit ContactsReader(DataSet& data) : data_(data), names_(contact_names(data)) {}
@@ -77,8 +84,7 @@ class ContactsReader {
   std::pair<std::string, std::string> read_pair(const YamlNode& node) const {
     const std::vector<YamlNode>& names = node.at("between").list(2);
     for (const YamlNode& name : names) require_contact(name, name.text());
-    if (names[0].text() == names[1].text()) names[1].fail("is named twice: two contacts are expected");
-    return {names[0].text(), names[1].text()};
+    return between(node);
   }
 
   void require_centre(const YamlNode& node, const std::string& contact) const {
@@ -94,12 +100,12 @@ class ContactsReader {
   }
 
   void read_distance(const YamlNode& node) {
-    node.with_keys({"between", "mm", "sigma_mm"});
-    auto [first, second] = read_pair(node);
-    require_centre(node, first);
-    require_centre(node, second);
-    data_.contacts.distances.push_back({std::move(first), std::move(second), metres(node.at("mm").positive()),
-                                        metres(node.at("sigma_mm").positive())});
+    KnownDistance known = read_known_distance(node);
+    for (const YamlNode& name : node.at("between").list(2)) {
+      require_contact(name, name.text());
+      require_centre(node, name.text());
+    }
+    data_.contacts.distances.push_back(std::move(known));
   }
 
   void read_angle(const YamlNode& node, bool square) {
@@ -129,6 +135,13 @@ std::string angles_text(const Contacts& contacts, bool square) {
 }
 
 }  // namespace
+
+KnownDistance read_known_distance(const YamlNode& node) {
+  node.with_keys({"between", "mm", "sigma_mm"});
+  auto [first, second] = between(node);
+  return {std::move(first), std::move(second), metres(node.at("mm").positive()),
+          metres(node.at("sigma_mm").positive())};
+}
 
 void read_contacts(const YamlNode* node, const ColumnMap& columns, DataSet& data) {
   if (!node) return;

@@ -13,6 +13,9 @@ namespace demecal::inline config {
 /// name is of no contact, or where something is said that its kind does not have.
 void read_contacts(const YamlNode* node, const ColumnMap& columns, DataSet& data);
 
+/// An entry of `distances`: between which two, mm and sigma_mm.
+KnownDistance read_known_distance(const YamlNode& node);
+
 /// The same as YAML, empty where nothing is to be said.
 std::string contacts_text(const Contacts& contacts);
 

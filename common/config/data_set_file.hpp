@@ -28,6 +28,9 @@ DescribedDataSet load_described_data_set(const std::filesystem::path& path);
 /// What a map of columns is of: all that there is, or a part of it.
 enum class ColumnsOf { all, part };
 
+/// A column by its name or, where that is a whole number, by its place from 1.
+ColumnName read_column(const YamlNode& node);
+
 /// What stands under `columns`: names, or numbers of columns. Of all that there is, joints must be among them.
 ColumnMap read_column_map(const YamlNode& node, ColumnsOf of = ColumnsOf::all);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -34,14 +33,6 @@ std::string references(const CsvTable& table, const std::vector<std::size_t>& co
   return yaml_list(names);
 }
 
-/// Whether the table itself says the column's unit.
-bool has_unit(const CsvTable& table, std::size_t column) {
-  if (!table.units.empty() && !table.units[column].empty()) return true;
-  const std::string& name = table.columns[column];
-  const std::size_t ending = name.rfind('_');
-  return ending != std::string::npos && find_unit(lower_case(name.substr(ending + 1))).has_value();
-}
-
 double largest(const CsvTable& table, const std::vector<std::size_t>& columns) {
   double most = 0.0;
   for (const std::size_t index : columns) {
@@ -55,21 +46,29 @@ double largest(const CsvTable& table, const std::vector<std::size_t>& columns) {
 struct AssumedUnit {
   std::string key, unit, sentence;
 };
-std::optional<AssumedUnit> assumed_unit(const std::vector<GivenTable>& tables, const std::string& key, double limit,
-                                        const char* small, const char* large,
-                                        std::vector<std::size_t> GuessedColumns::*columns) {
+std::optional<AssumedUnit> assumed_unit(const std::vector<GivenTable>& tables, const std::string& key,
+                                        Quantity quantity, std::vector<std::size_t> GuessedColumns::*columns) {
   for (const GivenTable& given : tables) {
     const auto& group = given.columns.*columns;
     const CsvTable& table = given.read.table;
-    if (group.empty() || std::ranges::all_of(group, [&](std::size_t column) { return has_unit(table, column); }))
+    if (group.empty() || std::ranges::all_of(group, [&](std::size_t column) { return states_unit(table, column); }))
       continue;
     const double most = largest(table, group);
-    const std::string unit = most > limit ? large : small;
+    const std::string unit(likely_unit(quantity, most));
     return AssumedUnit{key, unit,
                        "units of " + references(table, group) + " are taken to be " + unit + ", since the largest is " +
                            number_text(std::round(1e3 * most) / 1e3) + ": check `units`"};
   }
   return std::nullopt;
+}
+
+/// Columns that are called as uncertainties of the position may be, and can be that.
+bool are_sigmas(const CsvTable& table, const std::vector<std::size_t>& columns) {
+  return std::ranges::all_of(columns, [&](std::size_t index) {
+    const TableColumn column(table, {table.columns[index], {}, index + 1});
+    return std::ranges::all_of(
+        table.rows, [&](const CsvRow& row) { return is_numeric(column.text(row)) && column.number(row) > 0.0; });
+  });
 }
 
 std::string columns_text(const GivenTable& given, const std::string& indent) {
@@ -84,7 +83,7 @@ std::string columns_text(const GivenTable& given, const std::string& indent) {
   };
   list("joints", columns.joints);
   list("position", columns.position);
-  if (!columns.position.empty()) list("sigma", columns.sigma);
+  list("sigma", columns.sigma);
   list("orientation", columns.orientation);
   list("approach", columns.approach);
   single("payload", columns.payload);
@@ -231,6 +230,13 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
   keep_one_source(tables, &GuessedColumns::joints, assumed, "joints");
   keep_one_source(tables, &GuessedColumns::position, assumed, "positions");
   keep_one_source(tables, &GuessedColumns::orientation, assumed, "orientations");
+  for (GivenTable& given : tables) {
+    std::vector<std::size_t>& sigma = given.columns.sigma;
+    if (given.columns.position.empty() || !are_sigmas(given.read.table, sigma)) sigma.clear();
+    if (!sigma.empty())
+      assumed.push_back("positions weigh by " + references(given.read.table, sigma) +
+                        ", taken to be their standard uncertainties: leave `sigma` out if they are not");
+  }
   const auto any = [&](auto group) {
     return std::ranges::any_of(tables, [&](const GivenTable& given) { return !(given.columns.*group).empty(); });
   };
@@ -256,8 +262,8 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
               "    columns:\n" + columns_text(given, "      ");
     }
   }
-  const auto angle = assumed_unit(tables, "angle", 2.0 * std::numbers::pi + 0.2, "rad", "deg", &GuessedColumns::joints);
-  const auto length = assumed_unit(tables, "length", 20.0, "m", "mm", &GuessedColumns::position);
+  const auto angle = assumed_unit(tables, "angle", Quantity::angle, &GuessedColumns::joints);
+  const auto length = assumed_unit(tables, "length", Quantity::length, &GuessedColumns::position);
   if (angle || length) {
     body += "units:                   # of columns whose headings state none\n";
     for (const auto& unit : {angle, length}) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "config/contacts_file.hpp"
 #include "config/input_files.hpp"
-#include "config/joint_log_table.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 
@@ -63,11 +63,7 @@ void read_rules(const YamlNode& log, Recordings& recordings) {
   const YamlNode* distances = log.find("distances");
   if (distances == nullptr) return;
   for (const YamlNode& one : distances->list()) {
-    one.with_keys({"between", "mm", "sigma_mm"});
-    const std::vector<YamlNode>& names = one.at("between").list(2);
-    if (names[0].text() == names[1].text()) names[1].fail("is named twice: two contacts are expected");
-    recordings.distances.push_back(
-        {names[0].text(), names[1].text(), metres(one.at("mm").positive()), metres(one.at("sigma_mm").positive())});
+    recordings.distances.push_back(read_known_distance(one));
     recordings.distance_lines.push_back(one.line);
   }
 }

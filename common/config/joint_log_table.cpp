@@ -1,13 +1,11 @@
-#include "config/joint_log_table.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
-#include "config/column_name.hpp"
 #include "config/data_set_file.hpp"
+#include "config/draft_data_set.hpp"
+#include "config/joint_log_file.hpp"
 #include "config/pose_files.hpp"
 #include "data/columns.hpp"
 #include "data/read_poses.hpp"
@@ -23,14 +21,6 @@ namespace {
 
 const YamlNode* child_of(const LogRequest& request, std::string_view key) {
   return request.node ? request.node->find(key) : nullptr;
-}
-
-std::vector<std::string> joint_names(const Robot& robot) {
-  std::vector<std::string> names;
-  if (robot.drawing)
-    for (const DrawnJoint& joint : robot.drawing->joints) names.push_back(joint.name);
-  const bool all = std::ranges::none_of(names, [](const std::string& name) { return name.empty(); });
-  return all ? names : std::vector<std::string>{};
 }
 
 class LogReader {
@@ -101,14 +91,6 @@ class LogReader {
                          "{joints: [...]} beside `file` under log.files");
   }
 
-  bool states_unit(const ColumnName& name) const {
-    const std::size_t column = TableColumn(table_, name).index();
-    if (!table_.units.empty() && !table_.units[column].empty()) return true;
-    const std::string& heading = table_.columns[column];
-    const std::size_t ending = heading.rfind('_');
-    return ending != std::string::npos && find_unit(lower_case(heading.substr(ending + 1))).has_value();
-  }
-
   /// What the headings do not say is taken from how large the numbers are.
   void find_units() {
     if (const YamlNode* told = child_of(request_, "units")) units_ = read_units(told);
@@ -117,14 +99,14 @@ class LogReader {
       double most = 0.0;
       bool any = false;
       for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
-        if (is_revolute(robot_.chain.joints[joint]) != angles || states_unit(joints_[joint])) continue;
+        if (is_revolute(robot_.chain.joints[joint]) != angles) continue;
         const TableColumn column(table_, joints_[joint]);
+        if (states_unit(table_, column.index())) continue;
         for (const CsvRow& row : table_.rows) most = std::max(most, std::abs(column.number(row)));
         any = true;
       }
       if (!any || unit) continue;
-      const bool large = most > (angles ? 2.0 * std::numbers::pi + 0.2 : 20.0);
-      const std::string name = angles ? (large ? "deg" : "rad") : (large ? "mm" : "m");
+      const std::string name(likely_unit(angles ? Quantity::angle : Quantity::length, most));
       unit = find_unit(name);
       assume("joints are taken to be in " + name + ", since the largest number is " +
              number_text(std::round(1e3 * most) / 1e3) + "; if not, set `units`");

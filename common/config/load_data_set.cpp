@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "config/certificate_keys.hpp"
-#include "config/column_name.hpp"
 #include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
 #include "config/input_files.hpp"

@@ -93,7 +93,7 @@ PosesOfFiles read_pose_files(const YamlNode& root, const AssumedUnits& units, co
   if (files.size() > 1) read.sha256 = sha256(read.sha256);
   read.file = tables.tables[tables.main].file;
   read.poses = read_poses(tables, read.columns, units, chain, tools_m);
-  read.sigma_by_angles = states_range_and_angles(tables, read.columns);
+  read.sigma_by_angles = states_range_and_angles(tables.tables, read.columns);
   return read;
 }
 

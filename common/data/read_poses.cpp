@@ -65,12 +65,8 @@ TableColumns find_sigma(const Tables& tables, const ColumnMap& map, const Assume
   return columns;
 }
 
-bool by_range_and_angles(const Tables& tables, const ColumnMap& map) {
-  return map.sigma.size() == 3 && angle_or_length(tables[map.sigma[1].table], map.sigma[1]) == Quantity::angle;
-}
-
 PoseColumns find_columns(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
-  const bool by_angles = by_range_and_angles(tables, map);
+  const bool by_angles = states_range_and_angles(tables, map);
   return {.joints = find_joints(tables, map, units, chain),
           .position = find_all(tables, map.position, Quantity::length, units),
           .orientation = find_all(tables, map.orientation),
@@ -242,8 +238,9 @@ JoinedTables alone(CsvTable table) {
   return joined;
 }
 
-bool states_range_and_angles(const JoinedTables& tables, const ColumnMap& columns) {
-  return by_range_and_angles(tables.tables, columns);
+bool states_range_and_angles(std::span<const CsvTable> tables, const ColumnMap& columns) {
+  return columns.sigma.size() == 3 &&
+         angle_or_length(tables[columns.sigma[1].table], columns.sigma[1]) == Quantity::angle;
 }
 
 std::vector<MeasuredPose> read_poses(const JoinedTables& joined, const ColumnMap& columns, const AssumedUnits& units,

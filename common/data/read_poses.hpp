@@ -42,7 +42,7 @@ struct JoinedTables {
 JoinedTables alone(CsvTable table);
 
 /// Whether `sigma` holds the uncertainty of an instrument's range and of its two angles; otherwise of coordinates.
-bool states_range_and_angles(const JoinedTables& tables, const ColumnMap& columns);
+bool states_range_and_angles(std::span<const CsvTable> tables, const ColumnMap& columns);
 
 /// One pose per row of the tables, in its order, in SI units and radians. Where there is no pose column every row is a
 /// pose of its own ("line 7"); where there is no set column all are for calibration. `tools_m` names the targets there

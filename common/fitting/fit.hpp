@@ -87,9 +87,10 @@ std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot);
 /// found from far off: closed-form registration (Horn) from the start's predicted positions, and `starts` deterministic
 /// orientations otherwise. Directions below rank_tolerance are held where the start has them, and what a base or a tool
 /// can explain is not laid at a joint's door. Covariance is sigma^2 (J^T J + sigma^2 / prior^2)^+ with
-/// sigma^2 = 2 cost / dof. Throws InputError where distances were measured from unknown anchors.
-/// Places that the poses touch start at their poses' mean and are free beside the rest (with what is known between
-/// them), so that estimates, scales and standard errors are those of least squares with the places eliminated.
+/// sigma^2 = 2 cost / dof. Throws InputError where distances were measured from unknown anchors:
+/// take_wires_for_contacts() comes first. Places that the poses touch start at their poses' mean and are free beside
+/// the rest (with what is known between them), so that estimates, scales and standard errors are those of least squares
+/// with the places eliminated.
 Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const DeclaredModel& declared,
                  const CorrectedRobot& start, const FitOptions& options = {});
 

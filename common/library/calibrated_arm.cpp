@@ -32,6 +32,7 @@
 #include "programs/target_correction.hpp"
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
+#include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 
@@ -69,7 +70,9 @@ CalibratedArm::CalibratedArm(std::shared_ptr<const Implementation> implementatio
     : implementation_(std::move(implementation)) {}
 
 CalibratedArm CalibratedArm::load(const std::filesystem::path& model_file) {
-  return CalibratedArm(std::make_shared<Implementation>(Implementation{load_model(model_file)}));
+  CalibratedModel model = load_model(model_file);
+  require_one_robot(model, model_file.string(), "a calibrated arm");
+  return CalibratedArm(std::make_shared<Implementation>(Implementation{std::move(model)}));
 }
 
 void CalibratedArm::save(const std::filesystem::path& model_file) const {

@@ -158,7 +158,7 @@ struct AddedEffect {
 /// The model of an arm as it really is.
 class CalibratedArm {
  public:
-  /// The model of a model.yaml.
+  /// The model of a model.yaml; a fleet's mean, which is no robot's, is refused.
   static CalibratedArm load(const std::filesystem::path& model_file);
   /// As model.yaml, for the program demecal too; replaces a file of that name.
   void save(const std::filesystem::path& model_file) const;

@@ -6,26 +6,46 @@
 
 namespace demecal::inline planning {
 
-Design::Design(Eigen::MatrixXd rows, int rows_per_pose, const Eigen::MatrixXd& known, Eigen::MatrixXd weight)
-    : rows_(std::move(rows)), rows_per_pose_(rows_per_pose), known_(known), weight_(std::move(weight)) {
-  taken_.assign(candidates(), false);
-  refresh();
+Knowledge::Knowledge(Eigen::MatrixXd known, Eigen::MatrixXd weight)
+    : known_(std::move(known)), weight_(std::move(weight)) {
+  set({});
 }
 
-/// Updates by single poses lose digits little by little.
-void Design::refresh() {
-  const Eigen::Index n = rows_.cols();
+void Knowledge::set(const std::vector<Eigen::MatrixXd>& rows) {
+  const Eigen::Index n = weight_.rows();
   Eigen::MatrixXd information = known_ + Eigen::MatrixXd::Identity(n, n);
-  for (const std::size_t candidate : chosen_) {
-    const Eigen::MatrixXd rows = rows_of(candidate);
-    information.noalias() += rows.transpose() * rows;
-  }
+  for (const Eigen::MatrixXd& own : rows) information.noalias() += own.transpose() * own;
   covariance_ = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
 }
 
+void Knowledge::add(const Eigen::MatrixXd& rows) {
+  const Eigen::MatrixXd along = rows * covariance_;
+  Eigen::MatrixXd spread = along * rows.transpose();
+  spread.diagonal().array() += 1.0;
+  covariance_ -= along.transpose() * spread.llt().solve(along);
+}
+
+void Knowledge::remove(const Eigen::MatrixXd& rows) {
+  const Eigen::MatrixXd along = rows * covariance_;
+  Eigen::MatrixXd left = -along * rows.transpose();
+  left.diagonal().array() += 1.0;
+  covariance_ += along.transpose() * left.ldlt().solve(along);
+}
+
+Design::Design(Eigen::MatrixXd rows, int rows_per_pose, const Eigen::MatrixXd& known, Eigen::MatrixXd weight)
+    : rows_(std::move(rows)), rows_per_pose_(rows_per_pose), knowledge_(known, std::move(weight)) {
+  taken_.assign(candidates(), false);
+}
+
+void Design::refresh() {
+  std::vector<Eigen::MatrixXd> rows;
+  for (const std::size_t candidate : chosen_) rows.push_back(rows_of(candidate));
+  knowledge_.set(rows);
+}
+
 std::size_t Design::best_candidate() const {
-  const Eigen::MatrixXd along = rows_ * covariance_;
-  const Eigen::MatrixXd wanted = along * weight_;
+  const Eigen::MatrixXd along = rows_ * knowledge_.covariance();
+  const Eigen::MatrixXd wanted = along * knowledge_.weight();
   std::size_t best = candidates();
   double most = 0.0;
   for (std::size_t i = 0; i < candidates(); ++i) {
@@ -52,20 +72,14 @@ bool Design::add_best() {
 }
 
 void Design::add(std::size_t candidate) {
-  const Eigen::MatrixXd rows = rows_of(candidate), along = rows * covariance_;
-  Eigen::MatrixXd spread = along * rows.transpose();
-  spread.diagonal().array() += 1.0;
-  covariance_ -= along.transpose() * spread.llt().solve(along);
+  knowledge_.add(rows_of(candidate));
   chosen_.push_back(candidate);
   taken_[candidate] = true;
 }
 
 void Design::remove(std::size_t place) {
   const std::size_t candidate = chosen_[place];
-  const Eigen::MatrixXd rows = rows_of(candidate), along = rows * covariance_;
-  Eigen::MatrixXd left = -along * rows.transpose();
-  left.diagonal().array() += 1.0;
-  covariance_ += along.transpose() * left.ldlt().solve(along);
+  knowledge_.remove(rows_of(candidate));
   chosen_.erase(chosen_.begin() + static_cast<std::ptrdiff_t>(place));
   taken_[candidate] = false;
 }

@@ -7,19 +7,37 @@
 
 namespace demecal::inline planning {
 
-/// Chooses poses among candidates by what each would measure. The numbers are in units of what is believed of them, so
-/// that nothing measured leaves the identity as their covariance.
+/// What measured poses leave unknown of a model's numbers, kept up while poses are added and taken away. The numbers
+/// are in units of what is believed of them, so that nothing measured leaves the identity as their covariance.
+class Knowledge {
+ public:
+  /// `known`: information already there (numbers x numbers); `weight`: of the expected squared error, see Workspace.
+  Knowledge(Eigen::MatrixXd known, Eigen::MatrixXd weight);
+
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+  const Eigen::MatrixXd& weight() const { return weight_; }
+  /// The expected squared error, m^2, mean over the workspace.
+  double square_m2() const { return weight_.cwiseProduct(covariance_).sum(); }
+
+  /// Measured is exactly what has these rows, pose by pose: single updates lose digits little by little.
+  void set(const std::vector<Eigen::MatrixXd>& rows);
+  void add(const Eigen::MatrixXd& rows);
+  void remove(const Eigen::MatrixXd& rows);
+
+ private:
+  Eigen::MatrixXd known_, weight_, covariance_;
+};
+
+/// Chooses poses among candidates by what each would measure.
 class Design {
  public:
-  /// `rows`: of all candidates, one after another, `rows_per_pose` each; `known`: information already there (numbers x
-  /// numbers); `weight`: of the expected squared error, see Workspace.
+  /// `rows`: of all candidates, one after another, `rows_per_pose` each; `known` and `weight` as of Knowledge.
   Design(Eigen::MatrixXd rows, int rows_per_pose, const Eigen::MatrixXd& known, Eigen::MatrixXd weight);
 
   std::size_t candidates() const { return static_cast<std::size_t>(rows_.rows() / rows_per_pose_); }
   const std::vector<std::size_t>& chosen() const { return chosen_; }
-  const Eigen::MatrixXd& covariance() const { return covariance_; }
-  /// The expected squared error, m^2, mean over the workspace.
-  double square_m2() const { return weight_.cwiseProduct(covariance_).sum(); }
+  const Eigen::MatrixXd& covariance() const { return knowledge_.covariance(); }
+  double square_m2() const { return knowledge_.square_m2(); }
 
   /// Adds the candidate that lowers the expected squared error most; false where none is left.
   bool add_best();
@@ -38,7 +56,7 @@ class Design {
 
   Eigen::MatrixXd rows_;
   int rows_per_pose_;
-  Eigen::MatrixXd known_, weight_, covariance_;
+  Knowledge knowledge_;
   std::vector<std::size_t> chosen_;
   std::vector<bool> taken_;
 };

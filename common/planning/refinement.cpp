@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "planning/exchange.hpp"
 #include "planning/travel.hpp"
 
 namespace demecal::inline planning {
@@ -17,50 +18,21 @@ constexpr double kOneJoint = 0.5;                   ///< share of tries that mov
 constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
 constexpr double kLeastGain = 2e-3;                 ///< of a round, over what there was
 
-/// What poses leave unknown, kept up while they change.
-class Knowledge {
+/// By how much rows would lower the expected squared error, at one state of knowledge.
+class PoseGain {
  public:
-  Knowledge(const std::vector<Eigen::MatrixXd>& rows, const Eigen::MatrixXd& known, const Eigen::MatrixXd& weight)
-      : known_(known), weight_(weight) {
-    set(rows);
-  }
+  explicit PoseGain(const Knowledge& knowledge)
+      : covariance_(knowledge.covariance()), wanted_(covariance_ * knowledge.weight() * covariance_) {}
 
-  void set(const std::vector<Eigen::MatrixXd>& rows) {
-    const Eigen::Index n = weight_.rows();
-    Eigen::MatrixXd information = known_ + Eigen::MatrixXd::Identity(n, n);
-    for (const Eigen::MatrixXd& own : rows) information.noalias() += own.transpose() * own;
-    covariance_ = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  }
-
-  double square_m2() const { return weight_.cwiseProduct(covariance_).sum(); }
-  const Eigen::MatrixXd& covariance() const { return covariance_; }
-
-  void add(const Eigen::MatrixXd& rows) {
-    const Eigen::MatrixXd along = rows * covariance_;
-    Eigen::MatrixXd spread = along * rows.transpose();
-    spread.diagonal().array() += 1.0;
-    covariance_ -= along.transpose() * spread.llt().solve(along);
-  }
-
-  void remove(const Eigen::MatrixXd& rows) {
-    const Eigen::MatrixXd along = rows * covariance_;
-    Eigen::MatrixXd left = -along * rows.transpose();
-    left.diagonal().array() += 1.0;
-    covariance_ += along.transpose() * left.ldlt().solve(along);
-  }
-
-  /// For gain_of() at the present state.
-  void look() { wanted_ = covariance_ * weight_ * covariance_; }
-  /// By how much these rows would lower the expected squared error.
-  double gain_of(const Eigen::MatrixXd& rows) const {
+  double operator()(const Eigen::MatrixXd& rows) const {
     Eigen::MatrixXd spread = rows * covariance_ * rows.transpose();
     spread.diagonal().array() += 1.0;
     return spread.llt().solve(rows * wanted_ * rows.transpose()).trace();
   }
 
  private:
-  const Eigen::MatrixXd &known_, &weight_;
-  Eigen::MatrixXd covariance_, wanted_;
+  const Eigen::MatrixXd& covariance_;
+  Eigen::MatrixXd wanted_;
 };
 
 PlannedPose moved_pose(const FeasibleSpace& space, const PlannedPose& pose, double width, RandomStream& random) {
@@ -95,18 +67,19 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
   std::vector<Eigen::MatrixXd> rows;
   std::ranges::transform(poses, std::back_inserter(rows),
                          [&](const PlannedPose& pose) { return model.measured_rows(pose); });
-  Knowledge knowledge(rows, known, weight);
+  Knowledge knowledge(known, weight);
+  knowledge.set(rows);
   double width = kWidest;
   for (int round = 0; round < kRefinements; ++round, width *= kNarrowing) {
     const double before = knowledge.square_m2();
     for (std::size_t i = 0; i < poses.size(); ++i) {
       knowledge.remove(rows[i]);
-      knowledge.look();
-      double most = knowledge.gain_of(rows[i]);
+      const PoseGain gain_of(knowledge);
+      double most = gain_of(rows[i]);
       for (int attempt = 0; attempt < kTries; ++attempt) {
         PlannedPose tried = moved_pose(space, poses[i], width, random);
         Eigen::MatrixXd tells = model.measured_rows(tried);
-        const double gain = knowledge.gain_of(tells);
+        const double gain = gain_of(tells);
         if (!(gain > most) || !is_feasible(space, tried)) continue;
         most = gain;
         poses[i] = std::move(tried);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "random/distributions.hpp"
+
 namespace demecal::inline preparation {
 namespace {
 
@@ -11,10 +13,11 @@ constexpr double kSample_s = 0.01;      ///< rows closer than this are averaged
 constexpr double kNoiseWindow_s = 0.3;  ///< in which an arm that stands, or moves evenly, shows its noise
 constexpr std::size_t kNoiseRows = 5;
 
-/// The square root of the quantile of chi-squared over its degrees of freedom, by Wilson and Hilferty (1931).
-double chi_quantile(double normal_quantile, double freedoms) {
-  const double part = 2.0 / (9.0 * freedoms);
-  return std::sqrt(std::pow(1.0 - part + normal_quantile * std::sqrt(part), 3.0));
+/// The value that a share of all is below; there must be one.
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 /// The least step that a joint's readings differ by, other than 0: of encoders that stand between two counts.
@@ -67,14 +70,8 @@ JointLine line_through(const LogSamples& samples, std::size_t from, std::size_t 
   return line;
 }
 
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 JointVector sample_noise(const LogSamples& samples, double most_rounding) {
-  constexpr double kShare = 0.2, kNormalQuantile = -0.8416;
+  constexpr double kShare = 0.2;
   const Eigen::Index joints = samples.joints.front().size();
   std::vector<std::vector<double>> found(static_cast<std::size_t>(joints));
   for (std::size_t from = 0; from < samples.size();) {
@@ -84,15 +81,15 @@ JointVector sample_noise(const LogSamples& samples, double most_rounding) {
       ++end;
     if (end - from < kNoiseRows) break;
     const JointLine line = line_through(samples, from, end);
-    const double freedoms = static_cast<double>(end - from) - 2.0;
+    const int freedoms = static_cast<int>(end - from) - 2;
+    const double expected = normal_length_quantile(freedoms, kShare);
     for (Eigen::Index joint = 0; joint < joints; ++joint) {
       double squares = -line.slope[joint] * line.slope[joint] * line.squares_s2;
       for (std::size_t i = from; i < end; ++i) {
         const double off = samples.joints[i][joint] - line.mean[joint];
         squares += off * off;
       }
-      found[static_cast<std::size_t>(joint)].push_back(std::sqrt(std::max(0.0, squares) / freedoms) /
-                                                       chi_quantile(kNormalQuantile, freedoms));
+      found[static_cast<std::size_t>(joint)].push_back(std::sqrt(std::max(0.0, squares)) / expected);
     }
     from = end;
   }

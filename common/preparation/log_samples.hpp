@@ -32,7 +32,4 @@ JointLine line_through(const LogSamples& samples, std::size_t from, std::size_t 
 /// no more of it than `most_rounding`.
 JointVector sample_noise(const LogSamples& samples, double most_rounding);
 
-/// The value that a share of all is below; there must be one.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace demecal::inline preparation

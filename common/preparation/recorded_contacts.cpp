@@ -11,8 +11,9 @@
 #include "errors/check.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
-#include "preparation/contact_notes.hpp"
+#include "preparation/grouping_notes.hpp"
 #include "preparation/touched_places.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline preparation {
 namespace {
@@ -28,25 +29,21 @@ constexpr double kSurelyThere_m = 5e-3;
 using Indices = std::vector<std::size_t>;
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points_m) {
-  Eigen::Vector3d median;
+  Eigen::Vector3d centre;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Eigen::Vector3d& point_m : points_m) values.push_back(point_m[axis]);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median[axis] = *middle;
+    centre[axis] = median(std::move(values));
   }
-  return median;
+  return centre;
 }
 
 /// Root mean square distance, by the median one of a normal cloud.
 double robust_scatter_m(const std::vector<Eigen::Vector3d>& points_m, const Eigen::Vector3d& centre_m) {
-  constexpr double kOfMedian = 1.7321 / 1.5382;
+  const double of_median = std::sqrt(3.0) / normal_length_quantile(3, 0.5);
   std::vector<double> distances_m;
   for (const Eigen::Vector3d& point_m : points_m) distances_m.push_back((point_m - centre_m).norm());
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  return kOfMedian * *middle;
+  return of_median * median(std::move(distances_m));
 }
 
 bool same_posture(const JointVector& one, const JointVector& other) {
@@ -67,7 +64,7 @@ class RecordingSearch {
     check_names(recordings_, found_);
     std::vector<std::optional<std::size_t>> contact_of_group(groups_.groups);
     for (const auto& [group, kept] : number_of_group_) contact_of_group[group] = order_.at(kept);
-    found_.notes = contact_notes(recordings_, found_, groups_, contact_of_group);
+    found_.notes = grouping_notes(recordings_, found_, groups_, contact_of_group);
     return std::move(found_);
   }
 

@@ -8,6 +8,7 @@
 #include "kinematics/chain.hpp"
 #include "preparation/joint_log.hpp"
 #include "preparation/log_samples.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline preparation {
 namespace {
@@ -60,7 +61,7 @@ class Search {
     std::vector<double> steps_s{0.0};
     for (std::size_t row = 1; row < log_.times_s.size(); ++row)
       steps_s.push_back(log_.times_s[row] - log_.times_s[row - 1]);
-    search.noise.step_s = quantile(std::move(steps_s), 0.5);
+    search.noise.step_s = median(std::move(steps_s));
     return search;
   }
 

@@ -6,6 +6,9 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
+
+#include "random/distributions.hpp"
 
 namespace demecal::inline preparation {
 namespace {
@@ -134,11 +137,9 @@ double widest_gap_m(const std::vector<Merge>& merges) {
     if (joins_groups(merge)) heights_m.push_back(merge.apart_m);
   }
   if (near_m.empty()) return kNeverOne_m;
-  const auto middle = near_m.begin() + static_cast<std::ptrdiff_t>(near_m.size() / 2);
-  std::nth_element(near_m.begin(), middle, near_m.end());
   std::ranges::sort(heights_m);
   heights_m.push_back(kNeverOne_m);
-  double most = 0.0, cut_m = kNeverOne_m, below_m = std::max(*middle, kErrors_m);
+  double most = 0.0, cut_m = kNeverOne_m, below_m = std::max(median(std::move(near_m)), kErrors_m);
   for (const double height_m : heights_m) {
     if (height_m >= kLeastGap_m && height_m / below_m > most) {
       most = height_m / below_m;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -183,6 +184,19 @@ GuessedColumns by_contents(const CsvTable& table, std::size_t joints) {
 
 GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names) {
   return table.header_line > 0 ? by_names(table, joints, joint_names) : by_contents(table, joints);
+}
+
+bool states_unit(const CsvTable& table, std::size_t column) {
+  if (!table.units.empty() && !table.units[column].empty()) return true;
+  const std::string& name = table.columns[column];
+  const std::size_t ending = name.rfind('_');
+  return ending != std::string::npos && find_unit(lower_case(name.substr(ending + 1))).has_value();
+}
+
+std::string_view likely_unit(Quantity quantity, double largest) {
+  constexpr double kMostAngle_rad = 2.0 * std::numbers::pi + 0.2, kMostLength_m = 20.0;
+  if (quantity == Quantity::angle) return largest > kMostAngle_rad ? "deg" : "rad";
+  return largest > kMostLength_m ? "mm" : "m";
 }
 
 std::size_t count_joint_columns(const CsvTable& table) {

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "data/columns.hpp"
 #include "data/csv.hpp"
 
 namespace demecal::inline tables {
@@ -20,6 +22,13 @@ struct GuessedColumns {
 /// qw qx qy qz; sx sy sz; a name or point; a time. In a table without headings: three columns of numbers are a
 /// position, as many as there are joints are joints, both together are both, and a first column of words is the name.
 GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names);
+
+/// Whether the table itself says the column's unit, at the end of its name or beside it.
+bool states_unit(const CsvTable& table, std::size_t column);
+
+/// "rad" or "deg", "m" or "mm": that of a column of angles or lengths whose largest value this is. No arm turns a joint
+/// much beyond one turn, or measures beyond 20 m.
+std::string_view likely_unit(Quantity quantity, double largest);
 
 /// How many joints the table seems to have, by columns of numbered names; 0 where it has none.
 std::size_t count_joint_columns(const CsvTable& table);

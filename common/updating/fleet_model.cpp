@@ -195,4 +195,12 @@ CalibratedModel fleet_model(const std::vector<NamedModel>& models) {
   return fleet;
 }
 
+void require_one_robot(const CalibratedModel& model, const std::string& file, const std::string& what) {
+  if (!model.fleet) return;
+  throw InputError({file, 0}, model.job,
+                   fmt::format("is the mean of several robots, and {} needs the model of one: make it with `demecal "
+                               "calibrate --prior {}`",
+                               what, file));
+}
+
 }  // namespace demecal::inline updating

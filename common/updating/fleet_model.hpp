@@ -21,4 +21,7 @@ struct NamedModel {
 /// data, and at models without a posterior.
 CalibratedModel fleet_model(const std::vector<NamedModel>& models);
 
+/// Throws InputError where the model is a fleet's mean and `what` ("check") needs that of one robot.
+void require_one_robot(const CalibratedModel& model, const std::string& file, const std::string& what);
+
 }  // namespace demecal::inline updating

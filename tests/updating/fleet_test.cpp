@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "errors/input_error.hpp"
+#include "../errors/complaint.hpp"
 #include "lacking_numbers.hpp"
 #include "prediction/measurement.hpp"
 #include "updating/fleet_model.hpp"
@@ -119,6 +119,14 @@ TEST(Fleet, MakesFewPosesOfAFurtherRobotTellMore) {
   EXPECT_LT(with, 0.6 * without);
 }
 
+TEST(Fleet, IsNoModelOfOneRobot) {
+  RandomStream random{8109};
+  const std::vector<NamedModel> models = models_of_type(2, random);
+  require_one_robot(models[0].model, "model.yaml", "check");
+  EXPECT_THAT(complaint([&] { require_one_robot(fleet_model(models), "fleet.yaml", "check"); }),
+              HasSubstr("is the mean of several robots, and check needs the model of one"));
+}
+
 TEST(Fleet, AveragesCorrectionsAndCountsAModelWithoutOneAsZero) {
   RandomStream random{8105};
   std::vector<NamedModel> models = models_of_type(2, random);
@@ -144,12 +152,7 @@ TEST(Fleet, UnitesEffectsAndCountsAModelWithoutOneAsZero) {
 }
 
 std::string refusal(const std::vector<NamedModel>& models) {
-  try {
-    fleet_model(models);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint([&] { fleet_model(models); });
 }
 
 TEST(Fleet, IsRefusedOfOneModelOfOtherArmsAndOfTheSameData) {

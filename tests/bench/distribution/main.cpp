@@ -5,7 +5,7 @@
 #include <iostream>
 #include <thread>
 
-#include "coordinator/fleet.hpp"
+#include "coordinator/workers.hpp"
 #include "figures.hpp"
 #include "hosting/worker.hpp"
 #include "load.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "coordinator/fleet.hpp"
+#include "coordinator/workers.hpp"
 #include "processor_time.hpp"
 #include "scheduling/evolution_run.hpp"
 

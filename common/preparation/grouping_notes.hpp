@@ -16,8 +16,8 @@ void check_names(const Recordings& recordings, const RecordedContacts& found);
 
 /// Where the grouping may be wrong, and where the tool point seems to be; `contact_of_group` has the contact that each
 /// group became, if it became one.
-std::vector<std::string> contact_notes(const Recordings& recordings, const RecordedContacts& found,
-                                       const PlaceGroups& groups,
-                                       const std::vector<std::optional<std::size_t>>& contact_of_group);
+std::vector<std::string> grouping_notes(const Recordings& recordings, const RecordedContacts& found,
+                                        const PlaceGroups& groups,
+                                        const std::vector<std::optional<std::size_t>>& contact_of_group);
 
 }  // namespace demecal::inline preparation

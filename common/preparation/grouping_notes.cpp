@@ -1,4 +1,4 @@
-#include "preparation/contact_notes.hpp"
+#include "preparation/grouping_notes.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -95,9 +95,9 @@ void check_names(const Recordings& recordings, const RecordedContacts& found) {
   }
 }
 
-std::vector<std::string> contact_notes(const Recordings& recordings, const RecordedContacts& found,
-                                       const PlaceGroups& groups,
-                                       const std::vector<std::optional<std::size_t>>& contact_of_group) {
+std::vector<std::string> grouping_notes(const Recordings& recordings, const RecordedContacts& found,
+                                        const PlaceGroups& groups,
+                                        const std::vector<std::optional<std::size_t>>& contact_of_group) {
   std::vector<std::string> notes;
   if (std::string tool = tool_note(recordings, found); !tool.empty()) notes.push_back(std::move(tool));
   if (std::string gap = gap_note(groups); !gap.empty() && !recordings.gap_m) notes.push_back(std::move(gap));

@@ -1,4 +1,3 @@
-#include "coordinator/robot_fleet.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -77,14 +76,6 @@ void say_if_fleet(const CalibratedModel& model, const std::string& file) {
              "{}: the mean of {} robots of the type {}, and no calibrated robot: each of them differs from it (--prior "
              "makes a model of one from a few poses)\n",
              file, model.fleet->robots.size(), model.nominal.name);
-}
-
-void require_one_robot(const CalibratedModel& model, const std::string& file, const std::string& what) {
-  if (!model.fleet) return;
-  throw InputError({file, 0}, model.job,
-                   fmt::format("is the mean of several robots, and {} needs the model of one: make it with `demecal "
-                               "calibrate --prior {}`",
-                               what, file));
 }
 
 void add_fleet(CLI::App& app, ExitCode& exit_code) {

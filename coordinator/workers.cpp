@@ -1,4 +1,4 @@
-#include "coordinator/fleet.hpp"
+#include "coordinator/workers.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
