@@ -29,7 +29,7 @@ namespace {
 struct PlanCommand {
   std::string robot_file, out, cell_file, after;
   std::vector<std::string> declared, detect;
-  std::optional<int> poses, validation, accept;
+  std::optional<int> poses, validation, accept, contacts;
   std::optional<double> accuracy_mm;
   std::uint64_t seed = 1;
   bool json = false, force = false;
@@ -38,6 +38,15 @@ struct PlanCommand {
 struct NamedText {
   std::string name, text;
 };
+
+/// A single target that the cell states is the ball.
+void take_ball(const PlanCommand& command, PlanRequest& request) {
+  if (request.tools_m.size() > 1)
+    throw InputError({command.cell_file, 0}, "tools_mm", "states several targets: a single ball touches the sockets");
+  if (request.tools_m.empty()) return;
+  request.robot.chain.tool_m = request.tools_m.begin()->second;
+  request.tools_m.clear();
+}
 
 PlanRequest request_of(const PlanCommand& command) {
   PlanRequest request;
@@ -49,12 +58,16 @@ PlanRequest request_of(const PlanCommand& command) {
   if (command.accuracy_mm) request.accuracy_m = 1e-3 * *command.accuracy_mm;
   request.validation = command.validation;
   request.accept = command.accept;
+  request.places = command.contacts;
   request.seed = command.seed;
   if (!command.cell_file.empty()) {
     CellFile file = load_cell(command.cell_file, request.robot);
     request.cell = std::move(file.cell);
     request.tools_m = std::move(file.tools_m);
   }
+  if (request.places) take_ball(command, request);
+  if (request.places && !command.after.empty())
+    throw ArgumentError("--contacts and --after exclude each other: a plan goes on from measured points alone");
   if (!command.after.empty()) {
     request.measured = load_data_set(command.after);
     require_positions(*request.measured, "plan --after");
@@ -87,7 +100,7 @@ std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request) {
                                {"plan.html", plan_html(plan, request)}};
   const std::vector<ProgrammedStop> stops = programmed(plan);
   for (const Language& language : all_languages()) {
-    if (language.write == nullptr) continue;
+    if (language.write == nullptr || stops.empty()) continue;
     std::string text = language.write(stops, request.robot.chain);
     if (!text.empty()) files.push_back({"program." + std::string(written_ending(language)), std::move(text)});
   }
@@ -125,7 +138,7 @@ CLI::Validator words_of(std::vector<std::string> words) {
 }  // namespace
 
 void add_plan(CLI::App& app, ExitCode& exit_code) {
-  constexpr int kMost = 1000;
+  constexpr int kMost = 1000, kMostPlaces = 12;
   const auto request = std::make_shared<PlanCommand>();
   CLI::App* command = app.add_subcommand("plan", "which poses to measure, before the first one is");
   command->add_option("robot", request->robot_file, "ROBOT.yaml")->required();
@@ -147,6 +160,11 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
       ->delimiter(',')
       ->check(words_of({kinds.begin(), kinds.end()}));
   command->add_option("--cell", request->cell_file, "CELL.yaml: room for the arm, instrument, targets, noise");
+  command
+      ->add_option("--contacts", request->contacts,
+                   "N places of sockets that a ball on the tool touches, where no instrument measures; one more is for "
+                   "accept poses")
+      ->check(CLI::Range(1, kMostPlaces));
   command->add_option("--after", request->after, "DATASET.yaml of a measurement that the plan goes on from");
   command->add_option("--validation", request->validation, "poses for validation (default: 3 for 10, 10 at least)")
       ->check(CLI::Range(0, kMost));

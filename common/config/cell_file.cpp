@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/contacts_file.hpp"
 #include "data/csv.hpp"
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
@@ -86,6 +87,18 @@ Instrument read_planned_instrument(const YamlNode& node) {
   return instrument;
 }
 
+SocketRoom read_socket_room(const YamlNode& node) {
+  node.with_keys({"box_mm", "length_mm", "length_sigma_mm"});
+  SocketRoom room;
+  if (const YamlNode* box = node.find("box_mm")) room.box = read_box(*box);
+  if (const YamlNode* length = node.find("length_mm")) room.length_m = metres(length->positive());
+  if (const YamlNode* sigma = node.find("length_sigma_mm")) {
+    if (!room.length_m) sigma->fail("", "is the uncertainty of length_mm, which is not stated");
+    room.length_sigma_m = metres(sigma->positive());
+  }
+  return room;
+}
+
 std::vector<std::optional<Interval>> read_cell_ranges(const YamlNode& node, const Chain& chain) {
   std::vector<std::string> stems, keys;
   for (int i = 1; i <= chain.size(); ++i) stems.push_back("q" + std::to_string(i));
@@ -133,7 +146,7 @@ bool measures_orientation(const PlanRequest& request) {
 CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
   const YamlNode root = read_yaml(path);
   root.with_version("cell", 1).with_keys({"demecal_cell", "tool_box_mm", "half_spaces", "obstacles", "link_radius_mm",
-                                          "tool_cone", "instrument", "joint_ranges", "noise_mm", "tools_mm"});
+                                          "tool_cone", "instrument", "joint_ranges", "noise_mm", "tools_mm", "sockets"});
   CellFile file;
   if (const YamlNode* box = root.find("tool_box_mm")) file.cell.tool_box = read_box(*box);
   if (const YamlNode* spaces = root.find("half_spaces"))
@@ -145,6 +158,7 @@ CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
   if (const YamlNode* instrument = root.find("instrument")) file.cell.instrument = read_planned_instrument(*instrument);
   if (const YamlNode* ranges = root.find("joint_ranges")) file.cell.ranges = read_cell_ranges(*ranges, robot.chain);
   if (const YamlNode* noise = root.find("noise_mm")) file.cell.noise_m = metres(noise->positive());
+  if (const YamlNode* sockets = root.find("sockets")) file.cell.sockets = read_socket_room(*sockets);
   if (const YamlNode* tools = root.find("tools_mm"))
     for (const YamlNode& tool : tools->children) file.tools_m[tool.name] = point_m(tool);
   return file;
@@ -159,12 +173,14 @@ std::string planned_poses_csv(const Plan& plan, const PlanRequest& request) {
   for (const auto& [target, tool_m] : request.tools_m) targets.push_back(target);
   if (targets.empty()) targets.emplace_back();
   if (!request.tools_m.empty()) table.columns.emplace_back("target_id");
+  if (!plan.sockets.empty()) table.columns.emplace_back("contact_id");
   for (const PlannedStop& stop : plan.stops) {
     for (const std::string& target : targets) {
       CsvRow row{0, {std::string(to_string(stop.set)), stop.id}};
       for (int i = 0; i < chain.size(); ++i) row.fields.push_back(joint_number(chain, stop.pose.joints, i));
       for (const double sign : stop.pose.approach) row.fields.push_back(number_text(sign));
       if (!request.tools_m.empty()) row.fields.push_back(target);
+      if (stop.pose.socket) row.fields.push_back(plan.sockets[*stop.pose.socket].name);
       table.rows.push_back(std::move(row));
     }
   }
@@ -175,10 +191,13 @@ std::string planned_poses_csv(const Plan& plan, const PlanRequest& request) {
 
 std::string planned_data_set_text(const Plan& plan, const PlanRequest& request) {
   std::ostringstream text;
-  text << yaml_comment("Planned by demecal: add the columns of what was measured to poses.csv, nothing else is missing")
+  const bool touches = !plan.sockets.empty();
+  text << yaml_comment(touches ? "Planned by demecal: put the joints in which the ball sat in its socket into poses.csv"
+                               : "Planned by demecal: add the columns of what was measured to poses.csv, nothing else "
+                                 "is missing")
        << "demecal_dataset: 1\nname: " << yaml_text(request.robot.name) << "\nrobot: robot.yaml\nposes: poses.csv\n"
        << "columns:\n  set: set\n  pose: pose_id\n  joints: " << yaml_list(joint_headings(request.robot.chain)) << '\n'
-       << "  position: [x_mm, y_mm, z_mm]   # to be added\n";
+       << (touches ? "  contact: contact_id\n" : "  position: [x_mm, y_mm, z_mm]   # to be added\n");
   if (measures_orientation(request)) text << "  orientation: [qw, qx, qy, qz]   # to be added\n";
   if (!plan.stops.empty()) text << "  approach: " << yaml_list(approach_headings(request.robot.chain)) << '\n';
   if (!request.tools_m.empty()) {
@@ -186,7 +205,8 @@ std::string planned_data_set_text(const Plan& plan, const PlanRequest& request) 
     for (const auto& [target, tool_m] : request.tools_m)
       text << "  " << yaml_text(target) << ": " << yaml_mm(tool_m) << '\n';
   }
-  text << "frame: sensor\n";
+  if (!touches) text << "frame: sensor\n";
+  if (!plan.lengths.empty()) text << contacts_text({.forms = {}, .distances = plan.lengths, .angles = {}});
   return text.str();
 }
 

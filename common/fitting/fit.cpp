@@ -137,13 +137,6 @@ Fit make_fit(const LeastSquares& problem, const ScaledFit& result, const Correct
   return fit;
 }
 
-/// Where contacts are is nobody's question: directions of the arm's numbers alone are said.
-void leave_out_places(std::vector<UnidentifiedDirection>& directions) {
-  for (UnidentifiedDirection& direction : directions)
-    std::erase_if(direction.parts, [](const auto& part) { return part.first.kind == ParameterId::Kind::contact; });
-  std::erase_if(directions, [](const UnidentifiedDirection& direction) { return direction.parts.empty(); });
-}
-
 Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double rank_tolerance) {
   const std::vector<ParameterId>& ids = problem.space.ids();
   const ScaledJacobian jacobian = jacobian_at_reference(problem);
@@ -156,7 +149,7 @@ Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double
   for (auto& weak : weak_directions(jacobian, ids, covariance, problem.prior.precision)) {
     fit.unidentified.push_back(std::move(weak));
   }
-  leave_out_places(fit.unidentified);
+  leave_out_contacts(fit.unidentified);
   fit.rank = static_cast<int>(fit.estimates.size()) - static_cast<int>(fit.unidentified.size());
   fit.sentence = summary_of(fit, problem.observations.size());
   return fit;

@@ -165,4 +165,10 @@ std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobia
   return readable_directions((jacobian.lengths.asDiagonal() * moves).transpose(), jacobian, ids, true);
 }
 
+void leave_out_contacts(std::vector<UnidentifiedDirection>& directions) {
+  for (UnidentifiedDirection& direction : directions)
+    std::erase_if(direction.parts, [](const auto& part) { return part.first.kind == ParameterId::Kind::contact; });
+  std::erase_if(directions, [](const UnidentifiedDirection& direction) { return direction.parts.empty(); });
+}
+
 }  // namespace demecal::inline fitting

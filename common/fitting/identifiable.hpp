@@ -38,4 +38,7 @@ IdentifiableSubspace identifiable_subspace(const ScaledJacobian& jacobian, const
 std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
                                                    const Eigen::MatrixXd& covariance, const Eigen::VectorXd& precision);
 
+/// Where contacts are is nobody's question: the directions of the arm's numbers alone.
+void leave_out_contacts(std::vector<UnidentifiedDirection>& directions);
+
 }  // namespace demecal::inline fitting

@@ -82,9 +82,10 @@ std::string view(const Plan& plan, const Robot& robot, int across, int up, const
   }
   constexpr const char* kClasses[] = {"i0", "i1", "i2"};
   for (std::size_t i = 0; i < tools.size(); ++i)
-    marks += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\"><title>{}, {}</title></circle>\n",
+    marks += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\"><title>{}, {}{}</title></circle>\n",
                          kClasses[static_cast<std::size_t>(plan.stops[i].set)], x(tools[i]), y(tools[i]),
-                         escaped(plan.stops[i].id), to_string(plan.stops[i].set));
+                         escaped(plan.stops[i].id), to_string(plan.stops[i].set),
+                         plan.stops[i].pose.socket ? ", " + plan.sockets[*plan.stops[i].pose.socket].name : "");
   return fmt::format(
       "<figure><svg class=\"chart\" viewBox=\"0 0 {0} {0}\" role=\"img\" aria-label=\"{1}\">{2}</svg>"
       "<figcaption class=\"soft\">{1}</figcaption></figure>\n",
@@ -115,7 +116,9 @@ std::string poses_table(const Plan& plan, const Robot& robot) {
                             (is_revolute(robot.chain, i) ? degrees(value) : millimetres(value)) + 0.0);
     }
     const Eigen::Vector3d tool_mm = 1e3 * tool_position(robot.chain, stop.pose.joints);
-    rows += table_row(escaped(stop.id), {std::string(to_string(stop.set)), joints,
+    std::string set(to_string(stop.set));
+    if (stop.pose.socket) set += ", " + plan.sockets[*stop.pose.socket].name;
+    rows += table_row(escaped(stop.id), {set, joints,
                                          fmt::format("{:.0f}, {:.0f}, {:.0f}", tool_mm.x(), tool_mm.y(), tool_mm.z())});
   }
   return table_panel("poses", "<th class=\"words\">pose</th><th>set</th><th>joints, deg (mm)</th><th>tool, mm</th>",
@@ -150,6 +153,11 @@ std::string plan_html(const Plan& plan, const PlanRequest& request) {
          escaped(request.robot.name) + " – measurement plan</title>\n<style>" + std::string(page_style()) +
          "</style>\n</head>\n<body>\n<main>\n" + plan_head(plan, request) +
          section("curve", "Error against the number of poses", chart.empty() ? chart : legend + chart) +
+         section("sockets", "Where the sockets stand",
+                 list_of(socket_sentences(plan)) +
+                     (plan.by_places.empty() ? std::string()
+                                             : "<p class=\"soft\">As many random poses at " +
+                                                   escaped(places_sentence(plan)) + " (predicted rms error).</p>\n")) +
          section("unknown", "What these poses will not tell", list_of(unidentified_sentences(plan))) +
          section("detectable", "What would be found nine times in ten", list_of(sizes)) +
          section("known", "How well each number will be known", numbers_table(plan)) +

@@ -14,6 +14,7 @@ namespace demecal::inline planning {
 namespace {
 
 constexpr double kInstrument_m = 20e-6;             ///< a laser tracker's noise at a few metres
+constexpr double kPlay_m = 50e-6;                   ///< of a ball in its socket
 constexpr double kUnknownNoise_m = 50e-6;           ///< where the arm's repeatability is not known either
 constexpr double kRepeatabilityToAxis = 1.0 / 3.6;  ///< ISO 9283: mean distance plus three deviations, of three axes
 
@@ -40,10 +41,32 @@ void say_surroundings(const PlanRequest& request, const FeasibleSpace& space, Pl
     plan.warnings.push_back(
         "Nothing is known of walls and obstacles about the arm: state them with --cell CELL.yaml, or run the programs "
         "slowly first.");
-  if (!cell.instrument)
+  if (!cell.instrument && !request.places)
     say.push_back(
         "Where the instrument stands is not known: every pose is taken to be visible, positions alone are "
         "measured.");
+}
+
+void say_sockets(const PlanRequest& request, Plan& plan) {
+  auto& say = plan.assumptions;
+  if (!request.cell)
+    say.emplace_back(
+        "No cell file states from where the tool may come: its flange's z axis is kept within 60 deg of straight down, "
+        "as for sockets on a table.");
+  if (!request.cell || !request.cell->sockets.box)
+    say.emplace_back(
+        "No cell file states where sockets may stand (`sockets.box_mm`): they may be anywhere that the tool gets, at "
+        "heights of their own.");
+  if (plan.lengths.empty())
+    plan.warnings.emplace_back(
+        "No length between sockets is known: the arm's scale will be known from its drawing alone. Two sockets in one "
+        "block (`sockets.length_mm` of a cell file) would tell it.");
+  say.emplace_back(
+      "No programs are written: the arm is wrong by more than a socket gives way. Guide it by hand, or let it comply, "
+      "near the planned joints, and write down the joints where the ball sits.");
+  say.emplace_back(
+      "Sockets stand where you put them, within some 20 mm of the plan; nobody needs to measure where. The last place is "
+      "for accept poses alone, and is never fitted.");
 }
 
 void say_ranges(const FeasibleSpace& space, Plan& plan) {
@@ -74,6 +97,16 @@ void say_tool(const PlanRequest& request, Plan& plan) {
                   millimetres(lever_m), chain.size()));
 }
 
+/// Whether one of these directions is of the same numbers.
+bool is_among(const std::vector<UnidentifiedDirection>& directions, const UnidentifiedDirection& one) {
+  const auto numbers = [](const UnidentifiedDirection& direction) {
+    std::set<std::string> names;
+    for (const auto& [id, share] : direction.parts) names.insert(id.name());
+    return names;
+  };
+  return std::ranges::any_of(directions, [&](const auto& other) { return numbers(other) == numbers(one); });
+}
+
 bool is_held(const std::vector<UnidentifiedDirection>& directions, const ParameterId& id) {
   return std::ranges::any_of(directions, [&](const UnidentifiedDirection& direction) {
     return std::ranges::any_of(direction.parts, [&](const auto& part) { return part.first == id; });
@@ -82,10 +115,10 @@ bool is_held(const std::vector<UnidentifiedDirection>& directions, const Paramet
 
 }  // namespace
 
-double noise_of(const Robot& robot, const WorkCell& cell) {
+double noise_of(const Robot& robot, const WorkCell& cell, bool by_touch) {
   if (cell.noise_m) return *cell.noise_m;
   if (!robot.repeatability_m) return kUnknownNoise_m;
-  return std::hypot(kInstrument_m, kRepeatabilityToAxis * *robot.repeatability_m);
+  return std::hypot(by_touch ? kPlay_m : kInstrument_m, kRepeatabilityToAxis * *robot.repeatability_m);
 }
 
 int fewest_poses(const InformationModel& model) {
@@ -105,10 +138,13 @@ void describe_numbers(const InformationModel& model, const std::vector<PlannedPo
     if (model.ids()[i].kind == ParameterId::Kind::link) precision[at] = 1.0 / beliefs[at];
   }
   plan.unidentified = identifiable_subspace(jacobian, model.ids(), options.rank_tolerance).held;
-  for (auto& weak : weak_directions(jacobian, model.ids(), in_units, precision)) plan.unidentified.push_back(weak);
+  for (UnidentifiedDirection& weak : weak_directions(jacobian, model.ids(), in_units, precision))
+    if (!is_among(plan.unidentified, weak)) plan.unidentified.push_back(std::move(weak));
+  leave_out_contacts(plan.unidentified);
   const CorrectedRobot nominal = nominal_robot(model.model().nominal);
   for (std::size_t i = 0; i < model.ids().size(); ++i) {
     const ParameterId& id = model.ids()[i];
+    if (id.kind == ParameterId::Kind::contact) continue;
     const auto at = static_cast<Eigen::Index>(i);
     const double deviation = std::sqrt(std::max(0.0, in_units(at, at)));
     plan.numbers.push_back({id, parameter_value(nominal, id), deviation, !is_held(plan.unidentified, id)});
@@ -124,9 +160,11 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
     plan.assumptions.push_back(
         fmt::format("No cell file states the noise of a measured position: {:.3g} mm per axis is assumed ({}).",
                     millimetres(plan.noise_m),
-                    request.robot.repeatability_m ? "a laser tracker, and the repeatability in the robot file"
-                                                  : "the robot file states no repeatability"));
+                    !request.robot.repeatability_m ? "the robot file states no repeatability"
+                    : request.places               ? "play of a ball in its socket, and the repeatability in the robot file"
+                                     : "a laser tracker, and the repeatability in the robot file"));
   say_surroundings(request, space, plan);
+  if (request.places) say_sockets(request, plan);
   say_ranges(space, plan);
   say_tool(request, plan);
   plan.assumptions.emplace_back(

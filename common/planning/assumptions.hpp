@@ -10,8 +10,9 @@
 
 namespace demecal::inline planning {
 
-/// The noise of a measured position per axis, m: as the cell states it, or of a tracker and the arm's repeatability.
-double noise_of(const Robot& robot, const WorkCell& cell);
+/// The noise of a measured position per axis, m: as the cell states it, or of a tracker (a ball in
+/// its socket, where sockets are touched) and the arm's repeatability.
+double noise_of(const Robot& robot, const WorkCell& cell, bool by_touch);
 
 /// The fewest poses that measure more numbers than the model has.
 int fewest_poses(const InformationModel& model);

@@ -42,6 +42,13 @@ struct Instrument {
   bool line_of_sight = true;  ///< the beam must pass the arm and the obstacles
 };
 
+/// Where sockets may be put that the tool is to touch, and what is known between two of them.
+struct SocketRoom {
+  std::optional<Eigen::AlignedBox3d> box{};  ///< m, base frame; none: wherever the tool gets
+  std::optional<double> length_m{};          ///< between the two sockets of one block; none: sockets stand alone
+  double length_sigma_m = 2e-5;              ///< its standard uncertainty
+};
+
 struct WorkCell {
   std::optional<Eigen::AlignedBox3d> tool_box;  ///< m, base frame
   std::vector<HalfSpace> half_spaces;
@@ -51,6 +58,7 @@ struct WorkCell {
   std::optional<Instrument> instrument;
   std::vector<std::optional<Interval>> ranges;  ///< of the joints, within their limits; empty: the limits
   std::optional<double> noise_m;                ///< of a measured position, standard deviation per axis
+  SocketRoom sockets{};                         ///< for measuring without an instrument
 };
 
 /// What is assumed where nobody describes the cell: an arm of usual thickness, and nothing below the plane it stands

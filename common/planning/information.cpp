@@ -3,13 +3,16 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/known_relations.hpp"
 #include "fitting/observation.hpp"
 #include "fitting/row_sums.hpp"
+#include "kinematics/forward.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 
@@ -24,6 +27,8 @@ CorrectedRobot robot_of(const PlannedModel& model) {
   CorrectedRobot robot = nominal_robot(model.nominal);
   robot.described = model.nominal.robot;
   robot.effects = model.effects;
+  for (const PlannedSocket& socket : model.sockets)
+    robot.contacts[{socket.name, PoseSet::calibration}].frame.translation() = socket.place_m;
   for (Effect& effect : robot.effects)
     effect.values.assign(law_of(effect).coefficients(effect, model.nominal.robot).size(), 0.0);
   return robot;
@@ -41,7 +46,11 @@ std::vector<MeasuredPose> as_measured(const PlannedModel& model, const PlannedPo
     MeasuredPose row;
     row.joints = pose.joints;
     row.approach = pose.approach;
-    row.position_m = Eigen::Vector3d::Zero();
+    if (pose.socket) {
+      row.contact = model.sockets[*pose.socket].name;
+    } else {
+      row.position_m = Eigen::Vector3d::Zero();
+    }
     if (model.orientation) row.orientation = Eigen::Quaterniond::Identity();
     row.target = target;
     rows.push_back(std::move(row));
@@ -50,9 +59,18 @@ std::vector<MeasuredPose> as_measured(const PlannedModel& model, const PlannedPo
 }
 
 std::vector<ParameterId> ids_of(const PlannedModel& model, const CorrectedRobot& robot) {
+  const JointVector anywhere = JointVector::Zero(model.nominal.robot.chain.size());
   DataSet one = model.nominal;
-  one.poses = as_measured(model, {JointVector::Zero(one.robot.chain.size()), {}});
+  one.poses = as_measured(model, {anywhere, {}});
+  if (model.by_touch) {
+    one.poses.front().position_m.reset();
+    one.poses.front().contact = "any";
+  }
   std::vector<ParameterId> ids = free_parameters(one, model.declared, {});
+  one.poses.clear();
+  for (std::size_t i = 0; i < model.sockets.size(); ++i)
+    std::ranges::move(as_measured(model, {anywhere, {}, i}), std::back_inserter(one.poses));
+  for (ParameterId& id : contact_parameters(one, poses_of(one, PoseSet::calibration))) ids.push_back(std::move(id));
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
   return ids;
 }
@@ -103,6 +121,26 @@ std::vector<std::vector<double>> usual_motions(const PlannedModel& model) {
   return motions;
 }
 
+/// Leaves of every column what no shift and turn of the whole arm does as well, by least squares over all places.
+void take_out_motion_as_a_whole(const Chain& chain, const std::vector<PlannedPose>& places,
+                                std::vector<Eigen::MatrixXd>& rows) {
+  using Motion = Eigen::Matrix<double, 3, 6>;
+  std::vector<Motion> motions;
+  Eigen::Matrix<double, 6, 6> square = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(6, rows.front().cols());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector3d point = tool_position(chain, places[i].joints);
+    Motion motion = Motion::Zero();
+    motion.leftCols<3>().setIdentity();
+    for (int axis = 0; axis < 3; ++axis) motion.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(point);
+    square += motion.transpose() * motion;
+    product += motion.transpose() * rows[i];
+    motions.push_back(motion);
+  }
+  const Eigen::MatrixXd best = square.ldlt().solve(product);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] -= motions[i] * best;
+}
+
 }  // namespace
 
 InformationModel::InformationModel(PlannedModel model)
@@ -127,12 +165,22 @@ DataSet InformationModel::data_of(const PlannedPose& pose) const {
   return data;
 }
 
+ModelPoint InformationModel::nominal_point() const {
+  return space_.at(Eigen::VectorXd::Zero(space_.size()));
+}
+
+Eigen::MatrixXd InformationModel::information_of_lengths() const {
+  const Eigen::MatrixXd rows =
+      relation_rows(model_.nominal, space_, nominal_point()).jacobian * beliefs_.asDiagonal();
+  return rows.transpose() * rows;
+}
+
 Eigen::MatrixXd InformationModel::information_of(const DataSet& measured) const {
   std::vector<std::size_t> poses;
   for (std::size_t i = 0; i < measured.poses.size(); ++i)
     if (measured.poses[i].set == PoseSet::calibration) poses.push_back(i);
   const RowScales scales{model_.noise_m, model_.orientation ? model_.noise_rad : 0.0, model_.noise_m};
-  const ModelPoint point = space_.at(Eigen::VectorXd::Zero(space_.size()));
+  const ModelPoint point = nominal_point();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(space_.size(), space_.size());
   ScaledRows rows;
   for (const Observation& observation : observe(measured, poses, space_.reference())) {
@@ -148,7 +196,7 @@ Eigen::MatrixXd InformationModel::measured_rows(const PlannedPose& pose) const {
   std::vector<std::size_t> all(data.poses.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   const RowScales scales{model_.noise_m, model_.orientation ? model_.noise_rad : 0.0, 0.0};
-  const ModelPoint point = space_.at(Eigen::VectorXd::Zero(space_.size()));
+  const ModelPoint point = nominal_point();
   Eigen::MatrixXd stacked(rows_per_pose_, space_.size());
   Eigen::Index first = 0;
   ScaledRows rows;
@@ -161,10 +209,10 @@ Eigen::MatrixXd InformationModel::measured_rows(const PlannedPose& pose) const {
 }
 
 Eigen::MatrixXd InformationModel::tool_rows(const PlannedPose& pose) const {
-  DataSet data = data_of(pose);
+  DataSet data = data_of({pose.joints, pose.approach});
   const std::size_t first = 0;
   data.poses.front().orientation.reset();
-  const ModelPoint point = space_.at(Eigen::VectorXd::Zero(space_.size()));
+  const ModelPoint point = nominal_point();
   ScaledRows rows;
   const auto observations = observe(data, {&first, 1}, space_.reference());
   scaled_rows(data, space_, point, observations.front(), {1.0, 0.0, 0.0}, rows);
@@ -179,11 +227,10 @@ ScaledJacobian InformationModel::jacobian(const std::vector<PlannedPose>& poses)
 
 Workspace::Workspace(const InformationModel& model, const std::vector<PlannedPose>& places) {
   const auto n = static_cast<Eigen::Index>(model.ids().size());
+  for (const PlannedPose& place : places) rows_.push_back(model.tool_rows(place));
+  if (model.model().by_touch) take_out_motion_as_a_whole(model.model().nominal.robot.chain, places, rows_);
   weight_ = Eigen::MatrixXd::Zero(n, n);
-  for (const PlannedPose& place : places) {
-    rows_.push_back(model.tool_rows(place));
-    weight_ += rows_.back().transpose() * rows_.back();
-  }
+  for (const Eigen::MatrixXd& rows : rows_) weight_ += rows.transpose() * rows;
   weight_ /= static_cast<double>(places.size());
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -18,6 +20,13 @@ namespace demecal::inline planning {
 struct PlannedPose {
   JointVector joints;
   ApproachSigns approach;
+  std::optional<std::size_t> socket{};  ///< which of the planned sockets is touched; none: an instrument measures
+};
+
+/// A socket where a plan puts it.
+struct PlannedSocket {
+  std::string name;
+  Eigen::Vector3d place_m;  ///< base frame, of the nominal arm
 };
 
 /// The model that a measurement is planned for, about the nominal arm.
@@ -28,6 +37,8 @@ struct PlannedModel {
   double noise_m = 5e-5;        ///< of a measured position, standard deviation per axis
   double noise_rad = 1e-4;      ///< of a measured orientation, per axis
   bool orientation = false;     ///< measured
+  bool by_touch = false;        ///< sockets alone are touched: the base is no question
+  std::vector<PlannedSocket> sockets{};  ///< whose places are to be found beside the rest, one calibration group each
 };
 
 /// Columns of the model's numbers in units of what is believed of them beforehand: as in a fit, links within a few mm
@@ -49,12 +60,15 @@ class InformationModel {
   Eigen::MatrixXd tool_rows(const PlannedPose& pose) const;
   /// The part of poses already measured, as data sets have them: numbers x numbers.
   Eigen::MatrixXd information_of(const DataSet& measured) const;
+  /// The part of the lengths known between sockets (of the model's nominal data set).
+  Eigen::MatrixXd information_of_lengths() const;
 
   /// The columns as a fit would see them after these poses, for fitting/identifiable.hpp.
   ScaledJacobian jacobian(const std::vector<PlannedPose>& poses) const;
 
  private:
   DataSet data_of(const PlannedPose& pose) const;
+  ModelPoint nominal_point() const;
 
   PlannedModel model_;
   ParameterSpace space_;
@@ -67,7 +81,8 @@ struct PredictedError {
   double rms_m = 0.0, mean_m = 0.0, p95_m = 0.0;
 };
 
-/// The places that a plan is good for, and how the tool moves there.
+/// The places that a plan is good for, and how the tool moves there; where sockets alone are touched, beside the motion of
+/// the arm as a whole that is nearest.
 class Workspace {
  public:
   Workspace(const InformationModel& model, const std::vector<PlannedPose>& places);

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "planning/candidates.hpp"
 #include "planning/exchange.hpp"
 #include "planning/refinement.hpp"
+#include "planning/sockets.hpp"
 #include "random/random_purpose.hpp"
 
 namespace demecal::inline planning {
@@ -29,12 +31,13 @@ int judging(const std::optional<int>& asked, int calibration) {
 
 PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space) {
   PlannedModel model;
+  model.by_touch = request.places.has_value();
   model.nominal.robot = request.robot;
   model.nominal.tools_m = request.tools_m;
   model.declared = request.declared;
   model.orientation = space.cell().instrument && space.cell().instrument->measures_orientation;
   model.effects = effects_to_detect(request.robot, space.ranges(), request.detect, model.orientation);
-  model.noise_m = noise_of(request.robot, space.cell());
+  model.noise_m = noise_of(request.robot, space.cell(), model.by_touch);
   return model;
 }
 
@@ -54,22 +57,53 @@ Eigen::MatrixXd stacked_rows(const InformationModel& model, std::span<const Plan
   return rows;
 }
 
+FeasibleSpace space_of(const PlanRequest& request) {
+  WorkCell cell = request.cell     ? *request.cell
+                  : request.places ? assumed_cell_of_sockets(request.robot)
+                                   : assumed_cell(request.robot);
+  if (request.places) cell.instrument.reset();
+  return {request.robot, std::move(cell)};
+}
+
+/// Of short travel; where sockets are touched, one after another.
+std::vector<PlannedStop> in_order(const Chain& chain, const std::vector<PlannedStop>& stops) {
+  std::map<std::size_t, std::vector<std::size_t>> by_socket;
+  for (std::size_t i = 0; i < stops.size(); ++i) by_socket[stops[i].pose.socket.value_or(0)].push_back(i);
+  std::vector<PlannedStop> ordered;
+  for (const auto& [socket, members] : by_socket) {
+    std::vector<PlannedPose> poses;
+    for (const std::size_t i : members) poses.push_back(stops[i].pose);
+    for (const std::size_t i : short_order(chain, poses)) ordered.push_back(stops[members[i]]);
+  }
+  return ordered;
+}
+
+void add_stops(std::span<const PlannedPose> from, std::size_t count, PoseSet set, std::vector<PlannedStop>& stops) {
+  for (const PlannedPose& pose : from.first(std::min(count, from.size()))) stops.push_back({{}, set, pose});
+}
+
+/// Of a contact that few poses touch nobody knows how well they agree.
+std::size_t at_sockets(const std::optional<int>& asked, std::size_t usual, std::size_t sockets) {
+  constexpr std::size_t kFewestEach = 4;
+  return asked ? usual : std::max(usual, kFewestEach * sockets);
+}
+
 /// The planning of one request, step by step.
 class Planning {
  public:
   explicit Planning(const PlanRequest& request)
       : request_(request),
-        space_(request.robot, request.cell ? *request.cell : assumed_cell(request.robot)),
+        space_(space_of(request)),
         model_(model_of(request, space_)),
         most_(request.poses        ? *request.poses
               : request.accuracy_m ? kMostPoses
                                    : kUsualPoses) {}
 
   Plan make() {
-    draw();
+    request_.places ? draw_sockets() : draw();
     const Workspace workspace(model_, places_);
-    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(numbers(), numbers());
-    if (request_.measured) known = model_.information_of(*request_.measured);
+    Eigen::MatrixXd known = model_.information_of_lengths();
+    if (request_.measured) known += model_.information_of(*request_.measured);
     const Design empty(stacked_rows(model_, candidates_), model_.rows_per_pose(), known, workspace.weight());
     const Design design = request_.accuracy_m ? smallest_reaching(empty) : of_size(empty, most_);
     std::vector<PlannedPose> chosen;
@@ -109,9 +143,41 @@ class Planning {
                                  plan_.drawn, needed, to_string(static_cast<Obstruction>(worst))));
   }
 
+  void draw_sockets() {
+    places_ = draw_poses(space_, kPlaces, stream(2)).poses;
+    if (places_.empty())
+      throw InputError({request_.robot.name, 0}, "0",
+                       "random poses are feasible: nothing can be planned in this cell. Widen it");
+    const int most = request_.accuracy_m ? kUsualPoses : most_;
+    PlacedSockets placed =
+        place_sockets(model_, space_, Workspace(model_, places_),
+                      {*request_.places, most, candidates_for(model_, static_cast<std::size_t>(most))}, stream(1));
+    model_ = InformationModel(std::move(placed.model));
+    plan_.sockets = std::move(placed.sockets);
+    plan_.lengths = std::move(placed.lengths);
+    plan_.by_places = std::move(placed.by_places);
+    plan_.drawn = plan_.feasible = placed.candidates.size();
+    candidates_ = std::move(placed.candidates);
+    validation_ = std::move(placed.validation);
+    accept_ = std::move(placed.accept);
+  }
+
   Design of_size(Design design, int poses) const {
-    for (int i = 0; i < poses; ++i) design.add_best();
+    // A first pose at a socket tells nothing: chosen one by one, all would come to stand at few.
+    const bool in_turn = request_.places.has_value();
+    for (int i = 0; i < poses; ++i) {
+      if (in_turn && static_cast<std::size_t>(i) < candidates_.size()) design.add(static_cast<std::size_t>(i));
+      if (!in_turn) design.add_best();
+    }
     design.exchange(kRounds);
+    return design;
+  }
+
+  /// A few at each socket, so that further ones tell something.
+  Design first_at_sockets(Design design) const {
+    constexpr std::size_t kFirstEach = 3;
+    const std::size_t first = std::min(kFirstEach * model_.model().sockets.size(), candidates_.size());
+    for (std::size_t i = 0; i < first; ++i) design.add(i);
     return design;
   }
 
@@ -119,8 +185,8 @@ class Planning {
   /// look.
   Design smallest_reaching(const Design& empty) const {
     const double enough_m2 = std::pow(*request_.accuracy_m, 2.0);
-    Design greedy = empty;
-    int poses = 0;
+    Design greedy = first_at_sockets(empty);
+    int poses = static_cast<int>(greedy.chosen().size());
     while (poses < kMostPoses && (poses < fewest_poses(model_) || greedy.square_m2() > enough_m2)) {
       if (!greedy.add_best()) break;
       ++poses;
@@ -153,10 +219,10 @@ class Planning {
   void draw_curve(const Design& empty, const Workspace& workspace, std::size_t chosen) {
     constexpr int kRandomDraws = 5, kPoints = 8;
     const int last = std::min(static_cast<int>(candidates_.size()), std::max(60, 2 * static_cast<int>(chosen)));
-    Design greedy = empty;
+    Design greedy = first_at_sockets(empty);
     RandomStream random = stream(4);
     const int step = std::max(1, last / kPoints);
-    for (int poses = 1; poses <= last; ++poses) {
+    for (int poses = static_cast<int>(greedy.chosen().size()) + 1; poses <= last; ++poses) {
       if (!greedy.add_best()) break;
       const bool shown = poses == static_cast<int>(chosen) || (poses >= fewest_poses(model_) && poses % step == 0);
       if (!shown) continue;
@@ -184,21 +250,25 @@ class Planning {
     std::vector<PlannedStop> stops;
     for (const PlannedPose& pose : chosen) stops.push_back({{}, PoseSet::calibration, pose});
     const int calibration = static_cast<int>(stops.size());
-    std::size_t next = 0;
-    for (int i = 0; i < judging(request_.validation, calibration); ++i)
-      stops.push_back({{}, PoseSet::validation, places_[next++]});
-    for (int i = 0; i < judging(request_.accept, calibration); ++i)
-      stops.push_back({{}, PoseSet::accept, places_[next++]});
-    std::vector<PlannedPose> poses;
-    for (const PlannedStop& stop : stops) poses.push_back(stop.pose);
-    std::vector<PlannedPose> in_order;
-    for (const std::size_t i : short_order(request_.robot.chain, poses)) {
-      plan_.stops.push_back(stops[i]);
-      plan_.stops.back().id = "P" + std::to_string(plan_.stops.size());
-      ++plan_.counts[static_cast<std::size_t>(stops[i].set)];
-      in_order.push_back(stops[i].pose);
+    const auto validation = static_cast<std::size_t>(judging(request_.validation, calibration));
+    const auto accept = static_cast<std::size_t>(judging(request_.accept, calibration));
+    if (request_.places) {
+      const std::size_t fitted = model_.model().sockets.size();
+      add_stops(validation_, at_sockets(request_.validation, validation, fitted), PoseSet::validation, stops);
+      add_stops(accept_, at_sockets(request_.accept, accept, plan_.sockets.size() - fitted), PoseSet::accept, stops);
+    } else {
+      const std::span<const PlannedPose> places(places_);
+      add_stops(places, validation, PoseSet::validation, stops);
+      add_stops(places.subspan(validation), accept, PoseSet::accept, stops);
     }
-    plan_.way = way_along(space_, in_order, stream(3));
+    std::vector<PlannedPose> poses;
+    for (PlannedStop& stop : in_order(request_.robot.chain, stops)) {
+      stop.id = "P" + std::to_string(plan_.stops.size() + 1);
+      ++plan_.counts[static_cast<std::size_t>(stop.set)];
+      poses.push_back(stop.pose);
+      plan_.stops.push_back(std::move(stop));
+    }
+    if (!request_.places) plan_.way = way_along(space_, poses, stream(3));
     for (std::size_t i = 1; i < plan_.way.stops.size(); ++i)
       plan_.travel_rad += travel(request_.robot.chain, plan_.way.stops[i - 1].joints, plan_.way.stops[i].joints);
   }
@@ -208,6 +278,7 @@ class Planning {
   InformationModel model_;
   int most_;
   std::vector<PlannedPose> candidates_, places_;
+  std::vector<PlannedPose> validation_, accept_;  ///< where sockets are touched
   Plan plan_;
 };
 

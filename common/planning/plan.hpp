@@ -15,6 +15,7 @@
 #include "fitting/fit.hpp"
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
+#include "planning/sockets.hpp"
 #include "planning/travel.hpp"
 
 namespace demecal::inline planning {
@@ -29,6 +30,7 @@ struct PlanRequest {
   std::optional<double> accuracy_m{};  ///< in place of `poses`: the predicted rms error to reach
   std::optional<int> validation{}, accept{};  ///< none: 3 for every 10 that calibrate, 10 at least
   std::optional<DataSet> measured{};          ///< what was measured before: the plan goes on from there
+  std::optional<int> places{};                ///< of sockets that the tool touches in place of an instrument
   std::uint64_t seed = 1;
 };
 
@@ -62,13 +64,16 @@ struct DetectableSize {
 
 struct Plan {
   std::vector<PlannedStop> stops;       ///< in the order of measuring
-  MeasuringWay way;                     ///< `pose` of its stops: of `stops`
+  MeasuringWay way;                     ///< `pose` of its stops: of `stops`; empty where sockets are touched
   double travel_rad = 0.0;              ///< of the joint that moves most, summed up along the way
   std::array<std::size_t, 3> counts{};  ///< of stops by PoseSet
   double noise_m = 0.0;                 ///< of a measured position, per axis, as the predictions take it
   PredictedError predicted;             ///< of the tool, without what measuring adds
   double random_rms_m = 0.0;            ///< of as many poses drawn at random
   std::vector<CurvePoint> curve;
+  std::vector<PlannedSocket> sockets;      ///< as poses count them: those of accept poses last
+  std::vector<KnownDistance> lengths;      ///< between two of them
+  std::vector<ErrorByPlaces> by_places;     ///< where sockets are touched
   std::vector<PredictedNumber> numbers;
   std::vector<UnidentifiedDirection> unidentified;
   std::vector<DetectableSize> detectable;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "planning/exchange.hpp"
+#include "planning/sockets.hpp"
 #include "planning/travel.hpp"
 
 namespace demecal::inline planning {
@@ -35,7 +37,9 @@ class PoseGain {
   Eigen::MatrixXd wanted_;
 };
 
-PlannedPose moved_pose(const FeasibleSpace& space, const PlannedPose& pose, double width, RandomStream& random) {
+/// Nothing where the pose touches a socket that the arm does not reach from there.
+std::optional<PlannedPose> moved_pose(const FeasibleSpace& space, const std::vector<PlannedSocket>& sockets,
+                                      const PlannedPose& pose, double width, RandomStream& random) {
   const std::vector<Interval>& ranges = space.ranges();
   PlannedPose tried = pose;
   const auto set = [&](std::size_t joint, double value) {
@@ -49,15 +53,16 @@ PlannedPose moved_pose(const FeasibleSpace& space, const PlannedPose& pose, doub
       set(joint, tried.joints[static_cast<Eigen::Index>(joint)] +
                      width * (ranges[joint].upper - ranges[joint].lower) * random.normal());
   }
-  tried.joints = rounded(space.robot().chain, tried.joints);
+  const Chain& chain = space.robot().chain;
+  if (pose.socket) {
+    const auto touching = joints_touching(chain, tried.joints, sockets[*pose.socket].place_m);
+    if (!touching) return {};
+    tried.joints = *touching;
+  }
+  tried.joints = rounded(chain, tried.joints);
   if (random.chance(kOtherSide))
     for (double& sign : tried.approach) sign = random.chance(0.5) ? 1.0 : -1.0;
   return tried;
-}
-
-bool is_feasible(const FeasibleSpace& space, const PlannedPose& pose) {
-  return space.obstruction(pose.joints) == Obstruction::none &&
-         space.in_passing(approach_stop(space.robot().chain, pose)) == Obstruction::none;
 }
 
 }  // namespace
@@ -77,12 +82,13 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
       const PoseGain gain_of(knowledge);
       double most = gain_of(rows[i]);
       for (int attempt = 0; attempt < kTries; ++attempt) {
-        PlannedPose tried = moved_pose(space, poses[i], width, random);
-        Eigen::MatrixXd tells = model.measured_rows(tried);
+        auto tried = moved_pose(space, model.model().sockets, poses[i], width, random);
+        if (!tried) continue;
+        Eigen::MatrixXd tells = model.measured_rows(*tried);
         const double gain = gain_of(tells);
-        if (!(gain > most) || !is_feasible(space, tried)) continue;
+        if (!(gain > most) || !is_feasible(space, *tried)) continue;
         most = gain;
-        poses[i] = std::move(tried);
+        poses[i] = std::move(*tried);
         rows[i] = std::move(tells);
       }
       knowledge.add(rows[i]);

@@ -91,6 +91,11 @@ JointVector approach_stop(const Chain& chain, const PlannedPose& pose) {
   return before;
 }
 
+bool is_feasible(const FeasibleSpace& space, const PlannedPose& pose) {
+  return space.obstruction(pose.joints) == Obstruction::none &&
+         space.in_passing(approach_stop(space.robot().chain, pose)) == Obstruction::none;
+}
+
 bool is_free(const FeasibleSpace& space, const JointVector& from, const JointVector& to) {
   constexpr double kStep = radians(5.0);
   const int steps = 1 + static_cast<int>(travel(space.robot().chain, from, to) / kStep);

@@ -19,6 +19,9 @@ std::vector<std::size_t> short_order(const Chain& chain, const std::vector<Plann
 /// Where the arm goes first, so that every joint comes to the pose from the side that is wanted.
 JointVector approach_stop(const Chain& chain, const PlannedPose& pose);
 
+/// Whether the arm can be measured there and can come to it from the side that is wanted.
+bool is_feasible(const FeasibleSpace& space, const PlannedPose& pose);
+
 /// Whether nothing is in the way as all joints move together from one stop to another.
 bool is_free(const FeasibleSpace& space, const JointVector& from, const JointVector& to);
 

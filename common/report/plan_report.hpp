@@ -22,6 +22,11 @@ NumberUnit error_unit(const ParameterId& id);
 /// "backlash of joint 2: 0.12 mrad": the effect and the size that would be found.
 std::string detectable_text(const DetectableSize& detectable, const Robot& robot);
 
+/// Where the sockets are to stand: "S1 at 450, -120, 30 mm", and what is known between them.
+std::vector<std::string> socket_sentences(const Plan& plan);
+/// "1 place: 0.21 mm, 2: 0.12 mm": what as many poses at fewer or more places would leave; empty without sockets.
+std::string places_sentence(const Plan& plan);
+
 /// The sentences on what the poses will not tell.
 std::vector<std::string> unidentified_sentences(const Plan& plan);
 

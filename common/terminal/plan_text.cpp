@@ -17,12 +17,15 @@ std::string to_terminal(const Plan& plan, const PlanRequest& request) {
       millimetres(plan.predicted.rms_m), millimetres(plan.predicted.mean_m), millimetres(plan.predicted.p95_m));
   if (plan.random_rms_m > 0.0)
     text += fmt::format("  as many poses at random: rms {:.3g} mm\n", millimetres(plan.random_rms_m));
-  for (const std::string& warning : plan.warnings) text += wrapped("  ! ", warning, kIndent) + '\n';
+  if (!plan.by_places.empty())
+    text += fmt::format("  as many random poses at {} (rms)\n", places_sentence(plan));
+  for (const std::string& sentence : socket_sentences(plan)) text += "  " + sentence + '\n';
+  for (const std::string& warning : plan.warnings) text += wrapped("  !", warning, kIndent);
   for (const std::string& sentence : unidentified_sentences(plan))
-    text += wrapped("  not identifiable: ", sentence, kIndent) + '\n';
+    text += wrapped("  not identifiable:", sentence, kIndent);
   for (const DetectableSize& one : plan.detectable)
-    text += wrapped("  would be found nine times in ten: ", detectable_text(one, request.robot), kIndent) + '\n';
-  for (const std::string& assumption : plan.assumptions) text += wrapped("  - ", assumption, kIndent) + '\n';
+    text += wrapped("  would be found nine times in ten:", detectable_text(one, request.robot), kIndent);
+  for (const std::string& assumption : plan.assumptions) text += wrapped("  -", assumption, kIndent);
   return text;
 }
 

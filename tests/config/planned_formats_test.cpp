@@ -46,11 +46,22 @@ PlanRequest small_request() {
   return request;
 }
 
+PlanRequest small_request_of_sockets() {
+  PlanRequest request = small_request();
+  request.places = 1;
+  request.cell = assumed_cell_of_sockets(request.robot);
+  request.cell->sockets.length_m = 0.05;
+  return request;
+}
+
 TEST(PlannedFormats, PlanHasTheKeysOfThePage) {
   const PlanRequest request = small_request();
   Plan plan = make_plan(request);
   plan.refused.fill(1);
-  expect_documented(formats_section("plan.json"), all_paths(Json::parse(to_json(plan, request, {"a"}))));
+  const PlanRequest of_sockets = small_request_of_sockets();
+  std::set<std::string> paths = all_paths(Json::parse(to_json(plan, request, {"a"})));
+  paths.merge(all_paths(Json::parse(to_json(make_plan(of_sockets), of_sockets, {"a"}))));
+  expect_documented(formats_section("plan.json"), paths);
 }
 
 TEST(PlannedFormats, CheckHasTheKeysOfThePage) {
@@ -95,6 +106,23 @@ TEST(PlannedFormats, FilesOfAPlanAreReadBackOnceWhatIsMeasuredIsThere) {
   }
   EXPECT_EQ(poses_of(data, PoseSet::calibration).size(), 14u);
   EXPECT_EQ(load_job(folder.path() / "JOB.yaml").declared, request.declared);
+}
+
+TEST(PlannedFormats, FilesOfAPlanOfSocketsAreReadAsTheyAre) {
+  const PlanRequest request = small_request_of_sockets();
+  const Plan plan = make_plan(request);
+  const TemporaryFolder folder;
+  folder.write("poses.csv", planned_poses_csv(plan, request));
+  folder.write("robot.yaml", "demecal_robot: 1\n" + robot_text(request.robot));
+  folder.write("DATASET.yaml", planned_data_set_text(plan, request));
+  const DataSet data = load_data_set(folder.path() / "DATASET.yaml");
+  ASSERT_EQ(data.poses.size(), plan.stops.size());
+  for (std::size_t i = 0; i < data.poses.size(); ++i) {
+    EXPECT_EQ(data.poses[i].contact, plan.sockets[*plan.stops[i].pose.socket].name);
+    EXPECT_FALSE(data.poses[i].position_m);
+  }
+  ASSERT_EQ(data.contacts.distances.size(), plan.lengths.size());
+  EXPECT_NEAR(data.contacts.distances.front().length_m, 0.05, 1e-12);
 }
 
 }  // namespace

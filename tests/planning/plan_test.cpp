@@ -4,28 +4,15 @@
 
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "kinematics/random_arm.hpp"
 #include "planning/plan.hpp"
+#include "planning/planned_arm.hpp"
 
 namespace demecal {
 namespace {
 
-Robot elbow() {
-  Robot robot;
-  robot.name = "elbow";
-  robot.chain = wrist_arm();
-  robot.chain.joints.front().d_m = 0.5;
-  robot.chain.tool_m = {0.1, 0.02, 0.08};
-  for (Joint& joint : robot.chain.joints) {
-    joint.lower = -2.5;
-    joint.upper = 2.5;
-  }
-  return robot;
-}
-
 PlanRequest request_of(int poses, std::uint64_t seed = 1) {
   PlanRequest request;
-  request.robot = elbow();
+  request.robot = planned_arm();
   request.poses = poses;
   request.validation = 4;
   request.accept = 6;
