@@ -146,7 +146,8 @@ bool measures_orientation(const PlanRequest& request) {
 CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
   const YamlNode root = read_yaml(path);
   root.with_version("cell", 1).with_keys({"demecal_cell", "tool_box_mm", "half_spaces", "obstacles", "link_radius_mm",
-                                          "tool_cone", "instrument", "joint_ranges", "noise_mm", "tools_mm", "sockets"});
+                                          "tool_cone", "instrument", "joint_ranges", "noise_mm", "tools_mm",
+                                          "sockets"});
   CellFile file;
   if (const YamlNode* box = root.find("tool_box_mm")) file.cell.tool_box = read_box(*box);
   if (const YamlNode* spaces = root.find("half_spaces"))

@@ -82,10 +82,11 @@ std::string view(const Plan& plan, const Robot& robot, int across, int up, const
   }
   constexpr const char* kClasses[] = {"i0", "i1", "i2"};
   for (std::size_t i = 0; i < tools.size(); ++i)
-    marks += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\"><title>{}, {}{}</title></circle>\n",
-                         kClasses[static_cast<std::size_t>(plan.stops[i].set)], x(tools[i]), y(tools[i]),
-                         escaped(plan.stops[i].id), to_string(plan.stops[i].set),
-                         plan.stops[i].pose.socket ? ", " + plan.sockets[*plan.stops[i].pose.socket].name : "");
+    marks +=
+        fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\"><title>{}, {}{}</title></circle>\n",
+                    kClasses[static_cast<std::size_t>(plan.stops[i].set)], x(tools[i]), y(tools[i]),
+                    escaped(plan.stops[i].id), to_string(plan.stops[i].set),
+                    plan.stops[i].pose.socket ? ", " + plan.sockets[*plan.stops[i].pose.socket].name : "");
   return fmt::format(
       "<figure><svg class=\"chart\" viewBox=\"0 0 {0} {0}\" role=\"img\" aria-label=\"{1}\">{2}</svg>"
       "<figcaption class=\"soft\">{1}</figcaption></figure>\n",
@@ -118,8 +119,8 @@ std::string poses_table(const Plan& plan, const Robot& robot) {
     const Eigen::Vector3d tool_mm = 1e3 * tool_position(robot.chain, stop.pose.joints);
     std::string set(to_string(stop.set));
     if (stop.pose.socket) set += ", " + plan.sockets[*stop.pose.socket].name;
-    rows += table_row(escaped(stop.id), {set, joints,
-                                         fmt::format("{:.0f}, {:.0f}, {:.0f}", tool_mm.x(), tool_mm.y(), tool_mm.z())});
+    rows += table_row(escaped(stop.id),
+                      {set, joints, fmt::format("{:.0f}, {:.0f}, {:.0f}", tool_mm.x(), tool_mm.y(), tool_mm.z())});
   }
   return table_panel("poses", "<th class=\"words\">pose</th><th>set</th><th>joints, deg (mm)</th><th>tool, mm</th>",
                      rows, plan.stops.size());

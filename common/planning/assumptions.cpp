@@ -65,7 +65,8 @@ void say_sockets(const PlanRequest& request, Plan& plan) {
       "No programs are written: the arm is wrong by more than a socket gives way. Guide it by hand, or let it comply, "
       "near the planned joints, and write down the joints where the ball sits.");
   say.emplace_back(
-      "Sockets stand where you put them, within some 20 mm of the plan; nobody needs to measure where. The last place is "
+      "Sockets stand where you put them, within some 20 mm of the plan; nobody needs to measure where. The last place "
+      "is "
       "for accept poses alone, and is never fitted.");
 }
 
@@ -161,7 +162,7 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
         fmt::format("No cell file states the noise of a measured position: {:.3g} mm per axis is assumed ({}).",
                     millimetres(plan.noise_m),
                     !request.robot.repeatability_m ? "the robot file states no repeatability"
-                    : request.places               ? "play of a ball in its socket, and the repeatability in the robot file"
+                    : request.places ? "play of a ball in its socket, and the repeatability in the robot file"
                                      : "a laser tracker, and the repeatability in the robot file"));
   say_surroundings(request, space, plan);
   if (request.places) say_sockets(request, plan);

@@ -170,8 +170,7 @@ ModelPoint InformationModel::nominal_point() const {
 }
 
 Eigen::MatrixXd InformationModel::information_of_lengths() const {
-  const Eigen::MatrixXd rows =
-      relation_rows(model_.nominal, space_, nominal_point()).jacobian * beliefs_.asDiagonal();
+  const Eigen::MatrixXd rows = relation_rows(model_.nominal, space_, nominal_point()).jacobian * beliefs_.asDiagonal();
   return rows.transpose() * rows;
 }
 

@@ -33,11 +33,11 @@ struct PlannedSocket {
 struct PlannedModel {
   DataSet nominal;  ///< the arm and its targets; without poses
   DeclaredModel declared;
-  std::vector<Effect> effects;  ///< to be told apart beside what is declared, coefficients zero
-  double noise_m = 5e-5;        ///< of a measured position, standard deviation per axis
-  double noise_rad = 1e-4;      ///< of a measured orientation, per axis
-  bool orientation = false;     ///< measured
-  bool by_touch = false;        ///< sockets alone are touched: the base is no question
+  std::vector<Effect> effects;           ///< to be told apart beside what is declared, coefficients zero
+  double noise_m = 5e-5;                 ///< of a measured position, standard deviation per axis
+  double noise_rad = 1e-4;               ///< of a measured orientation, per axis
+  bool orientation = false;              ///< measured
+  bool by_touch = false;                 ///< sockets alone are touched: the base is no question
   std::vector<PlannedSocket> sockets{};  ///< whose places are to be found beside the rest, one calibration group each
 };
 
@@ -81,8 +81,8 @@ struct PredictedError {
   double rms_m = 0.0, mean_m = 0.0, p95_m = 0.0;
 };
 
-/// The places that a plan is good for, and how the tool moves there; where sockets alone are touched, beside the motion of
-/// the arm as a whole that is nearest.
+/// The places that a plan is good for, and how the tool moves there; where sockets alone are touched, beside the motion
+/// of the arm as a whole that is nearest.
 class Workspace {
  public:
   Workspace(const InformationModel& model, const std::vector<PlannedPose>& places);

@@ -71,9 +71,9 @@ struct Plan {
   PredictedError predicted;             ///< of the tool, without what measuring adds
   double random_rms_m = 0.0;            ///< of as many poses drawn at random
   std::vector<CurvePoint> curve;
-  std::vector<PlannedSocket> sockets;      ///< as poses count them: those of accept poses last
-  std::vector<KnownDistance> lengths;      ///< between two of them
-  std::vector<ErrorByPlaces> by_places;     ///< where sockets are touched
+  std::vector<PlannedSocket> sockets;    ///< as poses count them: those of accept poses last
+  std::vector<KnownDistance> lengths;    ///< between two of them
+  std::vector<ErrorByPlaces> by_places;  ///< where sockets are touched
   std::vector<PredictedNumber> numbers;
   std::vector<UnidentifiedDirection> unidentified;
   std::vector<DetectableSize> detectable;

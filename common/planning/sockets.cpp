@@ -213,10 +213,11 @@ PlacedSockets place_sockets(const InformationModel& arm, const FeasibleSpace& sp
   const std::vector<SocketBlock> blocks = draw_blocks(space, kBlocks, kPostures, random);
   const auto places = static_cast<std::size_t>(request.places);
   if (blocks.size() < places + 1)
-    throw InputError({space.robot().name, 0}, std::to_string(blocks.size()),
-                     fmt::format("places were found that a socket may have and the arm reaches in many postures; {} and "
-                                 "one for accept poses are needed. Widen the cell, or ask for fewer",
-                                 places));
+    throw InputError(
+        {space.robot().name, 0}, std::to_string(blocks.size()),
+        fmt::format("places were found that a socket may have and the arm reaches in many postures; {} and "
+                    "one for accept poses are needed. Widen the cell, or ask for fewer",
+                    places));
   PlacedSockets placed;
   const BlockChoice chosen = chosen_blocks(arm, room, blocks, request.places, request.poses, workspace.weight());
   for (const std::size_t block : chosen.blocks()) add_sockets(blocks[block], room, placed);

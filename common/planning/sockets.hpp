@@ -1,5 +1,5 @@
-// Where to put sockets that a ball on the tool is to sit in, and the postures in which the arm reaches them: a measurement
-// without an instrument.
+// Where to put sockets that a ball on the tool is to sit in, and the postures in which the arm reaches them: a
+// measurement without an instrument.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,8 @@ WorkCell assumed_cell_of_sockets(const Robot& robot);
 
 /// The joints nearest to `start` by which the tool point comes to `point_m`, to what controllers take; nothing where
 /// Newton's steps do not get there.
-std::optional<JointVector> joints_touching(const Chain& chain, const JointVector& start, const Eigen::Vector3d& point_m);
+std::optional<JointVector> joints_touching(const Chain& chain, const JointVector& start,
+                                           const Eigen::Vector3d& point_m);
 
 /// What as many poses at so many places are predicted to leave, postures taken at random.
 struct ErrorByPlaces {
@@ -32,13 +33,13 @@ struct ErrorByPlaces {
 /// Sockets in a cell. A place is that of one socket, or of a block with two of them a known length apart, level and
 /// across the direction from the arm's base.
 struct PlacedSockets {
-  PlannedModel model;                     ///< with the sockets that are fitted, and the lengths between them
-  std::vector<PlannedSocket> sockets;     ///< those, and then those of the one place that accept poses judge by
-  std::vector<KnownDistance> lengths;     ///< between these
-  std::vector<PlannedPose> candidates;    ///< postures at fitted sockets to choose from, these in turn
-  std::vector<PlannedPose> validation;    ///< others there, the sockets in turn
-  std::vector<PlannedPose> accept;        ///< at the place that is not fitted, its sockets in turn
-  std::vector<ErrorByPlaces> by_places;   ///< up to two places more than asked for
+  PlannedModel model;                    ///< with the sockets that are fitted, and the lengths between them
+  std::vector<PlannedSocket> sockets;    ///< those, and then those of the one place that accept poses judge by
+  std::vector<KnownDistance> lengths;    ///< between these
+  std::vector<PlannedPose> candidates;   ///< postures at fitted sockets to choose from, these in turn
+  std::vector<PlannedPose> validation;   ///< others there, the sockets in turn
+  std::vector<PlannedPose> accept;       ///< at the place that is not fitted, its sockets in turn
+  std::vector<ErrorByPlaces> by_places;  ///< up to two places more than asked for
 };
 
 struct SocketRequest {

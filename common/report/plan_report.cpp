@@ -29,9 +29,8 @@ Json point_json(const Eigen::Vector3d& point_m) {
 
 /// Sockets that no calibration pose touches are those of accept poses.
 bool is_fitted(const Plan& plan, std::size_t socket) {
-  return std::ranges::none_of(plan.stops, [&](const PlannedStop& stop) {
-    return stop.pose.socket == socket && stop.set == PoseSet::accept;
-  });
+  return std::ranges::none_of(
+      plan.stops, [&](const PlannedStop& stop) { return stop.pose.socket == socket && stop.set == PoseSet::accept; });
 }
 
 Json sockets_json(const Plan& plan) {
@@ -106,8 +105,8 @@ std::vector<std::string> socket_sentences(const Plan& plan) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < plan.sockets.size(); ++i) {
     const Eigen::Vector3d place_mm = 1e3 * plan.sockets[i].place_m;
-    const auto poses = std::ranges::count_if(
-        plan.stops, [&](const PlannedStop& stop) { return stop.pose.socket == i; });
+    const auto poses =
+        std::ranges::count_if(plan.stops, [&](const PlannedStop& stop) { return stop.pose.socket == i; });
     sentences.push_back(fmt::format("{} at {:.0f}, {:.0f}, {:.0f} mm{}: {} poses", plan.sockets[i].name, place_mm.x(),
                                     place_mm.y(), place_mm.z(), is_fitted(plan, i) ? "" : " (accept alone)", poses));
   }

@@ -71,8 +71,7 @@ TEST(PlannedSockets, StandInTheirBoxAsFarApartAsTheBlockHasThem) {
 TEST(PlannedSockets, AreAFunctionOfTheRequestAndTellMoreThanRandomPostures) {
   const Plan plan = make_plan(touching_request(0.05)), again = make_plan(touching_request(0.05));
   ASSERT_EQ(plan.stops.size(), again.stops.size());
-  for (std::size_t i = 0; i < plan.stops.size(); ++i)
-    EXPECT_EQ(plan.stops[i].pose.joints, again.stops[i].pose.joints);
+  for (std::size_t i = 0; i < plan.stops.size(); ++i) EXPECT_EQ(plan.stops[i].pose.joints, again.stops[i].pose.joints);
   EXPECT_LT(plan.predicted.rms_m, plan.random_rms_m);
 }
 
