@@ -35,30 +35,6 @@ bool is_of_distances(const MeasuredPose& pose) {
   return !measures_point(pose) && !pose.distances_m.empty();
 }
 
-/// The tool's twist per unit of each of the posterior's independent numbers: 6 x columns of its factor.
-Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior, const CorrectedRobot& robot,
-                                                     const Stop& stop, const std::string& target) {
-  const auto numbers = static_cast<Eigen::Index>(posterior.ids.size() + posterior.terms.size());
-  DEMECAL_CHECK(posterior.factor.rows() == numbers, posterior.factor.rows() << " rows of " << numbers << " numbers");
-  const ParameterSpace space(robot, posterior.ids);
-  ToolMotion motion;
-  space.move_tool(space.at(Eigen::VectorXd::Zero(space.size())), robot.corrected_joints(stop.joints),
-                  robot.motions(stop, target), target, motion);
-  Eigen::Matrix<double, 6, Eigen::Dynamic> spread =
-      motion.twists * posterior.factor.topRows(static_cast<Eigen::Index>(posterior.ids.size()));
-  if (posterior.terms.empty()) return spread;
-  const Eigen::Vector3d& tool_m = robot.tool(target).translation();
-  Jacobian joints = differential_kinematics(robot.chain, robot.actual_joints(stop), tool_m).drives;
-  const Eigen::Matrix3d& base = robot.sensor_from_base.linear();
-  joints.topRows<3>() = (base * joints.topRows<3>()).eval();
-  joints.bottomRows<3>() = (base * joints.bottomRows<3>()).eval();
-  auto row = static_cast<Eigen::Index>(posterior.ids.size());
-  for (const CorrectionTerm& term : posterior.terms) {
-    spread += term.shape(stop.joints[term.joint]) * joints.col(term.joint) * posterior.factor.row(row++);
-  }
-  return spread;
-}
-
 /// Of a pose that touches something: what is left of the posterior where the contact's place is taken from the poses of
 /// its group, which are wrong together.
 double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot, const DataSet& data,
@@ -91,6 +67,29 @@ double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior, const CorrectedRobot& robot,
+                                                     const Stop& stop, const std::string& target) {
+  const auto numbers = static_cast<Eigen::Index>(posterior.ids.size() + posterior.terms.size());
+  DEMECAL_CHECK(posterior.factor.rows() == numbers, posterior.factor.rows() << " rows of " << numbers << " numbers");
+  const ParameterSpace space(robot, posterior.ids);
+  ToolMotion motion;
+  space.move_tool(space.at(Eigen::VectorXd::Zero(space.size())), robot.corrected_joints(stop.joints),
+                  robot.motions(stop, target), target, motion);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> spread =
+      motion.twists * posterior.factor.topRows(static_cast<Eigen::Index>(posterior.ids.size()));
+  if (posterior.terms.empty()) return spread;
+  const Eigen::Vector3d& tool_m = robot.tool(target).translation();
+  Jacobian joints = differential_kinematics(robot.chain, robot.actual_joints(stop), tool_m).drives;
+  const Eigen::Matrix3d& base = robot.sensor_from_base.linear();
+  joints.topRows<3>() = (base * joints.topRows<3>()).eval();
+  joints.bottomRows<3>() = (base * joints.bottomRows<3>()).eval();
+  auto row = static_cast<Eigen::Index>(posterior.ids.size());
+  for (const CorrectionTerm& term : posterior.terms) {
+    spread += term.shape(stop.joints[term.joint]) * joints.col(term.joint) * posterior.factor.row(row++);
+  }
+  return spread;
+}
 
 PoseCovariance pose_covariance(const Posterior& posterior, const CorrectedRobot& robot, const Stop& stop,
                                const std::string& target) {

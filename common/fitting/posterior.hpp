@@ -35,6 +35,11 @@ struct Posterior {
   Posterior without(const LeaveOut& leave_out) const;
 };
 
+/// The tool's twist (linear m, angular rad; frame of predictions) per unit of each of the posterior's independent
+/// numbers: 6 x columns of its factor.
+Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior, const CorrectedRobot& robot,
+                                                     const Stop& stop, const std::string& target = "");
+
 /// Covariance of a tool's pose: position (m) first, then orientation (rad), in the frame of predictions.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 

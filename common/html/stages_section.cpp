@@ -9,6 +9,7 @@
 #include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/evaluation.hpp"
 #include "report/figures.hpp"
 #include "report/report.hpp"
 
@@ -90,6 +91,11 @@ std::string last_fit_line(const Report& report) {
 std::string outliers_line(const Report& report) {
   const std::string sentence = outliers_sentence(report);
   return sentence.empty() ? sentence : "<p class=\"note\" id=\"without-outliers\">" + escaped(sentence) + "</p>\n";
+}
+
+std::string workspace_line(const Report& report) {
+  const std::string sentence = report.workspace_error ? workspace_sentence(*report.workspace_error) : "";
+  return sentence.empty() ? sentence : "<p class=\"note\" id=\"workspace-error\">Workspace: " + escaped(sentence) + ".</p>\n";
 }
 
 std::string index_line(const Report& report) {
@@ -196,7 +202,7 @@ std::string stages_section(const Report& report) {
   const std::optional<double> noise_mm = noise_mean_mm(report);
   return section("stages", "Tool error, stage by stage, mm",
                  stage_table(report, stages) + "<div class=\"panel\">\n" + legend(stages, noise_mm.has_value()) +
-                     stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + outliers_line(report) +
+                     stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + outliers_line(report) + workspace_line(report) +
                      index_line(report));
 }
 

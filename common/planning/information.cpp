@@ -12,6 +12,7 @@
 #include "fitting/known_relations.hpp"
 #include "fitting/observation.hpp"
 #include "fitting/row_sums.hpp"
+#include "fitting/workspace_error.hpp"
 #include "kinematics/forward.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
@@ -121,26 +122,6 @@ std::vector<std::vector<double>> usual_motions(const PlannedModel& model) {
   return motions;
 }
 
-/// Leaves of every column what no shift and turn of the whole arm does as well, by least squares over all places.
-void take_out_motion_as_a_whole(const Chain& chain, const std::vector<PlannedPose>& places,
-                                std::vector<Eigen::MatrixXd>& rows) {
-  using Motion = Eigen::Matrix<double, 3, 6>;
-  std::vector<Motion> motions;
-  Eigen::Matrix<double, 6, 6> square = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(6, rows.front().cols());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Eigen::Vector3d point = tool_position(chain, places[i].joints);
-    Motion motion = Motion::Zero();
-    motion.leftCols<3>().setIdentity();
-    for (int axis = 0; axis < 3; ++axis) motion.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(point);
-    square += motion.transpose() * motion;
-    product += motion.transpose() * rows[i];
-    motions.push_back(motion);
-  }
-  const Eigen::MatrixXd best = square.ldlt().solve(product);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] -= motions[i] * best;
-}
-
 }  // namespace
 
 InformationModel::InformationModel(PlannedModel model)
@@ -227,7 +208,12 @@ ScaledJacobian InformationModel::jacobian(const std::vector<PlannedPose>& poses)
 Workspace::Workspace(const InformationModel& model, const std::vector<PlannedPose>& places) {
   const auto n = static_cast<Eigen::Index>(model.ids().size());
   for (const PlannedPose& place : places) rows_.push_back(model.tool_rows(place));
-  if (model.model().by_touch) take_out_motion_as_a_whole(model.model().nominal.robot.chain, places, rows_);
+  if (model.model().by_touch) {
+    std::vector<Eigen::Vector3d> points_m;
+    for (const PlannedPose& place : places)
+      points_m.push_back(tool_position(model.model().nominal.robot.chain, place.joints));
+    leave_out_motion_as_a_whole(points_m, rows_);
+  }
   weight_ = Eigen::MatrixXd::Zero(n, n);
   for (const Eigen::MatrixXd& rows : rows_) weight_ += rows.transpose() * rows;
   weight_ /= static_cast<double>(places.size());

@@ -21,6 +21,7 @@ enum class RandomPurpose : std::uint64_t {
   cause_cost = 33,           ///< bootstrap interval of what a cause costs
   explanation_search = 34,   ///< variations of sets of effects
   planned_poses = 35,        ///< poses that a plan chooses among, and its way
+  workspace_places = 36,     ///< where a model's error over its workspace is predicted
   distal_sequence = 406,     ///< distal learning, one joint at a time
   structure_search = 0x5354525543,
 };

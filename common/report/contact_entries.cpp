@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -42,6 +44,23 @@ bool shows_lengths(const DataSet& data) {
   });
 }
 
+/// The one figure without an instrument that shows accuracy and not agreement.
+std::string unfitted_lengths_sentence(const std::vector<LengthErrorEntry>& lengths,
+                                      const std::vector<std::string>& fitted_sets) {
+  double squares_mm2 = 0.0, sigma_mm = 0.0;
+  int count = 0;
+  for (const LengthErrorEntry& one : lengths) {
+    if (!one.error_mm || std::ranges::find(fitted_sets, one.set) != fitted_sets.end()) continue;
+    squares_mm2 += *one.error_mm * *one.error_mm;
+    sigma_mm = std::max(sigma_mm, one.sigma_mm.value_or(0.0));
+    ++count;
+  }
+  if (count == 0) return {};
+  return fmt::format("Accuracy against lengths that nothing was fitted to: off by {:.3f} mm (rms of {}, each known to "
+                     "{:g} mm).",
+                     std::sqrt(squares_mm2 / count), count, sigma_mm);
+}
+
 }  // namespace
 
 std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
@@ -74,12 +93,14 @@ std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRo
   return entries;
 }
 
-std::vector<std::string> contact_notes(const DataSet& data) {
+std::vector<std::string> contact_notes(const DataSet& data, const std::vector<LengthErrorEntry>& lengths,
+                                       const std::vector<std::string>& fitted_sets) {
   if (!has_contacts(data)) return {};
   std::vector<std::string> notes;
-  const std::size_t lengths = fitted_lengths(data);
+  if (std::string sentence = unfitted_lengths_sentence(lengths, fitted_sets); !sentence.empty())
+    notes.push_back(std::move(sentence));
   if (!has_instrument(data)) {
-    if (lengths == 0 && !shows_lengths(data))
+    if (fitted_lengths(data) == 0 && !shows_lengths(data))
       notes.emplace_back(
           "No length between contacts is known: the scale of the arm is not measured and stays the description's. Two "
           "contacts at a known distance (contacts.distances) would give it.");

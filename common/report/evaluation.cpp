@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "effects/effect.hpp"
+#include "fitting/workspace_error.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
+#include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
 #include "report/error_fields.hpp"
 #include "report/json.hpp"
 
@@ -128,6 +131,22 @@ PredictionEntry prediction_entry(const PredictionInterval& interval) {
           .poses = interval.poses,
           .gross_errors = interval.gross_errors,
           .remark = origin_of(interval)};
+}
+
+std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool placed) {
+  if (!model.posterior || !model.interval || model.measured.empty()) return {};
+  const WorkspaceError error =
+      workspace_error(*model.posterior, *model.interval, model.robot, model.measured, placed,
+                      RandomStream{model.seed, number_of(RandomPurpose::workspace_places)});
+  return WorkspaceEntry{if_finite(millimetres(error.rms_m)), if_finite(millimetres(error.p95_m)), !placed};
+}
+
+std::string workspace_sentence(const WorkspaceEntry& error) {
+  if (!error.rms_mm || !error.p95_mm) return {};
+  return fmt::format("the tool is predicted to be off by {:.3f} mm (rms), {:.3f} mm in 95 % of cases, with joints "
+                     "anywhere in their measured ranges{}; measurement noise is not in it",
+                     *error.rms_mm, *error.p95_mm,
+                     error.beside_base ? " and the arm as a whole shifted and turned to fit best" : "");
 }
 
 bool follow_each_other(const DataSet& data) {

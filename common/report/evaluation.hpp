@@ -37,10 +37,16 @@ std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRo
 
 /// What these contacts can tell of the arm and what they cannot, the most important first; empty where nothing is
 /// touched.
-std::vector<std::string> contact_notes(const DataSet& data);
+std::vector<std::string> contact_notes(const DataSet& data, const std::vector<LengthErrorEntry>& lengths,
+                                       const std::vector<std::string>& fitted_sets);
 
 /// Where the radii of poses come from.
 PredictionEntry prediction_entry(const PredictionInterval& interval);
+
+/// Nothing where the model does not state how sure it is. `placed`: its poses told where the arm stands.
+std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool placed);
+/// "0.21 mm rms, 0.4 mm for 95 % ...": the same for people.
+std::string workspace_sentence(const WorkspaceEntry& error);
 
 /// Whether most poses were measured near the one before them, as along a path: their median step, of the joint that
 /// moves most, is less than a quarter of what the poses cover (random ones go over two thirds of it). Repeats are no

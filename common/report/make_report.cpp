@@ -244,13 +244,14 @@ Report make_report(const Conclusions& run) {
   if (!data.poses.empty()) report.arm = arm_entry(model.robot, data.poses.front().target);
   report.contacts = contact_entries(data, run.preparation.registered.robot, run.before, model.robot);
   report.length_errors = length_error_entries(data, model.robot, &run.before);
-  report.contact_notes = contact_notes(data);
+  report.contact_notes = contact_notes(data, report.length_errors, report.fitted_sets);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   if (report.prediction_interval && follow_each_other(data))
     report.prediction_interval->remark +=
         "; the poses follow each other along a path: at poses far from it the intervals may be too narrow, although "
         "every "
         "joint was measured there";
+  report.workspace_error = workspace_entry(model, has_instrument(data));
   report.noise_floor_mm = noise_floor_mm(data);
   set_loop(run.loop, model.nominal, report);
   set_causes(run.calibration.budget, model.robot, model.nominal, report);

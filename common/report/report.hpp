@@ -61,6 +61,12 @@ struct PredictionEntry {
   std::string remark;
 };
 
+/// The error of the robot's own tool that is predicted over the joints' measured ranges, measurement noise left out.
+struct WorkspaceEntry {
+  std::optional<double> rms_mm, p95_mm;
+  bool beside_base = false;  ///< once the arm as a whole is shifted and turned to fit best: nothing told where it stands
+};
+
 struct NamedNumber {
   std::string name;  ///< with its unit
   std::optional<double> value;
@@ -259,6 +265,7 @@ struct Report {
   std::vector<ContactEntry> contacts{};                  ///< where poses touch something
   std::vector<std::string> contact_notes{};              ///< what contacts can and cannot tell: sentences
   std::optional<PredictionEntry> prediction_interval{};  ///< behind their radii
+  std::optional<WorkspaceEntry> workspace_error{};       ///< of models that state how sure they are
   std::optional<double> noise_floor_mm;  ///< standard deviation of repeats per axis, where there are repeats
   std::vector<CauseEntry> causes;        ///< of what the loop added, the costliest first
   std::vector<FrontEntry> front;         ///< from no cause to all

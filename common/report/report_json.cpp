@@ -68,6 +68,9 @@ void fields(auto& visit, Like<ExcludedPose> auto& pose) {
   visit("id", pose.id, "set", pose.set, "error_mm", pose.error_mm);
 }
 
+void fields(auto& visit, Like<WorkspaceEntry> auto& error) {
+  visit("rms_mm", error.rms_mm, "p95_mm", error.p95_mm, "beside_base", error.beside_base);
+}
 void fields(auto& visit, Like<PredictionEntry> auto& prediction) {
   visit("quantile", prediction.quantile, "noise_mm", prediction.noise_mm, "distance_noise_mm",
         prediction.distance_noise_mm, "model_error_mm", prediction.model_error_mm, "told_by", prediction.pose_set,
@@ -234,7 +237,9 @@ void fields(auto& visit, Like<Report> auto& report) {
   visit.when(!report.contacts.empty(), "length_errors_mm", report.length_errors);
   visit.when(!report.contacts.empty(), "contacts", report.contacts);
   visit.when(!report.contact_notes.empty(), "contact_notes", report.contact_notes);
-  visit("prediction_interval", report.prediction_interval, "noise_floor_mm", report.noise_floor_mm);
+  visit("prediction_interval", report.prediction_interval);
+  visit.when(report.workspace_error.has_value(), "workspace_error", report.workspace_error);
+  visit("noise_floor_mm", report.noise_floor_mm);
   loop_fields(visit, report);
   visit("performance_index_mm2", report.performance_index_mm2, "joints", report.joints);
   visit.when(report.shared_functions.has_value(), "shared_functions", report.shared_functions);

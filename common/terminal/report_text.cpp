@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "report/evaluation.hpp"
 #include "report/figures.hpp"
 #include "terminal/text.hpp"
 
@@ -52,6 +53,11 @@ std::string intervals(const std::vector<PoseErrorEntry>& poses, const std::optio
   return wrapped("  prediction:", within + "; " + prediction->remark, 4);
 }
 
+std::string workspace(const Report& report) {
+  const std::string sentence = report.workspace_error ? workspace_sentence(*report.workspace_error) : "";
+  return sentence.empty() ? "" : wrapped("  workspace:", sentence, 4);
+}
+
 std::string stages(const Report& report) {
   const std::vector<Stage> all = error_stages(report);
   std::string text;
@@ -62,7 +68,7 @@ std::string stages(const Report& report) {
   }
   const std::string outliers = outliers_sentence(report);
   return text + last_fit(report) + (outliers.empty() ? "" : wrapped(" ", outliers, 2)) +
-         intervals(report.pose_errors, report.prediction_interval);
+         intervals(report.pose_errors, report.prediction_interval) + workspace(report);
 }
 
 std::string length_line(const LengthErrorEntry& length) {

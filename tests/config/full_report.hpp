@@ -42,6 +42,7 @@ inline Report full_report() {
   report.contacts = {{"left", "accept", "point", 30, 8.1, 0.7, 0.5}};
   report.contact_notes = {"No length is known."};
   report.prediction_interval = {2.1, 0.05, 0.0, 0.02, "accept", 30, 1, "a remark"};
+  report.workspace_error = {0.2, 0.4, true};
   report.distal = {{1, 10, "0.001 * SIN(theta)", 40.0}};
   report.runtime.waited_share = {{"cell-a-1", 0.04}};
   return report;

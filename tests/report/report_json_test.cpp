@@ -151,6 +151,7 @@ Report full_report(RandomStream& random) {
   report.poses.excluded = {{"P9", "validation", random.real()}, {"P8", "accept", std::nullopt}};
   report.pose_errors = {{"P1", "A", "accept", random.real(), random.real(), std::nullopt, {"outlier"}}};
   report.prediction_interval = prediction_entry({.quantile = random.real(), .poses = random.index(40)});
+  if (random.chance(0.5)) report.workspace_error = {random.real(), random.real(), random.chance(0.5)};
   report.fitted_sets = {"calibration", "validation"};
   report.unseen_validation_rms_mm = BeforeAfter{random.real(), random.real()};
   report.distal = {{1 + random.index(6), random.index(100), "SIN(theta)", random.real()}};
