@@ -51,7 +51,7 @@ void set_absorbed(std::vector<DetectableCandidate>& candidates, const FinishedLo
   const ResidualField& fitted = loop.linearization.fitted;
   const RowMatrix terms = loop.model.smooth.columns(fitted);
   const RowMatrix left =
-      beyond.trial(terms, RowMatrix::Zero(loop.linearization.validation.rows(), terms.cols())).fitted;
+      beyond.unexplained(terms, RowMatrix::Zero(loop.linearization.validation.rows(), terms.cols())).fitted;
   const Eigen::MatrixXd gram = left.transpose() * left;
   const Eigen::MatrixXd moments = loop.columns.transposed_times(fitted, left);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -78,18 +78,31 @@ double validation_square(const Eigen::VectorXd& column, const ResidualField& val
 /// Of every candidate beyond the model: how well the validation poses see it, over how well the fitted ones do.
 void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const FinishedLoop& loop,
                            const Projection& beyond, double variance) {
+  constexpr Eigen::Index kColumnsAtATime = 256;
   const ResidualField &fitted = loop.linearization.fitted, &validation = loop.linearization.validation;
   if (validation.poses.empty()) return;
   EffectColumns columns;
   for (const Candidate& candidate : loop.candidates) columns.append(candidate.effect, loop.robot, validation.states);
   columns.pack();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Projection::Trial trial = beyond.trial(loop.columns.dense(fitted, i), columns.dense(validation, i));
-    double seen = 0.0;
-    for (const auto& column : trial.validation.colwise())
-      seen += validation_square(column, validation, beyond.validation_residual());
-    const double square = trial.fitted.squaredNorm() / variance;
-    candidates[i].validation_ratio = square > 0.0 ? seen / square : 0.0;
+  const std::vector<ColumnSpan>& spans = columns.spans();
+  for (std::size_t begin = 0, end = 0; begin < spans.size(); begin = end) {
+    Eigen::Index together = 0;
+    while (end < spans.size() && together < kColumnsAtATime) together += spans[end++].count;
+    RowMatrix over_fitted(fitted.rows(), together), over_validation(validation.rows(), together);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Index first = spans[i].first - spans[begin].first;
+      over_fitted.middleCols(first, spans[i].count) = loop.columns.dense(fitted, i);
+      over_validation.middleCols(first, spans[i].count) = columns.dense(validation, i);
+    }
+    const Projection::Unexplained left = beyond.unexplained(over_fitted, over_validation);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Index first = spans[i].first - spans[begin].first;
+      double seen = 0.0;
+      for (Eigen::Index k = first; k < first + spans[i].count; ++k)
+        seen += validation_square(left.validation.col(k), validation, beyond.validation_residual());
+      const double square = left.fitted.middleCols(first, spans[i].count).squaredNorm() / variance;
+      candidates[i].validation_ratio = square > 0.0 ? seen / square : 0.0;
+    }
   }
 }
 

@@ -69,16 +69,18 @@ double Projection::freedom() const {
   return static_cast<double>(residual_.size()) - basis_.squaredNorm();
 }
 
-Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& validation) const {
-  Trial result;
+Projection::Unexplained Projection::unexplained(const RowMatrix& fitted, const RowMatrix& validation) const {
   const Eigen::MatrixXd along = basis_.transpose() * fitted;
-  result.fitted = fitted - basis_ * along;
-  result.validation = validation - validation_basis_ * along;
-  result.prior = -prior_basis_ * along;
+  return {fitted - basis_ * along, validation - validation_basis_ * along, -prior_basis_ * along};
+}
+
+Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& validation) const {
+  Trial result{unexplained(fitted, validation)};
   Eigen::VectorXd scale = fitted.colwise().norm().transpose();
   for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
-  const Eigen::MatrixXd gram =
-      scale.asDiagonal() * (fitted.transpose() * fitted - along.transpose() * along) * scale.asDiagonal();
+  const Eigen::MatrixXd gram = scale.asDiagonal() *
+                               (result.fitted.transpose() * result.fitted + result.prior.transpose() * result.prior) *
+                               scale.asDiagonal();
   const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * residual_);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
   const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * moment;

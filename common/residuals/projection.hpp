@@ -60,12 +60,15 @@ class Projection {
   /// Of the same rows: whether anything is believed.
   const std::vector<bool>& has_prior() const { return has_prior_; }
 
-  /// What of new columns the model does not explain: their coefficients' least-squares values and what adding them
-  /// leaves of either residual.
-  struct Trial {
-    RowMatrix fitted;              ///< new columns less the model's share, rows x m
-    RowMatrix validation;          ///< the same over the validation rows
-    RowMatrix prior;               ///< the same over the rows of the prior
+  /// What of new columns the model does not explain, rows x m each.
+  struct Unexplained {
+    RowMatrix fitted, validation;
+    RowMatrix prior;  ///< over the rows of the prior
+  };
+  Unexplained unexplained(const RowMatrix& fitted, const RowMatrix& validation) const;
+
+  /// The same with their coefficients' least-squares values and what adding them leaves of either residual.
+  struct Trial : Unexplained {
     Eigen::MatrixXd to_basis;      ///< m x rank: makes the new columns orthonormal
     Eigen::VectorXd coefficients;  ///< m; 0 in directions that the model explains already
     double drop = 0.0;             ///< decrease of the sum of squares
