@@ -115,34 +115,6 @@ std::vector<double> family_sums(std::span<const int> families, const Eigen::Vect
   return sums;
 }
 
-/// What the rows say of the terms once all other columns have their best values, in units in which every term's own
-/// column had length 1.
-struct TermSums {
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd moment, scale;
-  double whole = 0.0;  ///< sum of squares that the other columns leave
-};
-
-/// `factor`: of the other columns, `terms` terms and the residual.
-TermSums beyond_the_rest(const Eigen::MatrixXd& factor, Eigen::Index terms) {
-  constexpr double kHardly = 1e-9;  ///< belief in zero of the other columns: some do not differ
-  const Eigen::Index n = factor.cols() - 1, others = n - terms;
-  Eigen::MatrixXd sums = factor.transpose() * factor;
-  Eigen::VectorXd scale = sums.diagonal().cwiseSqrt();
-  for (double& value : scale) value = 1 / std::max(value, kNoColumn);
-  scale[n] = 1.0;
-  sums = scale.asDiagonal() * sums * scale.asDiagonal();
-  Eigen::MatrixXd left = sums.bottomRightCorner(terms + 1, terms + 1);
-  if (others > 0) {
-    Eigen::MatrixXd other = sums.topLeftCorner(others, others);
-    other.diagonal().array() += kHardly;
-    const Eigen::MatrixXd across = sums.topRightCorner(others, terms + 1);
-    left -= across.transpose() * Eigen::LDLT<Eigen::MatrixXd>(other).solve(across);
-  }
-  return {left.topLeftCorner(terms, terms), left.topRightCorner(terms, 1), scale.segment(others, terms),
-          std::max(left(terms, terms), 1e-12 * sums(n, n))};
-}
-
 /// Takes away the least sure quarter of the terms that are less than three standard errors from zero, and of a family
 /// whose mean square is hardly more than chance makes it: relevance alone keeps one in three of those that are not
 /// there.
@@ -248,41 +220,41 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> fa
   constexpr double kLargest = 300.0;         ///< times what the poses say of a coefficient: one so believed is zero
   constexpr double kLeastPrecision = 100.0;  ///< 1/rad: no joint errs by whole hundredths
   const auto terms = static_cast<Eigen::Index>(families.size());
-  const TermSums sums = beyond_the_rest(factor, terms);
-  Eigen::VectorXd belief = Eigen::VectorXd::Constant(terms, 1e-2);  // in scaled units, over the variance of rows
-  for (Eigen::Index i = 0; i < terms; ++i) {
-    if (sums.scale[i] >= 1.0 / kNoColumn) belief[i] = kGone;  // a joint that moves nothing of what was measured
+  const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
+  const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
+  const Eigen::VectorXd moment = factor.leftCols(n).transpose() * factor.col(n);
+  const double whole = factor.col(n).squaredNorm();
+  Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
+  for (double& value : scale) value = 1 / std::max(value, kNoColumn);
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  const Eigen::VectorXd scaled_moment = scale.cwiseProduct(moment);
+  Eigen::VectorXd belief = Eigen::VectorXd::Constant(n, 1e-9);  // in scaled units, over the variance of rows
+  belief.tail(terms).setConstant(1e-2);
+  for (Eigen::Index i = fixed; i < n; ++i) {
+    if (gram(i, i) < kNoColumn * kNoColumn) belief[i] = kGone;  // a joint that moves nothing of what was measured
   }
-  const double fixed = static_cast<double>(factor.cols() - 1 - terms);
   double variance = 1.0;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<Eigen::Index> present;
-    for (Eigen::Index i = 0; i < terms; ++i)
-      if (belief[i] < kGone) present.push_back(i);
-    if (present.empty()) break;
-    const auto count = std::ssize(present);
-    Eigen::MatrixXd posterior = sums.gram(present, present);
-    posterior.diagonal() += variance * belief(present);
+    Eigen::MatrixXd posterior = scaled;
+    posterior.diagonal() += variance * belief;
     const Eigen::LDLT<Eigen::MatrixXd> solver(posterior);
-    const Eigen::VectorXd spreads = solver.solve(Eigen::MatrixXd::Identity(count, count)).diagonal();
-    const Eigen::VectorXd moment = sums.moment(present);
-    const Eigen::VectorXd means = solver.solve(moment);
-    Eigen::VectorXd spread = Eigen::VectorXd::Zero(terms), mean = spread;
-    spread(present) = spreads;
-    mean(present) = means;
-    const Eigen::VectorXd known = (1.0 - variance * belief.cwiseProduct(spread).array()).max(1e-12).min(1.0);
-    const double determined = fixed + known(present).sum();
-    update(belief, families, known, mean, sums.scale);
+    const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(n, n));
+    const Eigen::VectorXd mean = inverse * scaled_moment;
+    const Eigen::VectorXd spread = inverse.diagonal().tail(terms), means = mean.tail(terms);
+    const Eigen::VectorXd known =
+        (1.0 - variance * belief.tail(terms).cwiseProduct(spread).array()).max(1e-12).min(1.0);
+    const double determined = static_cast<double>(fixed) + known.sum();
+    update(belief.tail(terms), families, known, means, scale.tail(terms));
     if (round % kPruneEvery == kPruneEvery - 1) {
-      prune(belief, families, mean.cwiseAbs().cwiseQuotient((variance * spread).cwiseSqrt()));
+      prune(belief.tail(terms), families, means.cwiseAbs().cwiseQuotient((variance * spread).cwiseSqrt()));
     }
-    const double squares = sums.whole - 2.0 * means.dot(moment) + means.dot(sums.gram(present, present) * means);
-    variance = std::max(squares, 1e-12 * sums.whole) / std::max(rows - determined, 1.0);
+    const double squares = whole - 2.0 * mean.dot(scaled_moment) + mean.dot(scaled * mean);
+    variance = std::max(squares, 1e-12 * whole) / std::max(rows - determined, 1.0);
   }
   Eigen::VectorXd precision(terms);
   for (Eigen::Index i = 0; i < terms; ++i) {
     // back to rows of unit variance: precision of the unscaled coefficient
-    const double seen = std::min(kLargest, std::sqrt(belief[i])) / sums.scale[i];
+    const double seen = std::min(kLargest, std::sqrt(belief[fixed + i])) / scale[fixed + i];
     precision[i] = std::max(kLeastPrecision, seen);
   }
   return precision;
