@@ -77,9 +77,9 @@ double validation_square(const Eigen::VectorXd& column, const ResidualField& val
 
 /// Of every candidate beyond the model: how well the validation poses see it, over how well the fitted ones do.
 void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const FinishedLoop& loop,
-                           const Projection& beyond, double variance) {
+                           const Projection& beyond, const Scan& scan, double variance) {
   constexpr Eigen::Index kColumnsAtATime = 256;
-  const ResidualField &fitted = loop.linearization.fitted, &validation = loop.linearization.validation;
+  const ResidualField& validation = loop.linearization.validation;
   if (validation.poses.empty()) return;
   EffectColumns columns;
   for (const Candidate& candidate : loop.candidates) columns.append(candidate.effect, loop.robot, validation.states);
@@ -88,19 +88,16 @@ void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const F
   for (std::size_t begin = 0, end = 0; begin < spans.size(); begin = end) {
     Eigen::Index together = 0;
     while (end < spans.size() && together < kColumnsAtATime) together += spans[end++].count;
-    RowMatrix over_fitted(fitted.rows(), together), over_validation(validation.rows(), together);
+    RowMatrix left(validation.rows(), together);
+    for (std::size_t i = begin; i < end; ++i)
+      left.middleCols(spans[i].first - spans[begin].first, spans[i].count) = columns.dense(validation, i);
+    left.noalias() -= beyond.validation_basis() * scan.along().middleRows(spans[begin].first, together).transpose();
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Index first = spans[i].first - spans[begin].first;
-      over_fitted.middleCols(first, spans[i].count) = loop.columns.dense(fitted, i);
-      over_validation.middleCols(first, spans[i].count) = columns.dense(validation, i);
-    }
-    const Projection::Unexplained left = beyond.unexplained(over_fitted, over_validation);
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Index first = spans[i].first - spans[begin].first;
       double seen = 0.0;
-      for (Eigen::Index k = first; k < first + spans[i].count; ++k)
-        seen += validation_square(left.validation.col(k), validation, beyond.validation_residual());
-      const double square = left.fitted.middleCols(first, spans[i].count).squaredNorm() / variance;
+      for (Eigen::Index k = 0; k < spans[i].count; ++k)
+        seen += validation_square(left.col(spans[i].first - spans[begin].first + k), validation,
+                                  beyond.validation_residual());
+      const double square = candidates[i].score.visible.sum() / variance;
       candidates[i].validation_ratio = square > 0.0 ? seen / square : 0.0;
     }
   }
@@ -152,7 +149,7 @@ std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vect
   const std::vector<Score> scores = scan.scores();
   std::vector<DetectableCandidate> candidates;
   for (std::size_t i = 0; i < scores.size(); ++i) candidates.push_back({loop.candidates[i], scores[i]});
-  set_validation_ratios(candidates, loop, beyond, variance);
+  set_validation_ratios(candidates, loop, beyond, scan, variance);
   set_absorbed(candidates, loop, beyond);
   std::vector<NotFound> all = smallest_detectable(candidates, loop.model.robot, loop.robot,
                                                   {.null_maxima = maxima,

@@ -34,6 +34,8 @@ class Scan {
   /// Brings the scan up to date with a model to which columns were added.
   void follow(const EffectColumns& columns, const ResidualField& field, const Projection& model);
 
+  /// Of all candidates' columns, their share along the model's basis: columns x rank.
+  const Eigen::MatrixXd& along() const { return along_; }
   /// One score per candidate.
   std::vector<Score> scores() const;
 

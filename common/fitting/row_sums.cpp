@@ -64,8 +64,8 @@ void TriangularFactor::reduce() {
     filled_ = 0;
     return;
   }
-  stack_.bottomRows(stack_.rows() - filled_).setZero();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_);
+  if (filled_ == n) return;  // nothing was added
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_.topRows(filled_));
   stack_.topRows(n) = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
   filled_ = n;
 }

@@ -176,7 +176,7 @@ FormulaSearch FormulaSearcher::run(double family_error, RandomStream random) {
   const NullNoise noise(linearization_.fitted, linearization_.projection);
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.null_nats.size() + 1 < searches) {
-    const PricedFormulas of_noise = evolve_formulas(noise.residual(random), Purpose::null_distribution);
+    const PricedFormulas of_noise = evolve_formulas(noise.residuals(1, random), Purpose::null_distribution);
     if (!of_noise) return {};
     const double gain_nats = of_noise->empty() ? 0.0 : std::max(0.0, of_noise->front().gain_nats);
     if (gain_nats >= found->front().gain_nats) return {};

@@ -253,8 +253,9 @@ Linearization linearize_without(const DiagnosisProblem& problem, const Diagnosed
 }
 
 DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps) {
+  const DiagnosisProblem fitted_alone{problem.data, problem.declared, problem.fitted, {}};
   for (int step = 0; step < steps; ++step) {
-    const Linearization linearization = linearize(problem, model);
+    const Linearization linearization = linearize(fitted_alone, model);
     const ParameterSpace space(with_contacts_of(model.robot, linearization.ids, problem.data), linearization.ids);
     model.robot = space.at(linearization.changes.head(space.size())).robot;
     model.smooth.coefficients += linearization.changes.tail(model.smooth.coefficients.size());

@@ -210,14 +210,21 @@ NullNoise::Rows NullNoise::draw(RandomStream& random) const {
   return drawn;
 }
 
-Eigen::VectorXd NullNoise::residual(RandomStream& random) const {
-  Rows drawn = draw(random);
-  const Eigen::VectorXd along =
-      model_.basis().transpose() * drawn.fitted + model_.prior_basis().transpose() * drawn.beliefs;
-  drawn.fitted -= model_.basis() * along;
-  drawn.beliefs -= model_.prior_basis() * along;
-  const double whole = drawn.fitted.squaredNorm() + drawn.beliefs.squaredNorm();
-  return whole > 0 ? Eigen::VectorXd(std::sqrt(model_.squares() / whole) * drawn.fitted) : drawn.fitted;
+Eigen::MatrixXd NullNoise::residuals(Eigen::Index count, RandomStream& random) const {
+  Eigen::MatrixXd fitted(field_.rows(), count), beliefs(model_.prior_residual().size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Rows drawn = draw(random);
+    fitted.col(i) = drawn.fitted;
+    beliefs.col(i) = drawn.beliefs;
+  }
+  const Eigen::MatrixXd along = model_.basis().transpose() * fitted + model_.prior_basis().transpose() * beliefs;
+  fitted.noalias() -= model_.basis() * along;
+  beliefs.noalias() -= model_.prior_basis() * along;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double whole = fitted.col(i).squaredNorm() + beliefs.col(i).squaredNorm();
+    if (whole > 0) fitted.col(i) *= std::sqrt(model_.squares() / whole);
+  }
+  return fitted;
 }
 
 }  // namespace demecal::inline residuals

@@ -40,8 +40,9 @@ class NullNoise {
     Eigen::VectorXd fitted, beliefs;
   };
   Rows draw(RandomStream& random) const;
-  /// What the model leaves of a draw's rows, of the residual's sum of squares (beliefs included).
-  Eigen::VectorXd residual(RandomStream& random) const;
+  /// What the model leaves of the rows of `count` draws, each of the residual's sum of squares (beliefs included):
+  /// rows x count.
+  Eigen::MatrixXd residuals(Eigen::Index count, RandomStream& random) const;
 
  private:
   const ResidualField& field_;

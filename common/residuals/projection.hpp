@@ -39,6 +39,8 @@ class Projection {
   Eigen::Index rank() const { return basis_.cols(); }
   /// Over the fitted rows: rows x rank(), orthonormal together with the rows of the prior.
   const RowMatrix& basis() const { return basis_; }
+  /// The same combinations of columns over the validation rows.
+  const RowMatrix& validation_basis() const { return validation_basis_; }
   /// Residual of the fitted rows and of the validation rows.
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::VectorXd& validation_residual() const { return validation_residual_; }

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMostPosesTested = 1000;
 constexpr std::size_t kFewLevels = 6;
+constexpr Eigen::Index kDrawsAtATime = 64;
 
 /// Pairs of poses that are neighbours in some circumstance.
 using Pairs = std::vector<std::array<std::size_t, 2>>;
@@ -174,8 +175,10 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual(), chain), all);
   const NullNoise noise(field, model);
   Eigen::MatrixXd null(seen.size(), draws);
-  for (int i = 0; i < draws; ++i) {
-    null.col(i) = agreements(joint_errors(field, poses, noise.residual(random), chain), all);
+  for (Eigen::Index done = 0; done < draws; done += kDrawsAtATime) {
+    const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), random);
+    for (Eigen::Index i = 0; i < drawn.cols(); ++i)
+      null.col(done + i) = agreements(joint_errors(field, poses, drawn.col(i), chain), all);
   }
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =
