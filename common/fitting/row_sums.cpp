@@ -48,7 +48,7 @@ Eigen::VectorXd Information::gradient() {
 }
 
 TriangularFactor::TriangularFactor(int columns)
-    : stack_(Eigen::MatrixXd::Zero(columns + kFactorRows, columns)), filled_(columns) {}
+    : stack_(Eigen::MatrixXd::Zero(columns + kFactorRows, columns)) {}
 
 void TriangularFactor::add(
     const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& rows) {
@@ -64,8 +64,8 @@ void TriangularFactor::reduce() {
     filled_ = 0;
     return;
   }
-  if (filled_ == n) return;  // nothing was added
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_.topRows(filled_));
+  if (filled_ < n) stack_.middleRows(filled_, n - filled_).setZero();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_.topRows(std::max(n, filled_)));
   stack_.topRows(n) = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
   filled_ = n;
 }
