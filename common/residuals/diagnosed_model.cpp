@@ -53,28 +53,28 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
   }
 }
 
-/// `shared`: of unit variance; they come first, so that the rest of the factor is what is left without them.
+/// `shared`: of unit variance, taken out beforehand.
 Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& shared, const Eigen::VectorXd& residual,
                                  const SmoothCorrections& smooth) {
   const Eigen::VectorXd& present = smooth.coefficients;
-  const Eigen::Index terms = present.size(), n = columns.fitted.cols(), first = shared.cols();
+  const Eigen::Index terms = present.size(), n = columns.fitted.cols(), others = n - terms;
   if (terms == 0) return {};
-  TriangularFactor factor(static_cast<int>(first + n) + 1);
-  const Eigen::VectorXd whole = residual + columns.fitted.rightCols(terms) * present;
-  factor.add(beside(shared, beside(columns.fitted, whole)));
-  RowMatrix beliefs = RowMatrix::Zero(first + n - terms, first + n + 1);
-  beliefs.topLeftCorner(first, first).setIdentity();
-  for (Eigen::Index i = 0; i < n - terms; ++i) {
-    beliefs(first + i, first + i) = columns.precision[i];
-    beliefs(first + i, first + n) = -columns.precision[i] * columns.offset[i];
+  const RowMatrix rows = beside(columns.fitted, residual + columns.fitted.rightCols(terms) * present);
+  const RowMatrix known = beside(columns.known, columns.known_residual);
+  Eigen::MatrixXd products = rows.transpose() * rows + known.transpose() * known;
+  const Eigen::ArrayXd beliefs = columns.precision.head(others).array().square();
+  const Eigen::ArrayXd believed = -beliefs * columns.offset.head(others).array();
+  products.diagonal().head(others).array() += beliefs;
+  products.col(n).head(others).array() += believed;
+  products.row(n).head(others).array() += believed.transpose();
+  products(n, n) -= (believed * columns.offset.head(others).array()).sum();
+  if (shared.cols() > 0) {
+    Eigen::MatrixXd own = shared.transpose() * shared;
+    own.diagonal().array() += 1.0;
+    const Eigen::MatrixXd across = shared.transpose() * rows;
+    products -= across.transpose() * own.llt().solve(across);
   }
-  factor.add(beliefs);
-  RowMatrix known = RowMatrix::Zero(columns.known.rows(), first + n + 1);
-  known.middleCols(first, n) = columns.known;
-  known.col(first + n) = columns.known_residual;
-  factor.add(known);
-  const Eigen::MatrixXd left = factor.factor().bottomRightCorner(n + 1, n + 1);
-  return relevance(left, smooth.families(), static_cast<double>(residual.size()));
+  return relevance(products, smooth.families(), static_cast<double>(residual.size()));
 }
 
 /// What is known between contacts, over the model's columns: `terms` smooth ones come after those of `space`.

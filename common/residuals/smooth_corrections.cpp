@@ -215,15 +215,15 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
   return smooth;
 }
 
-Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> families, double rows) {
+Eigen::VectorXd relevance(const Eigen::MatrixXd& products, std::span<const int> families, double rows) {
   constexpr int kRounds = 80, kPruneEvery = 8;
   constexpr double kLargest = 300.0;         ///< times what the poses say of a coefficient: one so believed is zero
   constexpr double kLeastPrecision = 100.0;  ///< 1/rad: no joint errs by whole hundredths
   const auto terms = static_cast<Eigen::Index>(families.size());
-  const Eigen::Index n = factor.cols() - 1, fixed = n - terms;
-  const Eigen::MatrixXd gram = factor.leftCols(n).transpose() * factor.leftCols(n);
-  const Eigen::VectorXd moment = factor.leftCols(n).transpose() * factor.col(n);
-  const double whole = factor.col(n).squaredNorm();
+  const Eigen::Index n = products.cols() - 1, fixed = n - terms;
+  const auto gram = products.topLeftCorner(n, n);
+  const Eigen::VectorXd moment = products.topRightCorner(n, 1);
+  const double whole = products(n, n);
   Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
   for (double& value : scale) value = 1 / std::max(value, kNoColumn);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();

@@ -50,8 +50,8 @@ SmoothCorrections smooth_corrections(const DataSet& data, std::span<const std::s
 /// deviation, 1/rad), chosen so that the poses are most likely: automatic relevance determination (MacKay, 1992), in
 /// which the terms of a family are believed to be of like size, for the joints of one arm are made alike. Terms that
 /// the poses do not call for end at a precision that removes them.
-/// `factor`: triangular factor of the columns [model | terms | residual + terms * coefficients], the model's beliefs
-/// included; `families`: of each term, small numbers from 0; `rows`: their number.
-Eigen::VectorXd relevance(const Eigen::MatrixXd& factor, std::span<const int> families, double rows);
+/// `products`: X^T X of the columns X = [model | terms | residual + terms * coefficients], the model's beliefs among
+/// its rows; `families`: of each term, small numbers from 0; `rows`: of the poses.
+Eigen::VectorXd relevance(const Eigen::MatrixXd& products, std::span<const int> families, double rows);
 
 }  // namespace demecal::inline residuals

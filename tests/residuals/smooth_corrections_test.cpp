@@ -125,11 +125,7 @@ TEST(Relevance, KeepsTermsThatAreThereAndRemovesThoseThatAreNot) {
     truth[kFixed + 2] = 1e-3;
     truth[kFixed + 11] = -4e-4;
     rows.rightCols(1) = rows.leftCols(kFixed + kTerms) * truth + random_matrix(stream, kRows, 1);
-    const Eigen::MatrixXd factor = Eigen::HouseholderQR<Eigen::MatrixXd>(rows)
-                                       .matrixQR()
-                                       .topRows(kFixed + kTerms + 1)
-                                       .triangularView<Eigen::Upper>();
-    const Eigen::VectorXd precision = relevance(factor, each_its_own, kRows);
+    const Eigen::VectorXd precision = relevance(rows.transpose() * rows, each_its_own, kRows);
     Eigen::MatrixXd gram = (rows.transpose() * rows).topLeftCorner(kFixed + kTerms, kFixed + kTerms);
     gram.diagonal().tail(kTerms) += precision.cwiseAbs2();
     const Eigen::VectorXd found = gram.ldlt().solve(rows.leftCols(kFixed + kTerms).transpose() * rows.rightCols(1));
@@ -158,10 +154,8 @@ TEST(Relevance, BelievesTermsOfAFamilyToBeOfLikeSize) {
     rows.leftCols(kTerms) = 1e4 * random_matrix(stream, kRows, kTerms);
     const Eigen::VectorXd truth = kUsual * random_matrix(stream, kTerms, 1);
     rows.rightCols(1) = rows.leftCols(kTerms) * truth + random_matrix(stream, kRows, 1);
-    const Eigen::MatrixXd factor =
-        Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(kTerms + 1).triangularView<Eigen::Upper>();
     const auto error = [&](const std::vector<int>& families) {
-      const Eigen::VectorXd precision = relevance(factor, families, kRows);
+      const Eigen::VectorXd precision = relevance(rows.transpose() * rows, families, kRows);
       Eigen::MatrixXd gram = rows.leftCols(kTerms).transpose() * rows.leftCols(kTerms);
       gram.diagonal() += precision.cwiseAbs2();
       return (gram.ldlt().solve(rows.leftCols(kTerms).transpose() * rows.rightCols(1)) - truth).squaredNorm();
