@@ -89,7 +89,6 @@ ExitCode run(const CertifyRequest& request) {
   require_one_robot(model, request.model_file, "certify");
   CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
-  require_positions(data, "certify");
   model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
   require_same_arm(model.robot, data);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
@@ -123,7 +122,10 @@ void add_certify(CLI::App& app, ExitCode& exit_code) {
   command->add_option("model", request->model_file, "MODEL.yaml")->required();
   command->add_option("data", request->data_file, "DATASET.yaml; its accept poses are judged, where it has some")
       ->required();
-  command->add_option("--tolerance", request->tolerance_mm, "mm that 95 % of position errors are to stay within")
+  command
+      ->add_option("--tolerance", request->tolerance_mm,
+                   "mm that 95 % of position errors are to stay within; of errors of known lengths where poses only "
+                   "touch something")
       ->required()
       ->check(CLI::PositiveNumber);
   command->add_option("--out", request->out, "folder of certificate.html, .xml and .pdf")->required();

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "acceptance/touched_lengths.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
@@ -87,6 +88,14 @@ CertifiedView view_of(const DataSet& data, const std::vector<AttainedPose>& pose
   return view;
 }
 
+/// As view_of() positions: where the model has the ends of the lengths.
+CertifiedView view_of(const DataSet& data, const std::vector<TouchedLength>& lengths, const CorrectedRobot& robot) {
+  CertifiedView view{.arm = arm_points(robot, data.poses[lengths.front().rows.front()])};
+  for (const TouchedLength& length : lengths)
+    for (const Eigen::Vector3d& end_m : length.ends_m) view.points_m.emplace_back(end_m, length.error_m);
+  return view;
+}
+
 SetErrors errors_of(const CorrectedRobot& robot, const DataSet& data, const Rows& rows) {
   return set_errors(error_figures(robot, data, rows));
 }
@@ -104,6 +113,24 @@ std::vector<double> accuracies(const std::vector<AttainedPose>& poses) {
   std::vector<double> errors_m;
   for (const AttainedPose& pose : poses) errors_m.push_back(pose.accuracy_m);
   return errors_m;
+}
+
+std::vector<double> errors_in_m(const std::vector<TouchedLength>& lengths) {
+  std::vector<double> errors_m;
+  for (const TouchedLength& length : lengths) errors_m.push_back(length.error_m);
+  return errors_m;
+}
+
+SetErrors errors_of(const std::vector<TouchedLength>& lengths) {
+  std::vector<double> errors_mm;
+  for (const TouchedLength& length : lengths) errors_mm.push_back(millimetres(length.error_m));
+  return set_errors(error_figures(std::move(errors_mm)));
+}
+
+/// The largest standard uncertainty of the lengths.
+double sigma_m(const std::vector<TouchedLength>& lengths) {
+  return std::ranges::max(lengths, {}, [](const TouchedLength& length) { return length.known->sigma_m; })
+      .known->sigma_m;
 }
 
 struct BothArms {
@@ -132,6 +159,22 @@ std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const D
   return poses;
 }
 
+std::vector<CertifiedPose> certified_poses(const DataSet& data, const std::vector<TouchedLength>& before,
+                                           const std::vector<TouchedLength>& after, double tolerance_m) {
+  std::vector<CertifiedPose> poses;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const auto& [first, second] = after[i].rows;
+    poses.push_back({.id = data.poses[first].pose_id + " – " + data.poses[second].pose_id,
+                     .target = after[i].known->first + " – " + after[i].known->second,
+                     .measurements = 1,
+                     .before_mm = if_finite(millimetres(before[i].error_m)),
+                     .after_mm = if_finite(millimetres(after[i].error_m)),
+                     .beyond = after[i].error_m > tolerance_m});
+  }
+  std::ranges::stable_sort(poses, std::ranges::greater{}, &CertifiedPose::after_mm);
+  return poses;
+}
+
 void add_remarks(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run, Certificate& certificate) {
   std::vector<std::string>& remarks = certificate.remarks;
   const std::string& set = certificate.judged_set;
@@ -142,7 +185,12 @@ void add_remarks(const CalibratedModel& model, const DataSet& data, const Certif
   }
   if (set == "accept" && data.sha256 != model.data_sha256)
     remarks.emplace_back("These poses were not measured in the data set that the model was calibrated with.");
-  if (!run.fields.instrument_uncertainty_m)
+  const bool touches = certificate.words.of_one == kJudgedLengths.of_one;
+  if (touches)
+    remarks.emplace_back(
+        "No instrument saw the tool: judged are known lengths between points that the arm touched, one posture at each "
+        "end. Errors that leave lengths as they are, such as where the arm stands, are not seen.");
+  if (!touches && !run.fields.instrument_uncertainty_m)
     remarks.emplace_back(
         "The instrument's uncertainty is not stated (instrument_uncertainty_mm): errors of the instrument that all "
         "poses share are not in the guard band.");
@@ -187,15 +235,10 @@ CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool,
   return fit.robot;
 }
 
-Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run) {
-  const Rows rows = judged_poses(data);
-  if (rows.empty()) throw InputError({data.file, 0}, "", "holds no pose to judge");
-  const DeclaredModel base_and_tool{.registration = true, .tool = model.declared.tool};
-  const CorrectedRobot after =
-      run.refit_base ? refitted(data, {.registration = true, .tool = true}, model.robot) : model.robot;
-  const CorrectedRobot before = refitted(data, base_and_tool, nominal_robot(data));
-  const std::vector<AttainedPose> poses = attained_poses(data, rows, after);
-  if (poses.empty()) throw InputError({data.file, 0}, "", "holds neither positions nor lengths: nothing can be judged");
+namespace {
+
+/// What does not depend on what was measured.
+Certificate stated(const CalibratedModel& model, const DataSet& data, const Rows& rows, const CertifiedRun& run) {
   Certificate certificate{.fields = run.fields,
                           .robot = run.fields.text("robot").empty() ? model.nominal.name : run.fields.text("robot"),
                           .job = model.job,
@@ -210,15 +253,27 @@ Certificate make_certificate(const CalibratedModel& model, const DataSet& data, 
                           .date_is_of_run = run.fields.text("date").empty(),
                           .judged_set = std::string(to_string(data.poses[rows.front()].set)),
                           .judged_rows = rows.size(),
-                          .conditions = conditions(data, rows),
-                          .before = errors_of(before, data, rows),
-                          .after = errors_of(after, data, rows),
-                          .before_words = base_and_tool.tool ? "as its maker describes it, base and tool fitted"
-                                                             : "as its maker describes it, base fitted",
-                          .characteristics = characteristics(data, poses, after)};
+                          .conditions = conditions(data, rows)};
   for (const CertificateField& field : kCertificateFields) {
     if (field.expected && run.fields.text(field.key).empty()) certificate.missing.emplace_back(field.title);
   }
+  return certificate;
+}
+
+/// Fills in what measured positions, or lengths from fixed points, tell.
+void judge_positions(const CalibratedModel& model, const DataSet& data, const Rows& rows, const CertifiedRun& run,
+                     Certificate& certificate) {
+  const DeclaredModel base_and_tool{.registration = true, .tool = model.declared.tool};
+  const CorrectedRobot after =
+      run.refit_base ? refitted(data, {.registration = true, .tool = true}, model.robot) : model.robot;
+  const CorrectedRobot before = refitted(data, base_and_tool, nominal_robot(data));
+  const std::vector<AttainedPose> poses = attained_poses(data, rows, after);
+  if (poses.empty()) throw InputError({data.file, 0}, "", "holds neither positions nor lengths: nothing can be judged");
+  certificate.before = errors_of(before, data, rows);
+  certificate.after = errors_of(after, data, rows);
+  certificate.before_words =
+      base_and_tool.tool ? "as its maker describes it, base and tool fitted" : "as its maker describes it, base fitted";
+  certificate.characteristics = characteristics(data, poses, after);
   if (!run.fields.instrument_uncertainty_m) certificate.missing.emplace_back("Uncertainty of the instrument");
   const double instrument_m = run.fields.instrument_uncertainty_m.value_or(0.0) / kCoverageFactor;
   certificate.judgement = judge(accuracies(poses), run.tolerance_m, instrument_m, mean_noise_m(model, poses));
@@ -226,6 +281,54 @@ Certificate make_certificate(const CalibratedModel& model, const DataSet& data, 
   certificate.poses = certified_poses(model, data, rows, {before, after}, run.tolerance_m);
   certificate.uncertainty = uncertainty_of(model, data, rows, run.fields.instrument_uncertainty_m);
   certificate.view = view_of(data, poses, after);
+}
+
+/// Fills in what lengths between touched points tell.
+void judge_lengths(const CalibratedModel& model, const DataSet& data, const Rows& rows, const CertifiedRun& run,
+                   Certificate& certificate) {
+  if (run.refit_base)
+    throw InputError({data.file, 0}, "contact",
+                     "poses that only touch something do not tell where the base stands: leave --refit-base out");
+  const CorrectedRobot described = model.declared.tool
+                                       ? refitted(data, {.registration = false, .tool = true}, nominal_robot(data))
+                                       : nominal_robot(data);
+  const std::vector<TouchedLength> before = touched_lengths(data, rows, described),
+                                   after = touched_lengths(data, rows, model.robot);
+  if (after.empty()) {
+    throw InputError({data.file, 0}, "contact",
+                     "the " + certificate.judged_set +
+                         " poses touch no two points whose distance is known: without an instrument only such lengths "
+                         "can be judged (contacts.distances in DATASET.yaml)");
+  }
+  certificate.words = kJudgedLengths;
+  certificate.before = errors_of(before);
+  certificate.after = errors_of(after);
+  certificate.before_words =
+      model.declared.tool ? "as its maker describes it, tool fitted" : "as its maker describes it";
+  certificate.characteristics = characteristics(data, {}, model.robot);
+  const auto distance = std::ranges::find(certificate.characteristics, "AD", &Characteristic::symbol);
+  distance->value_mm = certificate.after.max_mm;
+  distance->basis = fmt::format("{} times both ends of a known length touched; rms {:.3f} mm", after.size(),
+                                certificate.after.rms_mm.value_or(0.0));
+  // Two touches scatter along the length.
+  const double noise_m = model.interval ? std::sqrt(2.0) * model.interval->noise_m : 0.0;
+  certificate.judgement = judge(errors_in_m(after), run.tolerance_m, sigma_m(after), noise_m);
+  certificate.poses_to_decide = poses_to_decide(errors_in_m(after), certificate.judgement);
+  certificate.poses = certified_poses(data, before, after, run.tolerance_m);
+  certificate.view = view_of(data, after, model.robot);
+}
+
+}  // namespace
+
+Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run) {
+  const Rows rows = judged_poses(data);
+  if (rows.empty()) throw InputError({data.file, 0}, "", "holds no pose to judge");
+  Certificate certificate = stated(model, data, rows, run);
+  if (touch_alone(data, rows)) {
+    judge_lengths(model, data, rows, run, certificate);
+  } else {
+    judge_positions(model, data, rows, run, certificate);
+  }
   add_remarks(model, data, run, certificate);
   return certificate;
 }

@@ -44,8 +44,14 @@ struct CertifiedPose {
 /// What the picture shows, in the frame of the measurements, m.
 struct CertifiedView {
   std::vector<Eigen::Vector3d> arm{};                          ///< joint by joint to the tool, at one of the poses
-  std::vector<std::pair<Eigen::Vector3d, double>> points_m{};  ///< measured, with the error there
+  std::vector<std::pair<Eigen::Vector3d, double>> points_m{};  ///< judged, with the error there
 };
+
+/// What is judged, as the certificate names it: positions that an instrument saw, unless poses only touch something.
+struct JudgedWords {
+  std::string quantity = "position error", poses = "poses", of_one = "AP";
+};
+inline const JudgedWords kJudgedLengths{"error of lengths between touched points", "pairs of poses", "length error"};
 
 struct Certificate {
   CertificateFields fields;
@@ -57,10 +63,11 @@ struct Certificate {
   bool date_is_of_run = false;         ///< nobody stated when was measured
   std::string judged_set;              ///< "accept", "validation", "calibration"
   std::size_t judged_rows = 0;
+  JudgedWords words{};
   std::vector<Condition> conditions;
-  SetErrors before, after;  ///< over the judged rows
-  std::string before_words;
-  std::vector<Characteristic> characteristics;
+  SetErrors before{}, after{};  ///< over the judged rows
+  std::string before_words{};
+  std::vector<Characteristic> characteristics{};
   Judgement judgement{};
   std::optional<std::size_t> poses_to_decide{};  ///< in all, where it is undecided and a number of them would
   std::vector<CertifiedPose> poses{};            ///< the largest error first
@@ -76,7 +83,8 @@ std::vector<std::size_t> judged_poses(const DataSet& data);
 /// too few others. Throws InputError where they cannot be fitted.
 CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot);
 
-/// Throws InputError where the data hold no pose with an error to judge.
+/// Judges the positions that were measured or, where the judged poses only touch something, the known lengths between
+/// what they touch. Throws InputError where the data hold no pose with an error to judge.
 Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run);
 
 /// "proved within 0.2 mm ..." in one sentence for whoever reads only one.

@@ -42,9 +42,9 @@ void fields(auto& visit, Like<Judgement> auto& judged) {
 void fields(auto& visit, Like<Certificate> auto& certificate) {
   visit("robot", certificate.robot, "data", certificate.data_name, "data_sha256", certificate.data_sha256,
         "model_sha256", certificate.model_sha256, "version", certificate.version, "measured_on",
-        certificate.measured_on, "issued_on", certificate.issued_on, "judged_set", certificate.judged_set, "judgement",
-        certificate.judgement, "poses_to_decide", certificate.poses_to_decide, "sentence",
-        verdict_sentence(certificate), "remedy", remedy_sentence(certificate));
+        certificate.measured_on, "issued_on", certificate.issued_on, "judged_set", certificate.judged_set, "judged",
+        certificate.words.quantity, "judgement", certificate.judgement, "poses_to_decide", certificate.poses_to_decide,
+        "sentence", verdict_sentence(certificate), "remedy", remedy_sentence(certificate));
   visit.within("error_mm", [&](auto& error) { error("before", certificate.before, "after", certificate.after); });
   visit("characteristics", certificate.characteristics, "uncertainty", certificate.uncertainty, "conditions",
         certificate.conditions, "poses", certificate.poses, "missing", certificate.missing, "remarks",
@@ -55,8 +55,9 @@ std::string verdict_sentence(const Certificate& certificate) {
   const Judgement& judged = certificate.judgement;
   const double tolerance_mm = millimetres(judged.tolerance_m);
   const std::string claim =
-      fmt::format("the position error is at most {:g} mm at {:.0f} % of poses like the {} {} poses judged here",
-                  tolerance_mm, 100.0 * kAcceptedShare, judged.poses, certificate.judged_set);
+      fmt::format("the {} is at most {:g} mm at {:.0f} % of {} like the {} {} {} judged here",
+                  certificate.words.quantity, tolerance_mm, 100.0 * kAcceptedShare, certificate.words.poses,
+                  judged.poses, certificate.judged_set, certificate.words.poses);
   switch (judged.verdict) {
     case Conformity::conformity:
       return fmt::format("Conformity proved: {}, at a confidence of {:.1f} %.", claim, 100.0 * kConfidence);
@@ -73,14 +74,17 @@ std::string remedy_sentence(const Certificate& certificate) {
   const Judgement& judged = certificate.judgement;
   if (judged.verdict != Conformity::undecided) return {};
   if (judged.guard_below_m >= judged.tolerance_m)
-    return "The instrument's uncertainty alone is as large as the tolerance: another instrument is needed.";
+    return certificate.words.of_one == kJudgedLengths.of_one
+               ? "The uncertainty of the known lengths alone is as large as the tolerance: a better known length is "
+                 "needed."
+               : "The instrument's uncertainty alone is as large as the tolerance: another instrument is needed.";
   if (certificate.poses_to_decide) {
     return fmt::format(
-        "{} poses in all, {} more of the same kind, would decide if the share of poses beyond the limit "
-        "stays as it is.",
-        *certificate.poses_to_decide, *certificate.poses_to_decide - judged.poses);
+        "{0} {1} in all, {2} more of the same kind, would decide if the share of {1} beyond the limit stays as it is.",
+        *certificate.poses_to_decide, certificate.words.poses, *certificate.poses_to_decide - judged.poses);
   }
-  return "The error is so close to the tolerance that no practical number of poses would decide.";
+  return "The error is so close to the tolerance that no practical number of " + certificate.words.poses +
+         " would decide.";
 }
 
 std::string to_json(const Certificate& certificate) {

@@ -121,7 +121,7 @@ class DccWriter : private DccResults {
   }
 
   void measurement_result() {
-    named("dcc:name", "position accuracy of the calibrated robot");
+    named("dcc:name", "accuracy of the calibrated robot: " + certificate_.words.quantity);
     xml_.element("dcc:usedMethods", [&] {
       xml_.element("dcc:usedMethod", [&] {
         named("dcc:name", "performance criteria of manipulating industrial robots");

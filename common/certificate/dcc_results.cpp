@@ -75,9 +75,10 @@ void DccResults::errors(const SetErrors& errors) {
 
 void DccResults::results() {
   const std::string set = fmt::format("{} {} measurements", certificate_.judged_rows, certificate_.judged_set);
-  result("position error before calibration: " + certificate_.before_words + ", " + set,
+  const std::string& judged = certificate_.words.quantity;
+  result(judged + " before calibration: " + certificate_.before_words + ", " + set,
          [&] { errors(certificate_.before); });
-  result("position error after calibration, " + set, [&] { errors(certificate_.after); });
+  result(judged + " after calibration, " + set, [&] { errors(certificate_.after); });
   result("criteria of ISO 9283", [&] {
     for (const Characteristic& one : certificate_.characteristics) {
       quantity(fmt::format("{}: {} ({})", one.symbol, one.title, one.clause), one.value_mm, "mm",
@@ -86,7 +87,7 @@ void DccResults::results() {
   });
   result("conformity with the tolerance", [&] { judgement(); });
   if (certificate_.uncertainty) result("uncertainty of a corrected position", [&] { uncertainty(); });
-  result("judged poses", [&] { xml_.element("dcc:list", [&] { poses(); }); });
+  result("judged " + certificate_.words.poses, [&] { xml_.element("dcc:list", [&] { poses(); }); });
 }
 
 void DccResults::judgement() {
@@ -95,11 +96,12 @@ void DccResults::judgement() {
     return value_m ? std::optional(millimetres(*value_m)) : std::nullopt;
   };
   quantity("tolerance", millimetres(judged.tolerance_m), "mm");
-  quantity("error that 95 % of the judged poses keep within", millimetres(judged.error_m), "mm");
-  quantity("upper limit of the same of all poses like these, 97.5 % confidence", in_mm(judged.upper_m), "mm",
-           "too few poses");
-  quantity("lower limit of the same of all poses like these, 97.5 % confidence", in_mm(judged.lower_m), "mm",
-           "too few poses");
+  quantity("error that 95 % of the judged " + certificate_.words.poses + " keep within", millimetres(judged.error_m),
+           "mm");
+  quantity("upper limit of the same of all " + certificate_.words.poses + " like these, 97.5 % confidence",
+           in_mm(judged.upper_m), "mm", "too few poses");
+  quantity("lower limit of the same of all " + certificate_.words.poses + " like these, 97.5 % confidence",
+           in_mm(judged.lower_m), "mm", "too few poses");
   quantity("guard band below the tolerance", millimetres(judged.guard_below_m), "mm");
   quantity("guard band above the tolerance", millimetres(judged.guard_above_m), "mm");
 }
@@ -143,9 +145,10 @@ void DccResults::poses() {
     named("dcc:name", "poses");
     xml_.leaf("dcc:charsXMLList", names);
   });
-  list_quantity("pose accuracy AP before calibration", &CertifiedPose::before_mm, false);
-  list_quantity("pose accuracy AP after calibration, with the radius that holds 95 % of errors there",
-                &CertifiedPose::after_mm, true);
+  const std::string one = certificate_.words.of_one == "AP" ? "pose accuracy AP" : certificate_.words.of_one;
+  list_quantity(one + " before calibration", &CertifiedPose::before_mm, false);
+  list_quantity(one + " after calibration, with the radius that holds 95 % of errors there", &CertifiedPose::after_mm,
+                true);
 }
 
 }  // namespace demecal::inline certificate

@@ -79,16 +79,19 @@ std::string verdict(const Certificate& certificate) {
     return value_m ? fmt::format("{:.3f} mm", millimetres(*value_m)) : std::string("none with so few poses");
   };
   std::string rows = fact("Tolerance", fmt::format("{:g} mm", millimetres(judged.tolerance_m)));
-  rows += fact(fmt::format("Error that {:.0f} % of the judged poses keep within", 100.0 * kAcceptedShare),
-               fmt::format("{:.3f} mm", millimetres(judged.error_m)));
-  rows += fact(fmt::format("The same of all poses like these, at most ({:.1f} % confidence)", 100.0 * kConfidence),
+  rows += fact(
+      fmt::format("Error that {:.0f} % of the judged {} keep within", 100.0 * kAcceptedShare, certificate.words.poses),
+      fmt::format("{:.3f} mm", millimetres(judged.error_m)));
+  rows += fact(fmt::format("The same of all {} like these, at most ({:.1f} % confidence)", certificate.words.poses,
+                           100.0 * kConfidence),
                limit(judged.upper_m));
   rows += fact(fmt::format("and at least ({:.1f} % confidence)", 100.0 * kConfidence), limit(judged.lower_m));
   rows +=
       fact("Guard band below the tolerance, above it (k = 2)",
            fmt::format("{:.3f} mm, {:.3f} mm", millimetres(judged.guard_below_m), millimetres(judged.guard_above_m)));
-  rows += fact("Poses judged, beyond the tolerance",
-               fmt::format("{} {} poses, {}", judged.poses, certificate.judged_set, judged.beyond));
+  rows +=
+      fact("Judged, of these beyond the tolerance",
+           fmt::format("{} {} {}, {}", judged.poses, certificate.judged_set, certificate.words.poses, judged.beyond));
   return "<div class=\"verdict\" id=\"verdict\"><b>" + escaped(to_string(judged.verdict)) + "</b><p>" +
          escaped(verdict_sentence(certificate)) + "</p>" + (remedy.empty() ? "" : "<p>" + escaped(remedy) + "</p>") +
          "</div>\n<table class=\"facts\">\n" + rows +
@@ -107,9 +110,9 @@ std::string results(const Certificate& certificate) {
     return "<tr><th scope=\"row\">" + escaped(words) + "</th>" + cells + "</tr>\n";
   };
   return fmt::format(
-             "<h2>Position error before and after calibration</h2>\n<table id=\"errors\">\n<thead><tr><th>{} {} "
+             "<h2>Before and after calibration: {}</h2>\n<table id=\"errors\">\n<thead><tr><th>{} {} "
              "measurements, mm</th>",
-             certificate.judged_rows, certificate.judged_set) +
+             certificate.words.quantity, certificate.judged_rows, certificate.judged_set) +
          "<th class=\"number\">mean</th><th class=\"number\">rms</th><th class=\"number\">P95</th>"
          "<th class=\"number\">largest</th></tr></thead>\n<tbody>\n" +
          row("before: " + certificate.before_words, certificate.before) +
@@ -170,16 +173,17 @@ std::string pose_list(const Certificate& certificate) {
                 pose.measurements, mm(pose.before_mm), mm(pose.after_mm), mm(pose.uncertainty_mm),
                 pose.beyond ? "beyond the tolerance" : "");
   }
-  const std::string title = shown < certificate.poses.size()
-                                ? fmt::format("The {} largest errors of {} poses", shown, certificate.poses.size())
-                                : std::string("Judged poses");
+  const std::string title =
+      shown < certificate.poses.size()
+          ? fmt::format("The {} largest errors of {} {}", shown, certificate.poses.size(), certificate.words.poses)
+          : "Judged " + certificate.words.poses;
   return "<h2>" + title +
          "</h2>\n<div class=\"wide\"><table id=\"poses\">\n<thead><tr><th>pose</th>"
-         "<th class=\"number\">measurements</th><th class=\"number\">AP before, mm</th>"
-         "<th class=\"number\">AP after, mm</th><th class=\"number\">95 % of errors within, "
-         "mm</th><th></th></tr></thead>"
-         "\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+         "<th class=\"number\">measurements</th>" +
+         fmt::format("<th class=\"number\">{0} before, mm</th><th class=\"number\">{0} after, mm</th>",
+                     certificate.words.of_one) +
+         "<th class=\"number\">95 % of errors within, mm</th><th></th></tr></thead>\n<tbody>\n" + rows +
+         "</tbody></table></div>\n";
 }
 
 std::string provenance(const Certificate& certificate) {

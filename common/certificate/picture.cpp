@@ -108,7 +108,8 @@ std::string volume_picture(const CertifiedView& view, double tolerance_m) {
   std::string cells;
   for (const Side& side : kSides) cells += "<td>" + side_view(view, side, tolerance_m) + "</td>";
   return "<table class=\"views\"><tr>" + cells +
-         "</tr></table>\n<p class=\"small\">Judged positions and the arm at one of them, in the instrument's frame. "
+         "</tr></table>\n<p class=\"small\">Judged positions and the arm at one of them, in the frame of the "
+         "measurements. "
          "Green: within half the tolerance; orange: within it; red with an edge: beyond it.</p>\n";
 }
 

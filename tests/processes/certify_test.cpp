@@ -66,6 +66,42 @@ TEST(Certify, EndsWellWhateverTheVerdict) {
   EXPECT_TRUE(has(beyond.out, "poses in all")) << beyond.out;
 }
 
+/// The shipped arm without an instrument: a model, and certificates of it by lengths.
+TEST(Certify, JudgesKnownLengthsWhereNothingWasMeasured) {
+  SmallJob job;
+  const std::string configs = DEMECAL_SOURCE_DIR "/configs/";
+  const Ended found = run("demecal", {"calibrate", configs + "jobs/sockets.yaml", "--workers", "in-process", "--quiet",
+                                      "--out", job.path("out")});
+  ASSERT_EQ(found.code, 0) << found.err;
+  const auto certify = [&](const std::string& data, const std::string& tolerance) {
+    return run("demecal", {"certify", job.path("out/model.yaml"), data, "--tolerance", tolerance, "--out",
+                           job.path("signed"), "--json"});
+  };
+  const std::string shipped = configs + "data/puma761-sockets/dataset.yaml";
+  const Ended kept = certify(shipped, "2"), missed = certify(shipped, "0.01");
+  ASSERT_EQ(kept.code, 0) << kept.err;
+  const Json said = Json::parse(kept.out);
+  EXPECT_EQ(said["judged"], "error of lengths between touched points");
+  EXPECT_EQ(said["judgement"]["verdict"], "conformity proved");
+  EXPECT_EQ(said["judgement"]["poses"], 12);  // 24 accept poses, each an end of one length
+  EXPECT_LT(said["error_mm"]["after"]["rms"], said["error_mm"]["before"]["rms"]);
+  EXPECT_EQ(Json::parse(missed.out)["judgement"]["verdict"], "non-conformity proved");
+  const std::string page = job.text("signed/certificate.html");
+  EXPECT_TRUE(has(page, "error of lengths between touched points"));
+  EXPECT_FALSE(has(page, "position error"));
+
+  std::string no_length = read(shipped);
+  no_length.erase(no_length.find("    - {between: [unseen-0"),
+                  no_length.find("frame:") - no_length.find("    - {between: [unseen-0"));
+  for (const char* const name : {"poses.csv", "robot.yaml"})
+    std::filesystem::copy_file(configs + "data/puma761-sockets/" + name, job.path(name),
+                               std::filesystem::copy_options::overwrite_existing);
+  std::ofstream(job.path("no-length.yaml")) << no_length;
+  const Ended refused = certify(job.path("no-length.yaml"), "2");
+  EXPECT_EQ(refused.code, 11);
+  EXPECT_TRUE(has(refused.err, "contacts.distances")) << refused.err;
+}
+
 TEST(Certify, HasTheFiguresOfTheReport) {
   Certified robot;
   ASSERT_EQ(robot.certify("0.5").code, 0);

@@ -23,7 +23,7 @@ namespace {
 // What the random streams of a case are for; 1 to 53 are those of other benchmarks and of the simulation.
 constexpr std::uint64_t kLinks = 61, kPlaces = 62, kExchanged = 63, kInjected = 64;
 
-constexpr double kPlay_m = 5e-5, kLength_m = 0.05, kLengthSigma_m = 2e-5;
+constexpr double kPlay_m = 5e-5, kLengthSigma_m = 2e-5;
 constexpr std::array<int, 3> kPoses{60, 20, 20};
 constexpr double kOfLimit = 2.0;
 constexpr std::array<const char*, 5> kKinds{"backlash", "compliance", "gear_harmonic", "coupling", "eccentricity"};
@@ -126,13 +126,13 @@ void inject_and_diagnose(int number, const SocketArm& arm, std::uint64_t seed, c
   const std::vector<ArmState> states = states_of(clean_data, PoseSet::calibration);
   RandomStream random{seed, kInjected};
   const std::string kind = kKinds[static_cast<std::size_t>(number + number / 20) % kKinds.size()];
-  const std::optional<Effect> truth = draw_truth(
-      kind, testable, arm.robot, states,
-      [](const NotFound& measure, const Effect& effect) {
-        const bool told = effect.form == measure.effect.form;
-        return told ? measure.smallest_detectable : std::numeric_limits<double>::infinity();
-      },
-      random, {kOfLimit, kOfLimit});
+  const std::optional<Effect> truth =
+      draw_truth(kind, testable, arm.robot, states,
+                 [](const NotFound& measure, const Effect& effect) {
+                   const bool told = effect.form == measure.effect.form;
+                   return told ? measure.smallest_detectable : std::numeric_limits<double>::infinity();
+                 },
+                 random, {kOfLimit, kOfLimit});
   if (!truth) return;
   figures.injected = kind;
   Scenario scenario = scene_of(arm, seed, true);
@@ -146,13 +146,13 @@ void inject_and_diagnose(int number, const SocketArm& arm, std::uint64_t seed, c
 
 }  // namespace
 
-SocketArm socket_arm(const Robot& robot) {
+SocketArm socket_arm(const Robot& robot, double length_m) {
   PlanRequest request;
   request.robot = robot;
   request.poses = kPoses[0];
   request.places = 2;
   request.cell = assumed_cell_of_sockets(robot);
-  request.cell->sockets.length_m = kLength_m;
+  request.cell->sockets.length_m = length_m;
   request.cell->sockets.length_sigma_m = kLengthSigma_m;
   Plan plan = make_plan(request);
   return {robot, std::move(plan.sockets), std::move(plan.lengths)};
@@ -178,10 +178,10 @@ ContactFigures run_contact_case(int number, const std::vector<SocketArm>& arms) 
     if (const auto predicted = workspace_entry(model, false)) figures.predicted_mm = predicted->rms_mm.value_or(0.0);
     figures.places = static_cast<int>(visits.size());
     for (std::size_t i = 0; i < visits.size(); ++i)
-      figures.within += touched_m[i] <= real_radius95_m(*model.interval, *model.posterior, model.robot,
-                                                        stop_of(visits[i], scenario))
-                            ? 1
-                            : 0;
+      figures.within +=
+          touched_m[i] <= real_radius95_m(*model.interval, *model.posterior, model.robot, stop_of(visits[i], scenario))
+              ? 1
+              : 0;
     inject_and_diagnose(number, arm, seed, data, touched.result.loop, figures);
   } catch (const InputError&) {
     figures.failed = true;
