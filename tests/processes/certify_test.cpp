@@ -78,19 +78,20 @@ TEST(Certify, JudgesKnownLengthsWhereNothingWasMeasured) {
                            job.path("signed"), "--json"});
   };
   const std::string shipped = configs + "data/puma761-sockets/dataset.yaml";
-  const Ended kept = certify(shipped, "2"), missed = certify(shipped, "0.01");
+  const Ended kept = certify(shipped, "2"), finer = certify(shipped, "0.01");
   ASSERT_EQ(kept.code, 0) << kept.err;
   const Json said = Json::parse(kept.out);
   EXPECT_EQ(said["judged"], "error of lengths between touched points");
   EXPECT_EQ(said["judgement"]["verdict"], "conformity proved");
   EXPECT_EQ(said["judgement"]["poses"], 12);  // 24 accept poses, each an end of one length
   EXPECT_LT(said["error_mm"]["after"]["rms"], said["error_mm"]["before"]["rms"]);
-  EXPECT_EQ(Json::parse(missed.out)["judgement"]["verdict"], "non-conformity proved");
+  EXPECT_EQ(Json::parse(finer.out)["judgement"]["verdict"], "undecided") << "lengths are known to 0.02 mm";
+  EXPECT_TRUE(has(Json::parse(finer.out)["remedy"], "a better known length is needed"));
   const std::string page = job.text("signed/certificate.html");
   EXPECT_TRUE(has(page, "error of lengths between touched points"));
   EXPECT_FALSE(has(page, "position error"));
 
-  std::string no_length = read(shipped);
+  std::string no_length = job.text(shipped);
   no_length.erase(no_length.find("    - {between: [unseen-0"),
                   no_length.find("frame:") - no_length.find("    - {between: [unseen-0"));
   for (const char* const name : {"poses.csv", "robot.yaml"})
