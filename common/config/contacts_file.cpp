@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kKinds = "kinds";
 constexpr const char* kRadii = "radii_mm";
+constexpr const char* kFlatness = "flatness_mm";
 constexpr const char* kDistances = "distances";
 constexpr const char* kParallel = "parallel";
 constexpr const char* kSquare = "square";
@@ -40,7 +41,7 @@ class ContactsReader {
   explicit ContactsReader(DataSet& data) : data_(data), names_(contact_names(data)) {}
 
   void read(const YamlNode& node) {
-    node.with_keys({kKinds, kRadii, kDistances, kParallel, kSquare});
+    node.with_keys({kKinds, kRadii, kFlatness, kDistances, kParallel, kSquare});
     for (const YamlNode& kind : named_values(node.find(kKinds))) {
       require_contact(kind, kind.name);
       if (data_.contacts.forms.contains(kind.name))
@@ -52,6 +53,12 @@ class ContactsReader {
       if (data_.contacts.form_of(radius.name).kind != ContactKind::sphere)
         radius.fail(radius.name, "is no sphere: only spheres have a radius");
       data_.contacts.forms[radius.name].radius_m = metres(radius.positive());
+    }
+    for (const YamlNode& flatness : named_values(node.find(kFlatness))) {
+      require_contact(flatness, flatness.name);
+      if (data_.contacts.form_of(flatness.name).kind != ContactKind::plane)
+        flatness.fail(flatness.name, "is no plane: only planes have a flatness");
+      data_.contacts.forms[flatness.name].flatness_m = metres(flatness.positive());
     }
     if (const YamlNode* distances = node.find(kDistances))
       for (const YamlNode& one : distances->list()) read_distance(one);
@@ -150,19 +157,23 @@ void read_contacts(const YamlNode* node, const ColumnMap& columns, DataSet& data
   ContactsReader(data).read(*node);
   for (auto* poses : {&data.poses, &data.excluded})
     for (MeasuredPose& pose : *poses) pose.contact_kind = data.contacts.form_of(pose.contact).kind;
+  weigh_by_flatness(data);
 }
 
 std::string contacts_text(const Contacts& contacts) {
-  std::string kinds, radii;
+  std::string kinds, radii, flatness;
   for (const auto& [name, form] : contacts.forms) {
     if (form.radius_m == 0.0) continue;  // a wire's end, which its column says
     kinds += "    " + yaml_text(name) + ": " + std::string(to_string(form.kind)) + "\n";
     if (form.radius_m)
       radii += "    " + yaml_text(name) + ": " + number_text(*form.radius_m, millimetres, metres) + "\n";
+    if (form.flatness_m > 0.0)
+      flatness += "    " + yaml_text(name) + ": " + number_text(form.flatness_m, millimetres, metres) + "\n";
   }
   std::string text;
   if (!kinds.empty()) text += std::string("  ") + kKinds + ":\n" + kinds;
   if (!radii.empty()) text += std::string("  ") + kRadii + ":\n" + radii;
+  if (!flatness.empty()) text += std::string("  ") + kFlatness + ":\n" + flatness;
   if (!contacts.distances.empty()) text += std::string("  ") + kDistances + ":\n";
   for (const KnownDistance& one : contacts.distances)
     text += "    - " + pair_text(one.first, one.second) + "mm: " + number_text(one.length_m, millimetres, metres) +

@@ -20,6 +20,7 @@ std::string_view to_string(ContactKind kind);
 struct ContactForm {
   ContactKind kind = ContactKind::point;
   std::optional<double> radius_m;  ///< of a sphere: of the tool point from its centre; nothing: unknown
+  double flatness_m = 0.0;         ///< of a plane: the distance of two planes that its surface lies between (ISO 1101)
 };
 
 /// A length between two contacts (points, or centres of spheres), from a drawing, a gauge or a calibrated bar.

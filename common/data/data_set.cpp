@@ -102,6 +102,18 @@ void weigh_by_stated_uncertainty(DataSet& data) {
   }
 }
 
+void weigh_by_flatness(DataSet& data) {
+  constexpr double kUsualTouch_m = 5e-5;
+  const double touch_m = data.robot.repeatability_m.value_or(kUsualTouch_m);
+  for (auto* poses : {&data.poses, &data.excluded}) {
+    for (MeasuredPose& pose : *poses) {
+      // Anywhere between two planes: a flatness of 1 has a standard deviation of the twelfth's root.
+      const double bumps_m = data.contacts.form_of(pose.contact).flatness_m / std::sqrt(12.0);
+      pose.contact_weight = touch_m / std::hypot(touch_m, bumps_m);
+    }
+  }
+}
+
 bool has_contacts(const DataSet& data) {
   return std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return !pose.contact.empty(); });
 }

@@ -47,8 +47,9 @@ struct MeasuredPose {
   std::string contact{};                          ///< what the tool touches; empty: nothing
   ContactKind contact_kind = ContactKind::point;  ///< that of DataSet::contacts
   double contact_length_m = 0.0;                  ///< of the wire between tool and contact; 0 where it is none
-  std::string station{};                          ///< where it was measured from; empty: the first, or only one
-  std::size_t line = 0;                           ///< where it stands in its file
+  double contact_weight = 1.0;  ///< what differences from it are multiplied by, see weigh_by_flatness()
+  std::string station{};        ///< where it was measured from; empty: the first, or only one
+  std::size_t line = 0;         ///< where it stands in its file
 };
 
 /// Whether positions are given in the robot's base frame or in the instrument's own.
@@ -131,6 +132,10 @@ void take_wires_for_contacts(DataSet& data);
 /// Settles what the stated covariances of positions make of each, against the median over the set. Poses without one
 /// count as usual.
 void weigh_by_stated_uncertainty(DataSet& data);
+
+/// Settles how much less poses on uneven planes count: touches scatter by the robot's repeatability (0.05 mm where it
+/// is not stated) and by the plane's flatness over the root of 12.
+void weigh_by_flatness(DataSet& data);
 
 /// Whether any of the poses touches something; whether any was measured by something with a place of its own, so that
 /// it can be told where the base stands.

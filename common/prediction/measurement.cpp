@@ -105,7 +105,7 @@ Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& p
     const ContactPlace* const place = place_of(robot, pose);
     auto own = result.segment(rows.position, rows.contact);
     own.setZero();
-    if (place != nullptr) own = contact_residual(*place, touch_of(pose, predicted));
+    if (place != nullptr) own = pose.contact_weight * contact_residual(*place, touch_of(pose, predicted));
   }
   if (pose.orientation) {
     result.segment<3>(rows.points()) = rotation_between(predicted.linear(), measured_orientation(robot, pose));
@@ -121,7 +121,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const CorrectedRob
   Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(rows.total(), 6);
   if (pose.position_m) jacobian.topLeftCorner<3, 3>() = pose.position_whitening.value_or(Eigen::Matrix3d::Identity());
   if (const ContactPlace* const place = rows.contact > 0 ? place_of(robot, pose) : nullptr) {
-    jacobian.block(rows.position, 0, rows.contact, 3) = contact_jacobian(*place, predicted.translation());
+    jacobian.block(rows.position, 0, rows.contact, 3) =
+        pose.contact_weight * contact_jacobian(*place, predicted.translation());
   }
   if (pose.orientation) jacobian.block<3, 3>(rows.points(), 3).setIdentity();
   for (int i = 0; i < rows.distances; ++i) {

@@ -37,7 +37,8 @@ Eigen::Matrix3d measured_orientation(const CorrectedRobot& robot, const Measured
 /// How a pose touches its contact, where the robot has its tool.
 Touch touch_of(const CorrectedRobot& robot, const MeasuredPose& pose);
 
-/// Measured minus predicted, rows as above, those of positions multiplied by the pose's whitening; the orientation part
+/// Measured minus predicted, rows as above, those of positions multiplied by the pose's whitening, of contacts by its
+/// weight; the orientation part
 /// is the rotation vector from predicted to measured. A contact that `robot` has no place for says nothing: its rows
 /// are zero.
 Eigen::VectorXd residual(const CorrectedRobot& robot, const DataSet& data, const MeasuredPose& pose);

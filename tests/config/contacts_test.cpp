@@ -50,6 +50,7 @@ TEST_F(ContactFiles, AreReadAndWrittenBack) {
   const DataSet data = load(R"yaml(contacts:
   kinds: {plate: plane, ball: sphere}
   radii_mm: {ball: 12.7}
+  flatness_mm: {plate: 0.2}
   distances: [{between: [a, ball], mm: 50, sigma_mm: 0.05}]
 )yaml");
   EXPECT_EQ(data.poses[0].contact, "a");
@@ -67,6 +68,9 @@ TEST_F(ContactFiles, AreReadAndWrittenBack) {
   EXPECT_EQ(back.poses[3].contact_kind, ContactKind::sphere);
   EXPECT_NEAR(*back.contacts.form_of("ball").radius_m, 0.0127, 1e-15);
   EXPECT_EQ(back.contacts.distances[0].second, "ball");
+  EXPECT_NEAR(back.contacts.form_of("plate").flatness_m, 2e-4, 1e-15);
+  EXPECT_DOUBLE_EQ(back.poses[2].contact_weight, data.poses[2].contact_weight);
+  EXPECT_LT(data.poses[2].contact_weight, data.poses[0].contact_weight);
 }
 
 TEST_F(ContactFiles, ThatNoPoseTouchesAreRefused) {
@@ -77,6 +81,8 @@ TEST_F(ContactFiles, ThatNoPoseTouchesAreRefused) {
 
 TEST_F(ContactFiles, HaveOnlyWhatTheirKindHas) {
   EXPECT_THAT(complaint([&] { load("contacts: {radii_mm: {a: 5}}\n"); }), HasSubstr("only spheres have a radius"));
+  EXPECT_THAT(complaint([&] { load("contacts: {flatness_mm: {a: 0.1}}\n"); }),
+              HasSubstr("only planes have a flatness"));
   EXPECT_THAT(complaint([&] {
                 load("contacts: {kinds: {plate: plane}, distances: [{between: [a, plate], mm: 5, sigma_mm: 1}]}\n");
               }),

@@ -149,6 +149,33 @@ TEST(ContactFit, TellsOfPlanesSpheresAndLinesToo) {
   EXPECT_LT(error_figures(fit.robot, arm.data, others).rms_mm, 2e3 * kPlay_m);
 }
 
+/// Sockets that are exact, and a plate of which nothing but its unevenness is said.
+TEST(ContactFit, BelievesAnUnevenPlateLess) {
+  constexpr double kFlatness_m = 3e-3;
+  double told = 0.0, untold = 0.0;
+  for (std::uint64_t seed = 9212; seed < 9216; ++seed) {
+    RandomStream stream{seed};
+    KnownArm arm = touching_arm(stream, kPlay_m, true, 8);
+    for (int i = 0; i < 24; ++i) {
+      const Eigen::Vector3d on_plate(stream.real(0.25, 0.5), stream.real(-0.2, 0.2),
+                                     0.05 + kFlatness_m * stream.real(-0.5, 0.5));
+      touch(arm, stream, "plate", on_plate, 1, kPlay_m);
+    }
+    KnownArm elsewhere{arm.data, arm.truth};
+    elsewhere.data.poses.clear();
+    touch(elsewhere, stream, "unseen", kUnseen, 30, 0.0, PoseSet::accept);
+    for (double* const square : {&untold, &told}) {
+      arm.data.contacts.forms = {{"plate", {ContactKind::plane, {}, square == &told ? kFlatness_m : 0.0}}};
+      for (MeasuredPose& pose : arm.data.poses) pose.contact_kind = arm.data.contacts.form_of(pose.contact).kind;
+      weigh_by_flatness(arm.data);
+      const Fit fit = fit_all(arm, kAll, {.robust = false});
+      ASSERT_EQ(fit.status, FitStatus::converged) << fit.sentence;
+      *square += std::pow(rms_m(fit.robot, elsewhere.data), 2);
+    }
+  }
+  EXPECT_LT(told, 0.5 * untold);
+}
+
 TEST(RelationRows, ChangeWithThePlacesAsTheirDerivativesSay) {
   constexpr double kStep = 1e-6;
   RandomStream stream{9206};
