@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -15,14 +16,18 @@
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
+#include "config/frames_file.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/program.hpp"
+#include "languages/program_source.hpp"
 #include "library/conversion.hpp"
 #include "programs/command_model.hpp"
 #include "programs/correct_program.hpp"
@@ -33,12 +38,15 @@ namespace demecal {
 namespace {
 
 struct ApplyRequest {
-  std::string model_file, program_file, out, language;
+  std::string model_file, program_file, out, language, frames_file;
+  std::vector<std::string> further_files;
   bool json = false, strict = false, force = false;
   double payload_kg = 0.0;
   std::optional<double> temperature_celsius;
   std::vector<double> tool_mm;
-  std::vector<double> near;
+  std::vector<double> near, pulses_per_deg;
+
+  bool several_files() const { return !further_files.empty(); }
 };
 
 CommandModel command_model_of(const CalibratedModel& model, const ApplyRequest& request) {
@@ -66,30 +74,96 @@ JointVector near_joints(const ApplyRequest& request, const Robot& robot) {
   return joints_from_deg_or_mm(arm, request.near);
 }
 
-/// Throws unless `out` may be written: never the program itself, by whatever name; of other files those that this
-/// command wrote, or any with --force.
-void require_writable(const ApplyRequest& request) {
+/// The program's files, read.
+std::vector<ProgramFile> program_files(const ApplyRequest& request) {
+  std::vector<ProgramFile> files{{request.program_file, read_file(request.program_file)}};
+  for (const std::string& file : request.further_files) files.push_back({file, read_file(file)});
+  return files;
+}
+
+/// Where the corrected text of each file goes: --out or, with several files, a file of the same name in that folder.
+/// Throws where two of them would be one.
+std::vector<std::filesystem::path> places_of(const ApplyRequest& request) {
+  if (!request.several_files()) return {request.out};
+  const std::filesystem::path folder = request.out;
+  std::vector<std::filesystem::path> places{folder / std::filesystem::path(request.program_file).filename()};
+  for (const std::string& file : request.further_files) {
+    places.push_back(folder / std::filesystem::path(file).filename());
+    if (std::find(places.begin(), std::prev(places.end()), places.back()) != std::prev(places.end()))
+      throw ArgumentError("--with: " + file + " has the name of another file of the program");
+  }
   std::error_code none;
-  if (std::filesystem::equivalent(request.program_file, request.out, none) || request.program_file == request.out) {
-    throw ArgumentError("--out: " + request.out + " is the program itself, which is never overwritten; name another");
+  if (std::filesystem::exists(folder, none) && !std::filesystem::is_directory(folder, none))
+    throw ArgumentError("--out: " + request.out + " is a file; a program of several files is written into a folder");
+  return places;
+}
+
+/// Throws unless `out` may be written: never a file of the program itself, by whatever name; of other files those that
+/// this command wrote, or any with --force. `original` is what is corrected there.
+void require_writable(const std::filesystem::path& out, const ProgramFile& original,
+                      const std::vector<ProgramFile>& program, bool force) {
+  std::error_code none;
+  for (const ProgramFile& file : program) {
+    if (std::filesystem::equivalent(file.name, out, none) || out == file.name) {
+      throw ArgumentError("--out: " + out.string() +
+                          " is the program itself, which is never overwritten; name another" +
+                          (program.size() > 1 ? " folder" : ""));
+    }
   }
-  if (request.force || !std::filesystem::exists(request.out, none)) return;
-  if (std::filesystem::is_regular_file(request.out, none)) {
-    const std::string there = read_file(request.out);
-    if (marked_line(there) || there == read_file(request.program_file)) return;
+  if (force || !std::filesystem::exists(out, none)) return;
+  if (std::filesystem::is_regular_file(out, none)) {
+    const std::string there = read_file(out);
+    if (marked_line(there) || there == original.text) return;
   }
-  throw ArgumentError("--out: " + request.out +
+  throw ArgumentError("--out: " + out.string() +
                       " is there already, and not a program that demecal corrected; name "
                       "another, or give --force to overwrite it");
 }
 
-/// Throws InputError where the program was corrected before.
-void refuse_corrected(const ApplyRequest& request, const std::string& text) {
-  const std::optional<std::size_t> line = marked_line(text);
-  if (!line) return;
-  throw InputError({request.program_file, *line}, "",
-                   "says that this program was corrected already; correcting it twice makes it worse: start from the "
-                   "original program");
+/// Throws InputError where a file of the program was corrected before.
+void refuse_corrected(const std::vector<ProgramFile>& program) {
+  for (const ProgramFile& file : program) {
+    if (const std::optional<std::size_t> line = marked_line(file.text)) {
+      throw InputError({file.name, *line}, "",
+                       "says that this program was corrected already; correcting it twice makes it worse: start from "
+                       "the original program");
+    }
+  }
+}
+
+/// What the controller keeps, by options and the robot's file.
+ControllerData controller_data(const ApplyRequest& request, const Robot& robot) {
+  ControllerData data;
+  if (!request.frames_file.empty()) data = load_frames(request.frames_file);
+  data.pulses_per_deg = request.pulses_per_deg.empty() ? robot.pulses_per_deg : request.pulses_per_deg;
+  const std::size_t joints = robot.chain.joints.size();
+  if (!data.pulses_per_deg.empty() && data.pulses_per_deg.size() != joints) {
+    throw ArgumentError("--pulses-per-deg: " + std::to_string(data.pulses_per_deg.size()) + " numbers; this arm has " +
+                        std::to_string(joints) + " joints");
+  }
+  if (std::count(data.pulses_per_deg.begin(), data.pulses_per_deg.end(), 0.0) > 0)
+    throw ArgumentError("--pulses-per-deg: must not be zero: it is how many pulses a degree has");
+  return data;
+}
+
+/// A sentence where a file that usually belongs to the program stands beside it and was not given.
+std::optional<Remark> companion_left(const ApplyRequest& request, const Language& language) {
+  if (request.several_files()) return std::nullopt;
+  const std::filesystem::path file = request.program_file;
+  std::string ending = lower_case(file.extension().string());
+  for (const auto& [own, other] : language.companions) {
+    if (ending != '.' + std::string(own)) continue;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             file.has_parent_path() ? file.parent_path() : std::filesystem::path("."), none)) {
+      const std::filesystem::path& beside = entry.path();
+      if (beside.stem() != file.stem() || lower_case(beside.extension().string()) != '.' + std::string(other)) continue;
+      return Remark{kWholeProgram, "",
+                    beside.filename().string() +
+                        " beside it, which usually belongs to the program, was not read; --with takes it in"};
+    }
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> language_names() {
@@ -114,20 +188,35 @@ const Language& language_asked(const ApplyRequest& request, const std::string& t
       "is in no language that can be told; name it with --language (" + listed_languages(&Language::name) + ')');
 }
 
+/// Writes the files of the program, those that changed with a mark.
+void write_corrected(const ProgramSource& source, const CorrectedProgram& corrected, const Language& language,
+                     const std::string& mark, const std::vector<std::filesystem::path>& places) {
+  const std::vector<std::string> texts = corrected_files(source, corrected);
+  if (places.size() > 1) std::filesystem::create_directories(places.front().parent_path());
+  for (std::size_t file = 0; file < places.size(); ++file) {
+    const bool changed = texts[file] != source.files()[file].text;
+    write_file(places[file], changed ? with_mark(texts[file], language, mark) : texts[file]);
+  }
+}
+
 ExitCode run(const ApplyRequest& request) {
-  require_writable(request);
+  const std::vector<std::filesystem::path> places = places_of(request);
+  const ProgramSource source(program_files(request));
+  for (std::size_t file = 0; file < places.size(); ++file)
+    require_writable(places[file], source.files()[file], source.files(), request.force);
   const CalibratedModel calibrated = load_model(request.model_file);
   say_if_fleet(calibrated, request.model_file);
   const CommandModel model = command_model_of(calibrated, request);
-  const std::string text = read_file(request.program_file);
-  refuse_corrected(request, text);
-  const Language& language = language_asked(request, text);
-  Program program = read_program(language, text, request.program_file, model.nominal.chain);
-  CorrectedProgram corrected = correct_program(text, std::move(program), model,
+  refuse_corrected(source.files());
+  const Language& language = language_asked(request, source.files().front().text);
+  Program program = read_program(language, source, model.nominal.chain, controller_data(request, model.nominal));
+  CorrectedProgram corrected = correct_program(source.text(), std::move(program), model,
                                                {.payload_kg = request.payload_kg,
                                                 .temperature_celsius = request.temperature_celsius,
                                                 .near = near_joints(request, model.nominal),
                                                 .tool_given = !request.tool_mm.empty()});
+  if (const std::optional<Remark> left = companion_left(request, language))
+    corrected.warnings.insert(corrected.warnings.begin(), *left);
   for (const Remark& warning : corrected.warnings) fmt::print(stderr, "{}", warning_text(corrected, warning));
   const std::size_t warnings = corrected.warnings.size();
   if (request.strict && warnings > 0) {
@@ -135,9 +224,8 @@ ExitCode run(const ApplyRequest& request) {
                warnings, warnings == 1 ? "" : "s");
     return ExitCode::bad_input;
   }
-  const std::string mark = correction_mark(calibrated.version, calibrated.job, calibrated.data_sha256);
-  const bool changed = corrected.text != text;
-  write_file(request.out, changed ? with_mark(corrected.text, language, mark) : corrected.text);
+  write_corrected(source, corrected, language,
+                  correction_mark(calibrated.version, calibrated.job, calibrated.data_sha256), places);
   fmt::print("{}", request.json ? summary_json(corrected, model.nominal.chain)
                                 : summary_table(corrected, model.nominal.chain));
   return ExitCode::done;
@@ -154,7 +242,19 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
                    "in one of " + listed_languages(&Language::title) +
                        "; poses are of the tool point in the base frame where the program states no other")
       ->required();
-  command->add_option("--out", request->out, "the corrected program")->required();
+  command->add_option("--out", request->out, "the corrected program; a folder for the files of one with --with")
+      ->required();
+  command
+      ->add_option("--with", request->further_files,
+                   "FILE that belongs to the program, too, such as one with its points or tools; once for each")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--frames", request->frames_file,
+      "FRAMES.yaml: user frames and tools that the controller keeps, where the program only names them");
+  command
+      ->add_option("--pulses-per-deg", request->pulses_per_deg,
+                   "P1,P2,... of each joint, for positions in pulses; without it those of the robot's file")
+      ->delimiter(',');
   command->add_option("--language", request->language, "where the file's ending and words do not say it")
       ->check(CLI::IsMember(language_names(), CLI::ignore_case));
   command->add_flag("--strict", request->strict, "write nothing where there is a warning (exit code 11)");

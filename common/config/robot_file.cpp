@@ -56,6 +56,16 @@ JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
   return joints_from_deg_or_mm(chain, values);
 }
 
+std::vector<double> read_pulses(const YamlNode& node, const Chain& chain) {
+  const std::vector<double> values = node.numbers();
+  if (std::ssize(values) != chain.size())
+    node.fail(std::to_string(values.size()) + " numbers", "the robot has " + std::to_string(chain.size()) + " joints");
+  for (const double value : values) {
+    if (value == 0.0) node.fail("0", "must not be zero: it is how many pulses a degree has");
+  }
+  return values;
+}
+
 /// The arm of a robot that was read as rows, or made without a file.
 DrawnArm drawing_of(const Robot& robot) {
   if (robot.drawing) return *robot.drawing;
@@ -113,7 +123,7 @@ MatrixText read_matrix(const YamlNode& node) {
 
 Robot read_robot(const YamlNode& node) {
   node.with_keys({"demecal_robot", "name", "convention", "base", "joints", "flange", "couplings", "tool_mm", "links",
-                  "gravity_mps2", "urdf", "repeatability_mm", "home_deg"});
+                  "gravity_mps2", "urdf", "repeatability_mm", "home_deg", "pulses_per_deg"});
   Robot robot;
   robot.name = node.at("name").text();
   DrawnArm drawing = read_drawing(node);
@@ -130,6 +140,7 @@ Robot read_robot(const YamlNode& node) {
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
   if (const YamlNode* urdf = node.find("urdf")) robot.urdf = read_urdf_source(*urdf);
   if (const YamlNode* home = node.find("home_deg")) robot.home = read_declared_home(*home, robot.chain);
+  if (const YamlNode* pulses = node.find("pulses_per_deg")) robot.pulses_per_deg = read_pulses(*pulses, robot.chain);
   return robot;
 }
 
@@ -161,6 +172,7 @@ std::string robot_text(const Robot& robot, int indent) {
          << ", tip: " << yaml_text(robot.urdf->tip) << "}\n";
   }
   if (robot.home.size() > 0) text << margin << "home_deg: " << home_text(robot) << '\n';
+  if (!robot.pulses_per_deg.empty()) text << margin << "pulses_per_deg: " << yaml_numbers(robot.pulses_per_deg) << '\n';
   return text.str();
 }
 

@@ -75,9 +75,10 @@ struct Robot {
   std::vector<LinkMass> masses;  ///< empty where unknown
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};
   std::optional<double> repeatability_m;
-  JointVector home{};                 ///< rad, m: where programs start that do not say it; empty: not declared
-  std::optional<DrawnArm> drawing{};  ///< where the file says more of the arm than rows; `chain` is made from it
-  std::optional<UrdfSource> urdf{};   ///< the file that `drawing` was made from
+  JointVector home{};                    ///< rad, m: where programs start that do not say it; empty: not declared
+  std::vector<double> pulses_per_deg{};  ///< of each joint's motor (per mm where it slides); empty: not declared
+  std::optional<DrawnArm> drawing{};     ///< where the file says more of the arm than rows; `chain` is made from it
+  std::optional<UrdfSource> urdf{};      ///< the file that `drawing` was made from
 };
 
 /// A further place that instruments measured from. Its poses are given in the first station's frame, as near as base

@@ -18,6 +18,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
@@ -49,9 +50,7 @@ using ProgramColumns = std::vector<Column>;
 
 class CsvTargets {
  public:
-  CsvTargets(std::string_view text, const std::string& file, const Chain& arm) : text_(text, file, {}), arm_(arm) {
-    program_.file = file;
-  }
+  explicit CsvTargets(const ReaderInput& input) : text_(input.source, {}), arm_(input.arm) {}
 
   Program read() {
     const std::string_view bytes = text_.text();
@@ -64,7 +63,7 @@ class CsvTargets {
       if (line.empty() || line.front() == '#') continue;
       names_.empty() ? read_header(begin, end) : read_row(begin, end);
     }
-    if (names_.empty()) throw InputError({program_.file, 0}, "", "is empty; a header row is expected");
+    if (names_.empty()) throw InputError({text_.source().file(), 0}, "", "is empty; a header row is expected");
     return std::move(program_);
   }
 
@@ -157,7 +156,7 @@ class CsvTargets {
     for (std::size_t i = 0; i < arm_.joints.size(); ++i) signs.push_back("s" + std::to_string(i + 1));
     approach_ = all_of(signs, kNoUnit);
     if (!joints_.empty() || !position_.empty()) return;
-    throw InputError({program_.file, text_.place(header_).line}, "",
+    throw InputError({text_.source().file(), text_.place(header_).line}, "",
                      "the header has neither a column for every joint of the arm (q1_deg, q2_deg, ...) nor x_mm, y_mm, "
                      "z_mm; the unit stands in a column's name");
   }
@@ -244,8 +243,7 @@ Language csv_language() {
           .file_endings = {"csv"},
           .signs = {"q1_", "x_mm"},
           .comment = "#",
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return CsvTargets(text, file, arm).read(); },
+          .read = [](const ReaderInput& input) { return CsvTargets(input).read(); },
           .write = csv_text};
 }
 

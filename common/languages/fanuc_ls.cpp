@@ -16,6 +16,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/fanuc_ls_motions.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
@@ -39,10 +40,9 @@ using PositionParts = std::map<std::string, PositionPart>;
 
 class FanucReader {
  public:
-  FanucReader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {}), code_(text_.code()), arm_(arm) {
-    require_six_joints(arm, file, "FANUC's TP");
-    program_.file = file;
+  explicit FanucReader(const ReaderInput& input)
+      : text_(input.source, {}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
+    require_six_joints(input.arm, input.source.file(), "FANUC's TP");
   }
 
   Program read() {
@@ -208,11 +208,11 @@ class FanucReader {
   /// UF 0 is the arm's base, UT 0 its flange; others are set in the controller.
   void set_frames(const PositionParts& components, Target& target) const {
     const std::string frame = word_of(components, "uf"), tool = word_of(components, "ut");
-    const auto known = [](const std::string& word, const std::string& number) {
+    const auto known = [&](const std::string& word, const std::string& number) {
       if (number == "0") return KnownFrame{word + " 0", Eigen::Isometry3d::Identity(), ""};
       if (lower_case(number) == "f") return KnownFrame::computed(word);
-      return KnownFrame{word + ' ' + number, Eigen::Isometry3d::Identity(),
-                        word + ' ' + number + " is not given in this file"};
+      const std::string name = word + ' ' + number;
+      return word == "UF" ? controller_.frame(number, name) : controller_.tool(number, name);
     };
     if (!frame.empty()) set_frame(target.frames, known("UF", frame));
     if (!tool.empty()) set_tool(target.frames, known("UT", tool));
@@ -228,6 +228,7 @@ class FanucReader {
   ProgramText text_;
   std::string_view code_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
   FanucMotions motions_;
 };
@@ -268,8 +269,7 @@ Language fanuc_ls_language() {
           .comment_end = " ;",
           .longest_comment = 31,  // a remark has 32 letters at most
           .headers = {"/mn"},
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return FanucReader(text, file, arm).read(); },
+          .read = [](const ReaderInput& input) { return FanucReader(input).read(); },
           .write = fanuc_text};
 }
 

@@ -15,6 +15,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/kawasaki_as_program.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
@@ -40,10 +41,9 @@ AsSection section_of(const std::string& word) {
 
 class AsReader {
  public:
-  AsReader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {.comment = ';'}), code_(text_.code()), arm_(arm) {
-    require_six_joints(arm, file, "Kawasaki's AS");
-    program_.file = file;
+  explicit AsReader(const ReaderInput& input)
+      : text_(input.source, {.comment = ';'}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
+    require_six_joints(input.arm, input.source.file(), "Kawasaki's AS");
   }
 
   Program read() {
@@ -124,6 +124,14 @@ class AsReader {
     program_.targets.push_back(std::move(target));
   }
 
+  /// The tool of this name: a location of the program or, where none has the name, one that the controller keeps.
+  std::optional<Eigen::Isometry3d> tool(const std::string& name) const {
+    const bool here = std::any_of(program_.targets.begin(), program_.targets.end(),
+                                  [&](const Target& target) { return location_key(target.name) == name; });
+    const auto kept = controller_.tools.find(name);
+    return here || kept == controller_.tools.end() ? location(name) : std::optional(kept->second);
+  }
+
   /// The pose of the only location of this name.
   std::optional<Eigen::Isometry3d> location(const std::string& name) const {
     const Target* found = nullptr;
@@ -138,7 +146,7 @@ class AsReader {
 
   /// Gives targets their frames and motions, and takes those out that are no places to go to.
   void finish() {
-    const StatedFrames frames = statements_.frames([&](const std::string& name) { return location(name); });
+    const StatedFrames frames = statements_.frames([&](const std::string& name) { return tool(name); });
     std::vector<Target> targets = std::exchange(program_.targets, {});
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
@@ -164,6 +172,7 @@ class AsReader {
   ProgramText text_;
   std::string_view code_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
   AsSection section_ = AsSection::none;
   AsStatements statements_;
@@ -188,8 +197,8 @@ Language kawasaki_as_language() {
           .signs = {".trans", ".joints"},
           .other_endings = {"pg"},
           .comment = ".*",
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return AsReader(text, file, arm).read(); },
+          .of_several_files = true,
+          .read = [](const ReaderInput& input) { return AsReader(input).read(); },
           .write = as_text};
 }
 

@@ -12,6 +12,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/krl_frames.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
@@ -55,10 +56,9 @@ struct Component {
 
 class KrlReader {
  public:
-  KrlReader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {.comment = ';', .line = '&'}), arm_(arm) {
-    require_six_joints(arm, file, "KRL");
-    program_.file = file;
+  explicit KrlReader(const ReaderInput& input)
+      : text_(input.source, {.comment = ';', .line = '&'}), arm_(input.arm), controller_(input.controller) {
+    require_six_joints(input.arm, input.source.file(), "KRL");
   }
 
   Program read() {
@@ -71,7 +71,7 @@ class KrlReader {
       aggregate(list, context, name, 1);
       at += list.size - 1;
     }
-    const KrlFrames frames(text_);
+    const KrlFrames frames(text_, controller_);
     for (Target& target : program_.targets) frames.complete(target);
     return std::move(program_);
   }
@@ -212,6 +212,7 @@ class KrlReader {
 
   ProgramText text_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
 };
 
@@ -234,8 +235,9 @@ Language krl_language() {
           .signs = {"e6pos", "e6axis", "defdat", "&access", "ptp {", "lin {"},
           .comment = ";",
           .headers = {"def ", "defdat", "deffct", "global def"},
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return KrlReader(text, file, arm).read(); },
+          .of_several_files = true,
+          .companions = {{"src", "dat"}, {"dat", "src"}},
+          .read = [](const ReaderInput& input) { return KrlReader(input).read(); },
           .write = krl_text};
 }
 

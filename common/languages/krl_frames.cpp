@@ -8,8 +8,10 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "data/text.hpp"
 #include "languages/orientation.hpp"
@@ -71,9 +73,33 @@ bool is_line(const std::string& word) {
 
 }  // namespace
 
-KrlFrames::KrlFrames(const ProgramText& text) : text_(text) {
+KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
+  forget_between_files();
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_statement(begin, end); });
+}
+
+/// Lets nothing that another file sets hold in a file before it sets its own.
+void KrlFrames::forget_between_files() {
+  const std::size_t files = text_.source().files().size();
+  std::vector<std::set<std::size_t>> setting(2);  // files that set tools, and bases
+  text_.for_each_word([&](std::size_t begin, std::size_t end) {
+    const std::string word = lower_case(text_.code().substr(begin, end - begin));
+    const bool both = word == "bas" || word == "fdat_act";
+    if (both || word == "$tool") setting[0].insert(text_.source().file_at(begin));
+    if (both || word == "$base") setting[1].insert(text_.source().file_at(begin));
+  });
+  const auto set_elsewhere = [](const std::set<std::size_t>& of, std::size_t file) {
+    return of.size() > of.count(file);
+  };
+  const auto unknown = [](const std::string& what) {
+    return KnownFrame{what, Eigen::Isometry3d::Identity(), what + " is set in another file of the program"};
+  };
+  for (std::size_t file = 0; file < files; ++file) {
+    const std::size_t begin = text_.source().begin(file);
+    if (set_elsewhere(setting[0], file)) settings_.tool_from(begin, unknown("$TOOL"));
+    if (set_elsewhere(setting[1], file)) settings_.frame_from(begin, unknown("$BASE"));
+  }
 }
 
 /// TOOL_DATA[n]={...}, BASE_DATA[n]={...} and FDAT NAME={...}.
@@ -89,16 +115,18 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
     const auto frame = frame_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
     const std::string name = word + '[' + std::to_string(frame_number(number->value)) + ']';
     auto& data = word == "tool_data" ? tool_data_ : base_data_;
-    data[frame_number(number->value)] = frame ? KnownFrame{name, *frame, ""} : KnownFrame::computed(name);
+    declare(data, frame_number(number->value), frame ? KnownFrame{name, *frame, ""} : KnownFrame::computed(name));
   } else if (word == "fdat") {
     const std::string name = text_.word_at(next);
     const std::size_t sign = text_.skip_spaces(next + name.size());
     if (name.empty() || text_.next(sign) != '=' || text_.next(sign + 1) != '{') return;
     const auto parts = parts_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
     const auto held = parts.find("ipo_frame");
-    data_of_[name] = {frame_number(number_of(parts, "tool_no").value_or(0.0)),
-                      frame_number(number_of(parts, "base_no").value_or(0.0)),
-                      held == parts.end() || held->second != "#tcp"};
+    const FrameNumbers numbers{frame_number(number_of(parts, "tool_no").value_or(0.0)),
+                               frame_number(number_of(parts, "base_no").value_or(0.0)),
+                               held == parts.end() || held->second != "#tcp"};
+    const auto [before, fresh] = data_of_.try_emplace(name, numbers);
+    if (!fresh && !(before->second == numbers)) before->second.unknown = name + " is given more than once";
   }
 }
 
@@ -108,7 +136,20 @@ KnownFrame KrlFrames::numbered(bool of_tool, int number) const {
   const auto& data = of_tool ? tool_data_ : base_data_;
   const auto found = data.find(number);
   if (found != data.end()) return found->second;
-  return {name, Eigen::Isometry3d::Identity(), name + " is not given as numbers in this file"};
+  return of_tool ? controller_.tool(std::to_string(number), name) : controller_.frame(std::to_string(number), name);
+}
+
+KnownFrame KrlFrames::tool_of(const FrameNumbers& numbers) const {
+  KnownFrame tool = numbered(true, numbers.tool);
+  if (!numbers.tool_on_robot) tool.unknown = "the tool stands beside the robot";
+  if (!numbers.unknown.empty()) tool.unknown = numbers.unknown;
+  return tool;
+}
+
+KnownFrame KrlFrames::base_of(const FrameNumbers& numbers) const {
+  KnownFrame base = numbered(false, numbers.base);
+  if (!numbers.unknown.empty()) base.unknown = numbers.unknown;
+  return base;
 }
 
 /// What stands behind "$TOOL =" or "$BASE =".
@@ -161,10 +202,8 @@ void KrlFrames::read_bas(std::size_t begin, std::size_t open) {
 }
 
 void KrlFrames::apply_data(std::size_t begin, const FrameNumbers& numbers) {
-  KnownFrame tool = numbered(true, numbers.tool);
-  if (!numbers.tool_on_robot) tool.unknown = "the tool stands beside the robot";
-  settings_.tool_from(begin, tool);
-  settings_.frame_from(begin, numbered(false, numbers.base));
+  settings_.tool_from(begin, tool_of(numbers));
+  settings_.frame_from(begin, base_of(numbers));
 }
 
 void KrlFrames::read_motion(const std::string& word, std::size_t begin, std::size_t next) {
@@ -201,10 +240,8 @@ void KrlFrames::complete(Target& target) const {
   target.frames = settings_.at(begin);
   const auto data = name.starts_with('x') ? data_of_.find('f' + name.substr(1)) : data_of_.end();
   if (data == data_of_.end()) return;
-  KnownFrame tool = numbered(true, data->second.tool);
-  if (!data->second.tool_on_robot) tool.unknown = "the tool stands beside the robot";
-  set_tool(target.frames, tool);
-  set_frame(target.frames, numbered(false, data->second.base));
+  set_tool(target.frames, tool_of(data->second));
+  set_frame(target.frames, base_of(data->second));
 }
 
 }  // namespace demecal::inline languages

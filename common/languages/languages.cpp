@@ -1,8 +1,12 @@
 #include "languages/languages.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "data/text.hpp"
+#include "errors/input_error.hpp"
 
 namespace demecal::inline languages {
 
@@ -85,6 +89,45 @@ std::vector<std::string> parts_of_mark(std::string mark, std::size_t longest) {
   return parts;
 }
 
+/// Throws InputError where one of the files is malformed by itself, whatever the one before it left open.
+void require_each_readable(const Language& language, const ProgramSource& source, const Chain& arm,
+                           const ControllerData& controller) {
+  if (!language.of_several_files) {
+    throw InputError({source.files()[1].name, 0}, "",
+                     "is given as a part of another program; a program in " + std::string(language.title) +
+                         " is one file: correct them one by one");
+  }
+  for (const ProgramFile& file : source.files()) {
+    const ProgramSource alone(file.text, file.name);
+    language.read({alone, arm, controller});
+  }
+}
+
+/// Takes out the targets whose name stands in several files.
+void leave_ambiguous_names(Program& program) {
+  std::map<std::string, std::set<std::size_t>> files;
+  for (const Target& target : program.targets) files[lower_case(target.name)].insert(target.place.file);
+  const auto other_file = [&](const Target& target) -> const std::string* {
+    if (target.name.empty()) return nullptr;
+    for (const std::size_t file : files[lower_case(target.name)]) {
+      if (file != target.place.file) return &program.file_name(file);
+    }
+    return nullptr;
+  };
+  std::vector<Target> kept;
+  for (Target& target : program.targets) {
+    if (const std::string* other = other_file(target)) {
+      skip_target(program, target,
+                  "a target of this name stands in " + *other +
+                      ", too, and which is meant where is "
+                      "not followed");
+    } else {
+      kept.push_back(std::move(target));
+    }
+  }
+  program.targets = std::move(kept);
+}
+
 template <typename Match>
 const Language* first_of(std::span<const Language> among, const Match& match) {
   const auto found = std::find_if(among.begin(), among.end(), match);
@@ -122,10 +165,21 @@ std::string_view written_ending(const Language& language) {
   return language.file_endings.empty() ? language.name : language.file_endings.front();
 }
 
-Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm) {
-  Program program = language.read(text, file, arm);
+Program read_program(const Language& language, const ProgramSource& source, const Chain& arm,
+                     const ControllerData& controller) {
+  const bool several = source.files().size() > 1;
+  if (several) require_each_readable(language, source, arm, controller);
+  Program program = language.read({source, arm, controller});
   program.language = language.name;
+  program.file = source.file();
+  for (std::size_t file = 1; file < source.files().size(); ++file)
+    program.further.push_back({source.files()[file].name, source.begin(file)});
+  if (several) leave_ambiguous_names(program);
   return program;
+}
+
+Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm) {
+  return read_program(language, ProgramSource(text, file), arm);
 }
 
 std::string correction_mark(const std::string& version, const std::string& job, const std::string& data_sha256) {

@@ -6,10 +6,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/program.hpp"
+#include "languages/program_source.hpp"
 #include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
@@ -26,11 +29,15 @@ struct Language {
   std::string_view comment_end{};                 ///< what a comment must end with; empty: the end of its line
   std::size_t longest_comment = 1000;             ///< letters that a comment may have; longer ones take several lines
   std::vector<std::string_view> headers{};  ///< how lines begin, in small letters, that comments must stand behind
-  /// A function of the text alone. Throws InputError with file, line, column, value and rule where a target is
-  /// malformed; what cannot be known it says in Target::frames or Program::uncorrected, and never guesses. `arm` says
+  /// Whether a program may be several files, read as one text.
+  bool of_several_files = false;
+  /// The ending of the file of the same name that usually belongs to a program of this ending: {"src", "dat"}.
+  std::vector<std::pair<std::string_view, std::string_view>> companions{};
+  /// A function of its input alone. Throws InputError with file, line, column, value and rule where a target is
+  /// malformed; what cannot be known it says in Target::frames or Program::uncorrected, and never guesses. The arm says
   /// how many joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing
   /// last line break make no difference.
-  Program (*read)(std::string_view text, const std::string& file, const Chain& arm) = nullptr;
+  Program (*read)(const ReaderInput& input) = nullptr;
   /// A program that drives to stops given by joints, each joint on its own, and waits where they say; empty where the
   /// language has no targets of such an arm's joints. None: nothing writes programs in it.
   std::string (*write)(std::span<const ProgrammedStop> stops, const Chain& arm) = nullptr;
@@ -48,6 +55,10 @@ const Language* recognize_language(std::string_view text, const std::string& fil
 /// The file ending of programs that `write` makes.
 std::string_view written_ending(const Language& language);
 
+/// Reads the files of a program as one. Targets whose name stands in several of its files are not corrected: which of
+/// them a motion means depends on scopes that are not followed.
+Program read_program(const Language& language, const ProgramSource& source, const Chain& arm,
+                     const ControllerData& controller = {});
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm);
 
 // The comment by which a corrected program is known, so that none is corrected twice

@@ -41,6 +41,11 @@ Eigen::Matrix3d tool_axes(const Target& target) {
   return target.frames.tool->linear();
 }
 
+std::size_t Program::file_at(std::size_t offset) const {
+  const auto begins_by = [&](const FurtherFile& other) { return other.begin <= offset; };
+  return static_cast<std::size_t>(std::count_if(further.begin(), further.end(), begins_by));
+}
+
 bool keeps_orientation(const Target& target) {
   return target.form == OrientationForm::columns || target.form == OrientationForm::unknown;
 }

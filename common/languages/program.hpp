@@ -67,7 +67,7 @@ struct Target {
 };
 
 /// The place of remarks about a program as a whole.
-inline constexpr TextPlace kWholeProgram{0, 0};
+inline constexpr TextPlace kWholeProgram{0, 0, 0};
 
 /// A sentence about a place in the program.
 struct Remark {
@@ -76,11 +76,23 @@ struct Remark {
   std::string sentence;
 };
 
+/// A file that a program has besides its first.
+struct FurtherFile {
+  std::string name{};     ///< as named to the user
+  std::size_t begin = 0;  ///< where it begins in the text of the whole program
+};
+
 struct Program {
-  std::string language{};           ///< the name of its row in all_languages()
-  std::string file;                 ///< as named to the user
-  std::vector<Target> targets;      ///< in the order of the text
-  std::vector<Remark> uncorrected;  ///< what looks like a target but cannot be corrected, and why
+  std::string language{};              ///< the name of its row in all_languages()
+  std::string file{};                  ///< the first, as named to the user
+  std::vector<FurtherFile> further{};  ///< in the order of the text
+  std::vector<Target> targets;         ///< in the order of the text
+  std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
+
+  /// The name of a file by its number (TextPlace::file).
+  const std::string& file_name(std::size_t number) const { return number == 0 ? file : further[number - 1].name; }
+  /// The number of the file that a byte of the text is of.
+  std::size_t file_at(std::size_t offset) const;
 };
 
 /// Whether the file's orientation is kept as it is.
@@ -108,6 +120,14 @@ struct KnownFrame {
 
   static KnownFrame computed(const std::string& what);  ///< "WHAT is computed when the program runs"
 };
+
+/// Takes a declaration of a frame; one that is declared with different numbers is unknown from then on.
+template <typename Key>
+void declare(std::map<Key, KnownFrame>& declared, const Key& key, const KnownFrame& frame) {
+  const auto [before, fresh] = declared.try_emplace(key, frame);
+  if (!fresh && before->second.unknown.empty() && !(frame.unknown.empty() && frame.pose.isApprox(before->second.pose)))
+    before->second.unknown = frame.name + " is given more than once";
+}
 
 void set_tool(StatedFrames& frames, const KnownFrame& tool);
 void set_frame(StatedFrames& frames, const KnownFrame& frame);

@@ -143,29 +143,35 @@ bool is_expression(std::string_view text) {
                            (text.size() > 1 && text.front() == '-' && is_letter(text[1])));
 }
 
-ProgramText::ProgramText(std::string_view text, std::string file, CommentStyle style)
-    : text_(text), file_(std::move(file)), code_(blanked(text, style)) {
-  for (std::size_t i = 0; i < text_.size(); ++i) {
-    if (text_[i] == '\n') line_starts_.push_back(i + 1);
+ProgramText::ProgramText(const ProgramSource& source, CommentStyle style)
+    : source_(source), code_(blanked(source.text(), style)) {
+  for (std::size_t i = 0; i < code_.size(); ++i) {
+    if (text()[i] == '\n') line_starts_.push_back(i + 1);
   }
 }
 
 TextPlace ProgramText::place(std::size_t offset) const {
-  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-  return {static_cast<std::size_t>(after - line_starts_.begin()), offset - *std::prev(after) + 1};
+  const auto line_at = [&](std::size_t at) {
+    return std::prev(std::upper_bound(line_starts_.begin(), line_starts_.end(), at));
+  };
+  const std::size_t file = source_.file_at(offset);
+  const auto line = line_at(offset), first = line_at(source_.begin(file));
+  return {static_cast<std::size_t>(line - first) + 1, offset - *line + 1, file};
 }
 
 void ProgramText::fail(std::size_t begin, std::size_t size, const std::string& rule) const {
   constexpr std::size_t kMostShown = 40;
   const TextPlace at = place(begin);
-  size = std::min(size, line_end(text_, begin) - std::min(begin, line_end(text_, begin)));
-  std::string value(text_.substr(std::min(begin, text_.size()), std::min(size, kMostShown)));
+  const std::size_t end = line_end(text(), begin);
+  size = std::min(size, end - std::min(begin, end));
+  std::string value(text().substr(std::min(begin, text().size()), std::min(size, kMostShown)));
   if (size > kMostShown) value += "...";
-  throw InputError({file_, at.line}, value, rule + " (column " + std::to_string(at.column) + ')');
+  throw InputError({source_.files()[at.file].name, at.line}, value,
+                   rule + " (column " + std::to_string(at.column) + ')');
 }
 
 Cell ProgramText::number(std::size_t begin, std::size_t size, const CellUnit& unit) const {
-  const std::optional<Cell> cell = cell_at(text_, begin, size, unit);
+  const std::optional<Cell> cell = cell_at(text(), begin, size, unit);
   if (!cell) fail(begin, size, size == 0 ? "a number is missing" : "must be a number");
   return *cell;
 }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "languages/program_source.hpp"
+
 namespace demecal::inline languages {
 
 /// Decimals that keep 0.001 mm and 0.0001 degrees; fewer are never written, unless the file counts in whole steps.
@@ -37,9 +39,10 @@ std::optional<Cell> cell_at(std::string_view text, std::size_t begin, std::size_
 /// there: then its bytes stay.
 std::optional<std::string> rewritten(const Cell& cell, double inside);
 
-/// Line and column (in bytes), both from 1.
+/// Line and column (in bytes), both from 1, in one of the program's files, from 0.
 struct TextPlace {
   std::size_t line = 1, column = 1;
+  std::size_t file = 0;
 };
 
 /// Where strings and comments are in a language.
@@ -50,13 +53,13 @@ struct CommentStyle {
 
 class ProgramText {
  public:
-  /// `text` must outlive this; `file` names it in errors.
-  ProgramText(std::string_view text, std::string file, CommentStyle style);
+  /// `source` must outlive this.
+  ProgramText(const ProgramSource& source, CommentStyle style);
 
   /// The text with every comment and all inside double quotes turned into spaces; bytes stand where they stood.
   std::string_view code() const { return code_; }
-  std::string_view text() const { return text_; }
-  const std::string& file() const { return file_; }
+  std::string_view text() const { return source_.text(); }
+  const ProgramSource& source() const { return source_; }
   TextPlace place(std::size_t offset) const;
 
   /// Throws InputError with file, line and column of the bytes.
@@ -90,8 +93,7 @@ class ProgramText {
   }
 
  private:
-  std::string_view text_;
-  std::string file_;
+  const ProgramSource& source_;
   std::string code_;
   std::vector<std::size_t> line_starts_{0};
 };

@@ -12,6 +12,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
@@ -40,10 +41,9 @@ bool has_shape(const BracketItem& item, std::span<const std::size_t> sizes) {
 
 class RapidReader {
  public:
-  RapidReader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {.comment = '!'}), arm_(arm) {
-    require_six_joints(arm, file, "RAPID");
-    program_.file = file;
+  explicit RapidReader(const ReaderInput& input)
+      : text_(input.source, {.comment = '!'}), arm_(input.arm), controller_(input.controller) {
+    require_six_joints(input.arm, input.source.file(), "RAPID");
   }
 
   Program read() {
@@ -61,7 +61,7 @@ class RapidReader {
         ++at;
       }
     }
-    const RapidFrames frames(text_);
+    const RapidFrames frames(text_, controller_);
     for (Target& target : program_.targets) frames.complete(target);
     return std::move(program_);
   }
@@ -160,6 +160,7 @@ class RapidReader {
 
   ProgramText text_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
 };
 
@@ -184,8 +185,8 @@ Language rapid_language() {
           .signs = {"robtarget", "jointtarget", "endmodule"},
           .comment = "!",
           .headers = {"module"},
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return RapidReader(text, file, arm).read(); },
+          .of_several_files = true,
+          .read = [](const ReaderInput& input) { return RapidReader(input).read(); },
           .write = rapid_text};
 }
 

@@ -67,7 +67,8 @@ std::vector<std::size_t> argument_ends(std::string_view code, std::size_t begin)
 
 }  // namespace
 
-RapidFrames::RapidFrames(const ProgramText& text) : text_(text) {
+RapidFrames::RapidFrames(const ProgramText& text, const ControllerData& controller)
+    : text_(text), controller_(controller) {
   const std::string_view code = text.code();
   tools_["tool0"] = {"tool0", Eigen::Isometry3d::Identity(), ""};
   frames_["wobj0"] = {"wobj0", Eigen::Isometry3d::Identity(), ""};
@@ -95,12 +96,10 @@ void RapidFrames::read_declaration(const std::string& type, std::size_t at) {
   declared_.insert(begin);
   const std::size_t sign = text_.skip_spaces(end);
   const std::size_t value = code.substr(sign).starts_with(":=") ? text_.skip_spaces(sign + 2) : code.size();
-  if (value >= code.size() || code[value] != '[') {
-    data[key] = KnownFrame::computed((tool ? "tool " : "work object ") + name);
-    return;
-  }
+  if (value >= code.size() || code[value] != '[')
+    return declare(data, key, KnownFrame::computed((tool ? "tool " : "work object ") + name));
   const BracketItem list = read_list(text_, value, '[');
-  data[key] = tool ? tool_of(text_, list, name) : object_of(text_, list, name);
+  declare(data, key, tool ? tool_of(text_, list, name) : object_of(text_, list, name));
 }
 
 /// Data that statements change are computed.
@@ -116,11 +115,14 @@ void RapidFrames::forget_assigned(const std::string& word, std::size_t begin, st
   }
 }
 
-KnownFrame RapidFrames::known(const std::map<std::string, KnownFrame>& data, const std::string& name,
-                              const char* what) const {
-  const auto found = data.find(name);
-  if (found != data.end()) return found->second;
-  return {name, Eigen::Isometry3d::Identity(), std::string(what) + name + " is not given as numbers in this file"};
+KnownFrame RapidFrames::known_tool(const std::string& name) const {
+  const auto found = tools_.find(name);
+  return found != tools_.end() ? found->second : controller_.tool(name, "tool " + name);
+}
+
+KnownFrame RapidFrames::known_object(const std::string& name) const {
+  const auto found = frames_.find(name);
+  return found != frames_.end() ? found->second : controller_.frame(name, "work object " + name);
 }
 
 void RapidFrames::read_move(std::size_t begin, const std::string& word, std::size_t end) {
@@ -131,21 +133,24 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
   if (word.starts_with("movel") || word.starts_with("movec") || word == "triggl" || word == "triggc") {
     use.motion = Motion::line;
   }
-  // The tool: the last argument that is a tool of the file or, where none is, the last.
+  const auto is_tool = [&](const std::string& name) {
+    return tools_.contains(name) || controller_.tools.contains(name);
+  };
+  // The tool: the last argument that is a tool of the program or, where none is, the last.
   std::string tool;
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const std::size_t first = text_.skip_spaces(ends[i - 1] + 1);
     if (first >= ends[i]) continue;
     const std::string name = lower_case(code.substr(first, std::min(text_.word_end(first), ends[i]) - first));
-    if (tools_.contains(name) || (i + 1 == ends.size() && !tools_.contains(tool))) tool = name;
+    if (is_tool(name) || (i + 1 == ends.size() && !is_tool(tool))) tool = name;
   }
-  set_tool(use.frames, known(tools_, tool, "tool "));
+  set_tool(use.frames, known_tool(tool));
   const std::string all = lower_case(code.substr(end, ends.back() - end));
   const std::size_t option = all.find("\\wobj");
   if (option != std::string::npos) {
     const std::size_t sign = all.find(":=", option);
     const std::size_t name = sign == std::string::npos ? ends.back() : text_.skip_spaces(end + sign + 2);
-    set_frame(use.frames, known(frames_, lower_case(code.substr(name, text_.word_end(name) - name)), "work object "));
+    set_frame(use.frames, known_object(lower_case(code.substr(name, text_.word_end(name) - name))));
   }
   const std::size_t targets = word.starts_with("movec") || word == "triggc" ? 2 : 1;
   held_.push_back({end, ends[targets - 1], use});

@@ -7,16 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "languages/controller_data.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
 
 namespace demecal::inline languages {
 
-/// tooldata and wobjdata that the file declares as numbers and assigns nowhere else; tool0 is the flange, wobj0 the
+/// tooldata and wobjdata that the program declares as numbers and assigns nowhere else; tool0 is the flange, wobj0 the
 /// base. Every Move instruction takes its tool and \WObj to the targets that it names or holds.
 class RapidFrames {
  public:
-  explicit RapidFrames(const ProgramText& text);
+  RapidFrames(const ProgramText& text, const ControllerData& controller);
 
   /// Completes a target that was read, by its name and place.
   void complete(Target& target) const;
@@ -25,9 +26,11 @@ class RapidFrames {
   void read_declaration(const std::string& type, std::size_t at);
   void read_move(std::size_t begin, const std::string& word, std::size_t end);
   void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
-  KnownFrame known(const std::map<std::string, KnownFrame>& data, const std::string& name, const char* what) const;
+  KnownFrame known_tool(const std::string& name) const;
+  KnownFrame known_object(const std::string& name) const;
 
   const ProgramText& text_;
+  const ControllerData& controller_;
   std::map<std::string, KnownFrame> tools_, frames_;
   std::set<std::size_t> declared_;  ///< where the names of declarations stand
   std::map<std::string, std::vector<TargetUse>> uses_;

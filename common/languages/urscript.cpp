@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
@@ -33,10 +34,9 @@ int targets_of(std::string_view word) {
 
 class UrReader {
  public:
-  UrReader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {.comment = '#'}), code_(text_.code()), arm_(arm) {
-    require_six_joints(arm, file, "URScript");
-    program_.file = file;
+  explicit UrReader(const ReaderInput& input)
+      : text_(input.source, {.comment = '#'}), code_(text_.code()), arm_(input.arm) {
+    require_six_joints(input.arm, input.source.file(), "URScript");
   }
 
   Program read() {
@@ -226,8 +226,7 @@ Language urscript_language() {
           .file_endings = {"script", "urscript"},
           .signs = {"movej", "movel(", "movep("},
           .comment = "#",
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return UrReader(text, file, arm).read(); },
+          .read = [](const ReaderInput& input) { return UrReader(input).read(); },
           .write = urscript_text};
 }
 

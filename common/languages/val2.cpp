@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -20,6 +21,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
@@ -71,15 +73,17 @@ KnownFrame base_of(const std::string& argument) {
   return {"BASE", moved.inverse(), ""};
 }
 
-KnownFrame tool_of(const std::string& argument, const Program& program) {
+KnownFrame tool_of(const std::string& argument, const Program& program, const ControllerData& controller) {
   if (argument.empty() || argument == "null" || argument == "nulltool") {
     return {"flange", Eigen::Isometry3d::Identity(), ""};
   }
-  const auto found = std::find_if(program.targets.begin(), program.targets.end(), [&](const Target& target) {
-    return target.is_pose() && lower_name(target) == argument;
-  });
-  if (found == program.targets.end()) return KnownFrame::computed("TOOL");
-  return {found->name, stated_tool_pose(*found), ""};
+  std::map<std::string, KnownFrame> found;
+  for (const Target& target : program.targets) {
+    if (target.is_pose() && lower_name(target) == argument)
+      declare(found, argument, {target.name, stated_tool_pose(target), ""});
+  }
+  if (!found.empty()) return found.at(argument);
+  return controller.tools.contains(argument) ? controller.tool(argument, argument) : KnownFrame::computed("TOOL");
 }
 
 /// The only one of the arguments; nothing where they differ.
@@ -96,7 +100,7 @@ class Val2Frames {
   void read_line(const ProgramText& text, std::size_t begin, std::size_t end);
 
   /// Gives the program's targets their frames; the location that TOOL names is taken out, for nothing moves to it.
-  void complete(Program& program) const;
+  void complete(Program& program, const ControllerData& controller) const;
 
  private:
   std::vector<std::string> tools_, bases_;  ///< what stands behind each instruction, without spaces, in small letters
@@ -116,11 +120,11 @@ void Val2Frames::read_line(const ProgramText& text, std::size_t begin, std::size
   (word == "tool" ? tools_ : bases_).push_back(argument);
 }
 
-void Val2Frames::complete(Program& program) const {
+void Val2Frames::complete(Program& program, const ControllerData& controller) const {
   StatedFrames frames;
   if (!tools_.empty()) {
     const auto argument = only(tools_);
-    set_tool(frames, argument ? tool_of(*argument, program)
+    set_tool(frames, argument ? tool_of(*argument, program, controller)
                               : KnownFrame{"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
   }
   if (!bases_.empty()) {
@@ -136,10 +140,8 @@ void Val2Frames::complete(Program& program) const {
 
 class Val2Reader {
  public:
-  Val2Reader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {.comment = ';'}), arm_(arm) {
-    program_.file = file;
-  }
+  explicit Val2Reader(const ReaderInput& input)
+      : text_(input.source, {.comment = ';'}), arm_(input.arm), controller_(input.controller) {}
 
   Program read() {
     const std::string_view code = text_.code();
@@ -149,7 +151,7 @@ class Val2Reader {
       begin = end + 1;
     }
     finish();
-    frames_.complete(program_);
+    frames_.complete(program_, controller_);
     return std::move(program_);
   }
 
@@ -252,6 +254,7 @@ class Val2Reader {
 
   ProgramText text_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
   bool in_locations_ = false, open_ = false;
   Location location_{};
@@ -277,8 +280,8 @@ Language val2_language() {
           .signs = {".locations", ".program"},
           .comment = ";",
           .headers = {".program", ".locations"},
-          .read = [](std::string_view text, const std::string& file,
-                     const Chain& arm) { return Val2Reader(text, file, arm).read(); },
+          .of_several_files = true,
+          .read = [](const ReaderInput& input) { return Val2Reader(input).read(); },
           .write = val2_text};
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
@@ -31,10 +32,9 @@ constexpr int kDeepestFrame = 20;
 
 class Val3Reader {
  public:
-  Val3Reader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {}), arm_(arm), values_(val3_values(text_)) {
-    require_six_joints(arm, file, "VAL3");
-    program_.file = file;
+  explicit Val3Reader(const ReaderInput& input)
+      : text_(input.source, {}), arm_(input.arm), controller_(input.controller), values_(val3_values(text_)) {
+    require_six_joints(input.arm, input.source.file(), "VAL3");
     for (const Val3Value& value : values_) {
       if (value.type == "frame") frames_.try_emplace(value.name, &value);
       if (value.type == "tool") tools_.push_back(&value);
@@ -127,7 +127,8 @@ class Val3Reader {
 
   KnownFrame frame(const std::string& name, int depth) const {
     const auto found = frames_.find(name);
-    const auto pose = found == frames_.end() ? std::nullopt : transform(*found->second);
+    if (found == frames_.end()) return controller_.frame(name, "frame " + name);
+    const auto pose = transform(*found->second);
     if (!pose || depth > kDeepestFrame)
       return {name, Eigen::Isometry3d::Identity(), "frame " + name + " is not given as numbers in this file"};
     const std::string father = word(*found->second, "fatherId");
@@ -151,6 +152,7 @@ class Val3Reader {
 
   ProgramText text_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
   std::vector<Val3Value> values_;
   std::map<std::string, const Val3Value*> frames_;
@@ -167,9 +169,7 @@ Language val3_language() {
           .comment = "<!--",
           .comment_end = " -->",
           .headers = {"<?xml"},
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return Val3Reader(text, file, arm).read();
-          }};
+          .read = [](const ReaderInput& input) { return Val3Reader(input).read(); }};
 }
 
 }  // namespace demecal::inline languages

@@ -1,6 +1,6 @@
 // Yaskawa (Motoman) jobs, .JBI: positions of //POS in Cartesian coordinates (///RECTAN: x, y, z in mm and Rx, Ry, Rz in
-// degrees, turns about x, y, z that stay), in the frame that ///POSTYPE names. Positions in pulses cannot be read, for
-// a job does not say how many pulses a degree has. Base axes (BC) and stations (EC) are kept.
+// degrees, turns about x, y, z that stay), in the frame that ///POSTYPE names, or in pulses (///PULSE) of the six
+// joints, where it is stated elsewhere how many of them a degree has. Base axes (BC) and stations (EC) are kept.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 /// Degrees have two decimals with some controllers, four with others.
 constexpr CellUnit kJobAngle{std::numbers::pi / 180.0, 2};
-constexpr std::size_t kPoseNumbers = 6;
+constexpr std::size_t kPositionNumbers = 6;
 
 /// "C3" of C00003 and of C0003; empty where the word names no position of the arm.
 std::string position_name(std::string_view word) {
@@ -47,10 +48,9 @@ struct JobSetting {
 
 class JobReader {
  public:
-  JobReader(std::string_view text, const std::string& file, const Chain& arm)
-      : text_(text, file, {}), code_(text_.text()) {
-    require_six_joints(arm, file, "Yaskawa's INFORM");
-    program_.file = file;
+  explicit JobReader(const ReaderInput& input)
+      : text_(input.source, {}), code_(text_.text()), arm_(input.arm), controller_(input.controller) {
+    require_six_joints(input.arm, input.source.file(), "Yaskawa's INFORM");
   }
 
   Program read() {
@@ -115,52 +115,60 @@ class JobReader {
     const std::string key = position_name(name);
     if (key.empty()) return;
     Position position{key, {.name = name, .place = text_.place(begin)}};
-    if (setting_.pulses) {
+    if (setting_.pulses && controller_.pulses_per_deg.empty()) {
       position.why =
-          "it is in pulses, and a job does not say how many of them a degree has; write the job with "
-          "Cartesian positions (///POSTYPE BASE or ROBOT, ///RECTAN)";
+          "it is in pulses, and a job does not say how many of them a degree has; state it (pulses_per_deg of the "
+          "robot's file, or --pulses-per-deg), or write the job with Cartesian positions (///POSTYPE BASE or ROBOT, "
+          "///RECTAN)";
     } else {
-      read_pose(sign + 1, end, position);
+      read_numbers(sign + 1, end, position);
     }
     positions_.push_back(std::move(position));
   }
 
-  void read_pose(std::size_t begin, std::size_t end, Position& position) const {
-    constexpr std::array<CellUnit, kPoseNumbers> kUnits{kMillimetres, kMillimetres, kMillimetres,
-                                                        kJobAngle,    kJobAngle,    kJobAngle};
+  std::array<CellUnit, kPositionNumbers> units() const {
+    std::array<CellUnit, kPositionNumbers> units{kMillimetres, kMillimetres, kMillimetres,
+                                                 kJobAngle,    kJobAngle,    kJobAngle};
+    for (std::size_t joint = 0; setting_.pulses && joint < units.size(); ++joint)
+      units[joint] = {joint_units(arm_)[joint].size / controller_.pulses_per_deg[joint], 0};
+    return units;
+  }
+
+  void read_numbers(std::size_t begin, std::size_t end, Position& position) const {
+    const std::array<CellUnit, kPositionNumbers> units_of = units();
     std::vector<Cell> cells;
     for (std::size_t count = 0; begin <= end; ++count) {
       const std::size_t stop = std::min(code_.find(',', begin), end);
       std::size_t first = begin;
       const std::string_view number = text_.trimmed(first, stop);
-      cells.push_back(text_.number(first, number.size(), kUnits[std::min(count, kPoseNumbers - 1)]));
+      cells.push_back(text_.number(first, number.size(), units_of[std::min(count, kPositionNumbers - 1)]));
       begin = stop + 1;
     }
     Target& target = position.target;
-    if (cells.size() != kPoseNumbers) {
+    if (cells.size() != kPositionNumbers) {
       position.why = "it has " + std::to_string(cells.size()) + " numbers and not 6";
       return;
     }
-    target.position.assign(cells.begin(), cells.begin() + 3);
-    target.orientation.assign(cells.begin() + 3, cells.end());
-    target.form = OrientationForm::fixed_xyz_angles;
-    target.hint.configuration = setting_.configuration;
+    if (setting_.pulses) {
+      target.joints = std::move(cells);
+    } else {
+      target.position.assign(cells.begin(), cells.begin() + 3);
+      target.orientation.assign(cells.begin() + 3, cells.end());
+      target.form = OrientationForm::fixed_xyz_angles;
+      target.hint.configuration = setting_.configuration;
+    }
     set_frames(target);
   }
 
   void set_frames(Target& target) const {
-    const auto unknown = [](const std::string& name, const std::string& why) {
-      return KnownFrame{name, Eigen::Isometry3d::Identity(), why};
-    };
-    if (!setting_.tool.empty()) {
-      const std::string name = "tool " + setting_.tool;
-      set_tool(target.frames, unknown(name, name + " is not given in this file"));
-    }
+    if (!setting_.tool.empty()) set_tool(target.frames, controller_.tool(setting_.tool, "tool " + setting_.tool));
     const std::string& frame = setting_.frame;
-    if (frame == "base" || frame.empty()) return;
-    if (frame == "robot") return set_frame(target.frames, unknown("robot", ""));
-    const std::string name = frame == "user" ? "user frame " + setting_.user : "frame " + frame;
-    set_frame(target.frames, unknown(name, name + " is not given in this file"));
+    if (target.position.empty() || frame == "base" || frame.empty()) return;
+    if (frame == "robot") return set_frame(target.frames, {"robot", Eigen::Isometry3d::Identity(), ""});
+    if (frame == "user")
+      return set_frame(target.frames, controller_.frame(setting_.user, "user frame " + setting_.user));
+    const std::string name = "frame " + frame;
+    set_frame(target.frames, {name, Eigen::Isometry3d::Identity(), name + " is not given in this file"});
   }
 
   /// An instruction with the positions that it names.
@@ -201,7 +209,8 @@ class JobReader {
         skip_target(program_, target, position.why);
         continue;
       }
-      if (base_axes_ && target.frames.frame.empty()) target.frames.unknown_frame = "base axes carry the arm";
+      if (base_axes_ && target.is_pose() && target.frames.frame.empty())
+        target.frames.unknown_frame = "base axes carry the arm";
       complete(uses.motions, target);
       program_.targets.push_back(std::move(target));
     }
@@ -221,6 +230,8 @@ class JobReader {
 
   ProgramText text_;
   std::string_view code_;
+  const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
   JobSetting setting_;
   bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false, shifts_ = false;
@@ -238,9 +249,7 @@ Language yaskawa_jbi_language() {
           .comment = "'",
           .longest_comment = 31,  // a comment has 32 letters at most
           .headers = {"nop"},
-          .read = [](std::string_view text, const std::string& file, const Chain& arm) {
-            return JobReader(text, file, arm).read();
-          }};
+          .read = [](const ReaderInput& input) { return JobReader(input).read(); }};
 }
 
 }  // namespace demecal::inline languages

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -65,6 +66,13 @@ class Corrector {
     }
     corrected.texts = cell_texts(target, corrected);
     return corrected;
+  }
+
+  /// Where the arm comes from is not known.
+  void forget_where_it_is() {
+    finder_.arrive(std::nullopt, "");
+    started_ = false;
+    signs_.setZero();
   }
 
  private:
@@ -197,39 +205,54 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   }
   result.warnings.insert(result.warnings.end(), result.program.uncorrected.begin(), result.program.uncorrected.end());
   result.targets.resize(result.program.targets.size());
+  std::size_t last_file = 0;
   for (const std::size_t i : visits(result.program)) {
     const Target& target = result.program.targets[i];
+    const std::size_t file = result.program.file_at(target.order);
+    if (file != last_file) corrector.forget_where_it_is();
+    last_file = file;
     result.targets[i] = corrector.correct(target);
     for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }
   std::stable_sort(result.warnings.begin(), result.warnings.end(), [](const Remark& one, const Remark& other) {
-    return one.place.line != other.place.line ? one.place.line < other.place.line
-                                              : one.place.column < other.place.column;
+    return std::tie(one.place.file, one.place.line, one.place.column) <
+           std::tie(other.place.file, other.place.line, other.place.column);
   });
   result.text = replaced(text, result.program, result.targets);
   return result;
 }
 
-std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets) {
+std::vector<std::string> corrected_files(const ProgramSource& source, const CorrectedProgram& corrected) {
+  std::vector<std::string> texts;
+  for (std::size_t file = 0; file < source.files().size(); ++file) {
+    texts.push_back(replaced(source.files()[file].text, corrected.program, corrected.targets, source.begin(file)));
+  }
+  return texts;
+}
+
+std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets,
+                     std::size_t begin) {
   std::map<std::size_t, std::pair<std::size_t, const std::string*>> changes;  // by first byte: size and new text
   for (std::size_t i = 0; i < targets.size(); ++i) {
     std::vector<Cell> cells = program.targets[i].is_pose() ? program.targets[i].position : program.targets[i].joints;
     cells.insert(cells.end(), program.targets[i].orientation.begin(), program.targets[i].orientation.end());
     for (std::size_t cell = 0; cell < targets[i].texts.size(); ++cell) {
       const std::string& changed = targets[i].texts[cell];
-      if (!changed.empty()) changes[cells[cell].begin] = {cells[cell].size, &changed};
+      const std::size_t at = cells[cell].begin;
+      if (!changed.empty() && at >= begin && at < begin + text.size())
+        changes[at - begin] = {cells[cell].size, &changed};
     }
   }
   std::string result;
   result.reserve(text.size() + 4 * changes.size());
   std::size_t kept_from = 0;
-  for (const auto& [begin, change] : changes) {
-    DEMECAL_CHECK(begin >= kept_from, "numbers overlap at byte " << begin);
-    result += text.substr(kept_from, begin - kept_from);
+  for (const auto& [at, change] : changes) {
+    DEMECAL_CHECK(at >= kept_from, "numbers overlap at byte " << at);
+    result += text.substr(kept_from, at - kept_from);
     result += *change.second;
-    kept_from = begin + change.first;
+    kept_from = at + change.first;
   }
   result += text.substr(kept_from);
   return result;

@@ -8,6 +8,7 @@
 
 #include "kinematics/chain.hpp"
 #include "languages/program.hpp"
+#include "languages/program_source.hpp"
 #include "programs/command_model.hpp"
 #include "programs/target_correction.hpp"
 
@@ -24,8 +25,9 @@ struct Circumstances {
 struct CorrectedProgram {
   Program program;
   std::vector<CorrectedTarget> targets;  ///< one for each of program.targets
-  std::vector<Remark> warnings;          ///< by place in the text
-  std::string text;                      ///< the program with its targets replaced, all else byte for byte
+  std::vector<Remark> warnings;          ///< by place in the files
+  std::string
+      text;  ///< the program, all its files behind each other, with its targets replaced, all else byte for byte
 };
 
 /// Sends every target to where model(command) = nominal(target): joints are replaced by the command; a pose is solved
@@ -34,7 +36,8 @@ struct CorrectedProgram {
 /// unknown: then the position is such that the real tool point is exact.
 ///
 /// A target that states no approach is approached from the target before it in the text: each joint's sign is that of
-/// its last change of 2 mrad (2 mm) or more, 0 before the first.
+/// its last change of 2 mrad (2 mm) or more, 0 before the first. Nothing is concluded from motions in another of the
+/// program's files.
 ///
 /// Where the program leaves several configurations possible (see ConfigurationFinder), and their corrections differ by
 /// more than 0.05 mm or 0.03 deg, the target is left as it is; so is one whose frame or tool is not known.
@@ -45,8 +48,13 @@ struct CorrectedProgram {
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances);
 
-/// `text` with the cells of the program's targets replaced by their new texts; every other byte as it was.
-std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets);
+/// `text` with the cells of the program's targets replaced by their new texts; every other byte as it was. `begin`:
+/// where in the program's text it stands, if it is a part of it.
+std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets,
+                     std::size_t begin = 0);
+
+/// The texts of the program's files, corrected.
+std::vector<std::string> corrected_files(const ProgramSource& source, const CorrectedProgram& corrected);
 
 /// A sentence for each thing that is not as it should be; none where all is well.
 std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected, const CommandModel& model);

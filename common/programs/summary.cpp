@@ -33,8 +33,15 @@ std::string heading(const TargetFigures& figures) {
   return text + '\n';
 }
 
-std::string block(const Target& target, const CorrectedTarget& corrected, const Chain& arm, std::string& last_heading) {
-  std::string text = fmt::format("  line {}{}", target.place.line, target.name.empty() ? "" : ": " + target.name);
+/// "line 12", or "FILE:12" of a program of several files.
+std::string place_text(const Program& program, const Target& target) {
+  return program.further.empty() ? fmt::format("line {}", target.place.line)
+                                 : fmt::format("{}:{}", program.file_name(target.place.file), target.place.line);
+}
+
+std::string block(const Program& program, const Target& target, const CorrectedTarget& corrected, const Chain& arm,
+                  std::string& last_heading) {
+  std::string text = "  " + place_text(program, target) + (target.name.empty() ? "" : ": " + target.name);
   if (corrected.is_uncorrected()) return text + ": left as it is\n";
   const TargetFigures figures = target_figures(target, corrected, arm);
   text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg", figures.moved_mm, figures.turned_deg);
@@ -49,8 +56,9 @@ std::string block(const Target& target, const CorrectedTarget& corrected, const 
   return text;
 }
 
-Json entry(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
+Json entry(const Program& program, const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
   Json json{{"name", target.name},
+            {"file", program.file_name(target.place.file)},
             {"line", target.place.line},
             {"column", target.place.column},
             {"kind", target.is_pose() ? "pose" : "joints"},
@@ -124,7 +132,7 @@ MovedFigures moved_figures(const CorrectedProgram& corrected) {
 std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
   std::string text, last_heading;
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
-    text += block(corrected.program.targets[i], corrected.targets[i], arm, last_heading);
+    text += block(corrected.program, corrected.program.targets[i], corrected.targets[i], arm, last_heading);
   }
   const MovedFigures figures = moved_figures(corrected);
   text += fmt::format("{} targets corrected; the tool is moved by {:.4f} mm in the mean, {:.4f} mm at most",
@@ -143,10 +151,11 @@ std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
             {"left", static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size()},
             {"warnings", Json::array()}};
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
-    json["targets"].push_back(entry(corrected.program.targets[i], corrected.targets[i], arm));
+    json["targets"].push_back(entry(corrected.program, corrected.program.targets[i], corrected.targets[i], arm));
   }
   for (const Remark& warning : corrected.warnings) {
-    json["warnings"].push_back({{"line", warning.place.line},
+    json["warnings"].push_back({{"file", corrected.program.file_name(warning.place.file)},
+                                {"line", warning.place.line},
                                 {"column", warning.place.column},
                                 {"name", warning.name},
                                 {"sentence", warning.sentence}});
@@ -156,8 +165,8 @@ std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
 
 std::string warning_text(const CorrectedProgram& corrected, const Remark& warning) {
   const std::string line = warning.place.line > 0 ? fmt::format(":{}", warning.place.line) : "";
-  return fmt::format("{}{}: {}{}\n", corrected.program.file, line, warning.name.empty() ? "" : warning.name + ": ",
-                     warning.sentence);
+  return fmt::format("{}{}: {}{}\n", corrected.program.file_name(warning.place.file), line,
+                     warning.name.empty() ? "" : warning.name + ": ", warning.sentence);
 }
 
 }  // namespace demecal::inline programs

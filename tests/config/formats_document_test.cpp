@@ -11,6 +11,7 @@
 
 #include "config/cell_file.hpp"
 #include "config/data_set_file.hpp"
+#include "config/frames_file.hpp"
 #include "config/input_files.hpp"
 #include "config/job_file.hpp"
 #include "config/joint_log_file.hpp"
@@ -181,6 +182,10 @@ TEST(FormatsDocument, HasTheKeysOfPreparations) {
       load_preparation(path);
   };
   expect_keys_of({.title = "PREPARATION.yaml", .read = read});
+}
+
+TEST(FormatsDocument, HasTheKeysOfFrames) {
+  expect_keys_of({.title = "FRAMES.yaml", .read = load_frames, .open_maps = {{"frames", "NAME"}, {"tools", "NAME"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfMatrices) {

@@ -48,6 +48,8 @@ Robot random_robot(RandomStream& random) {
     robot.home = JointVector::Zero(robot.chain.size());
     for (double& value : robot.home) value = random.real(-1.0, 1.0);
   }
+  for (std::size_t i = 0; i < joints && random.chance(0.9); ++i) robot.pulses_per_deg.push_back(random.real(500, 2000));
+  if (robot.pulses_per_deg.size() < joints) robot.pulses_per_deg.clear();
   return robot;
 }
 
@@ -104,6 +106,7 @@ void expect_same_robot(const Robot& back, const Robot& robot) {
   expect_same_vector(back.chain.tool_m, robot.chain.tool_m);
   EXPECT_EQ(back.gravity_mps2, robot.gravity_mps2);
   expect_same(*back.repeatability_m, *robot.repeatability_m);
+  EXPECT_EQ(back.pulses_per_deg, robot.pulses_per_deg);
   ASSERT_EQ(back.home.size(), robot.home.size());
   if (robot.home.size() > 0) expect_same_vector(back.home, robot.home);
 }

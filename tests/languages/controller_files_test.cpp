@@ -71,8 +71,8 @@ TEST(FanucLs, SaysWhatFramesAndToolsTheFileDoesNotGive) {
   const auto frames = [](const std::string& head) {
     return read_file_of(WrittenIn::fanuc_ls, "/POS\n" + fanuc_pose(head)).targets.at(0).frames;
   };
-  EXPECT_EQ(frames("UF : 3, UT : 0,").unknown_frame, "UF 3 is not given in this file");
-  EXPECT_EQ(frames("UF : 0, UT : 2,").unknown_tool, "UT 2 is not given in this file");
+  EXPECT_EQ(frames("UF : 3, UT : 0,").unknown_frame, "UF 3 is given neither in this program nor by --frames");
+  EXPECT_EQ(frames("UF : 0, UT : 2,").unknown_tool, "UT 2 is given neither in this program nor by --frames");
   EXPECT_EQ(frames("UF : F, UT : F,").unknown_frame, "UF is computed when the program runs");
   EXPECT_THAT(frames("UF : 0, UT : 1,\n\tE1=  3175.000  mm,").unknown_frame, HasSubstr("may carry the arm"));
   EXPECT_EQ(frames("UF : 0, UT : 1,\n\tE1=  0.000  mm,\tE2= 30.000 deg,").unknown_frame, "");
@@ -125,7 +125,7 @@ TEST(YaskawaJbi, ReadsCartesianPositionsThatMotionsGoTo) {
   EXPECT_EQ(program.targets[1].orientation[0].decimals, 2);
   EXPECT_EQ(first.hint.configuration, "1,0,0,0,0,0,0,0");
   EXPECT_EQ(first.frames.unknown_frame, "");
-  EXPECT_EQ(first.frames.unknown_tool, "tool 2 is not given in this file");
+  EXPECT_EQ(first.frames.unknown_tool, "tool 2 is given neither in this program nor by --frames");
   EXPECT_EQ(first.motion, Motion::joints);
   EXPECT_EQ(program.targets[2].motion, Motion::line);
 }
@@ -158,7 +158,8 @@ TEST(YaskawaJbi, SaysWhatFramesTheFileDoesNotGiveAndNamesTheFault) {
         .targets.at(0)
         .frames.unknown_frame;
   };
-  EXPECT_EQ(frame("///USER 3\n///POSTYPE USER\n///RECTAN\n"), "user frame 3 is not given in this file");
+  EXPECT_EQ(frame("///USER 3\n///POSTYPE USER\n///RECTAN\n"),
+            "user frame 3 is given neither in this program nor by --frames");
   EXPECT_EQ(frame("///POSTYPE TOOL\n///RECTAN\n"), "frame tool is not given in this file");
   EXPECT_EQ(frame("BC00000=1\n///POSTYPE BASE\n///RECTAN\n"), "base axes carry the arm");
   EXPECT_EQ(frame("BC00000=1\n///POSTYPE ROBOT\n///RECTAN\n"), "");
@@ -251,7 +252,7 @@ TEST(Val3, ReadsJointsAndPointsThatHangOnFramesOfTheFile) {
 
 TEST(Val3, SaysWhatTheFileDoesNotGiveAndNamesTheFault) {
   const Program lacking = read_file_of(WrittenIn::val3, kVal3Head + kVal3Points);
-  EXPECT_EQ(lacking.targets.at(0).frames.unknown_frame, "frame f[1] is not given as numbers in this file");
+  EXPECT_EQ(lacking.targets.at(0).frames.unknown_frame, "frame f[1] is given neither in this program nor by --frames");
   const std::string tools =
       "<Data name=\"t\" type=\"tool\"><Value key=\"0\" z=\"1\"/><Value key=\"1\" z=\"2\"/></Data>\n";
   EXPECT_THAT(

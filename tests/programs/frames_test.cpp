@@ -55,7 +55,7 @@ TEST(KrlFrames, OfPointsAreThoseOfTheMotionsThatNameThem) {
   const std::string base = "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
   const Target listed = only_target(WrittenIn::krl, base + point + data);
   expect_point(listed, {0.015, 0.0, 0.0});
-  EXPECT_THAT(listed.frames.unknown_tool, HasSubstr("TOOL_DATA[1] is not given"));
+  EXPECT_THAT(listed.frames.unknown_tool, HasSubstr("TOOL_DATA[1] is given neither"));
   const Target moved = only_target(WrittenIn::krl, point + "$BASE={X 7,Y 0,Z 0,A 0,B 0,C 0}\nPTP XP1\nLIN XP1\n");
   expect_point(moved, {0.017, 0.0, 0.0});
   EXPECT_EQ(moved.motion, Motion::joints);
@@ -84,14 +84,15 @@ TEST(RapidFrames, ThatAreComputedOrUnknownAreSaid) {
   const std::string point = "CONST robtarget p:=" + kRobtarget + ";\n";
   const std::string object = "wobjdata w:=[FALSE,TRUE,\"\",[[500,0,0],[1,0,0,0]],[[0,0,10],[1,0,0,0]]];\n";
   const auto frame = [&](const std::string& text) { return only_target(WrittenIn::rapid, text).frames.unknown_frame; };
-  EXPECT_THAT(frame(point + "MoveL p,v1,fine,tool0\\WObj:=elsewhere;\n"), HasSubstr("is not given as numbers"));
+  EXPECT_THAT(frame(point + "MoveL p,v1,fine,tool0\\WObj:=elsewhere;\n"),
+              HasSubstr("elsewhere is given neither in this program nor by --frames"));
   EXPECT_THAT(frame("VAR wobjdata w;\n" + point + "MoveL p,v1,fine,tool0\\WObj:=w;\n"), HasSubstr("is computed"));
   EXPECT_THAT(frame("PERS " + object + point + "w.uframe.trans.x:=3;\nMoveL p,v1,fine,tool0\\WObj:=w;\n"),
               HasSubstr("is computed"));
   EXPECT_THAT(frame("PERS " + object + point + "MoveL p,v1,fine,tool0\\WObj:=w;\nMoveL p,v1,fine,tool0;\n"),
               HasSubstr("different frames"));
   EXPECT_THAT(only_target(WrittenIn::rapid, point + "MoveL p,v1,fine,gripper;\n").frames.unknown_tool,
-              HasSubstr("tool gripper is not given"));
+              HasSubstr("tool gripper is given neither"));
 }
 
 TEST(UrScriptFrames, AreTheToolsOfSetTcp) {

@@ -12,13 +12,13 @@ namespace {
 using ::testing::HasSubstr;
 
 /// "go 1 2 3 4 5 6" moves the joints, in degrees.
-Program read_dawdle(std::string_view text, const std::string& file, const Chain& arm) {
-  const ProgramText code(text, file, {.comment = '%'});
-  Program program{.file = file, .targets = {}, .uncorrected = {}};
+Program read_dawdle(const ReaderInput& input) {
+  const ProgramText code(input.source, {.comment = '%'});
+  Program program{.targets = {}, .uncorrected = {}};
   code.for_each_word([&](std::size_t begin, std::size_t end) {
     if (code.code().substr(begin, end - begin) != "go") return;
     Target target{.place = code.place(begin)};
-    for (const CellUnit& unit : joint_units(arm)) {
+    for (const CellUnit& unit : joint_units(input.arm)) {
       begin = code.skip_spaces(end);
       end = std::min(code.code().find_first_of(" \n", begin), code.code().size());
       target.joints.push_back(code.number(begin, end - begin, unit));
