@@ -14,8 +14,10 @@
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/program.hpp"
+#include "languages/program_source.hpp"
 #include "preparation/named_points.hpp"
 #include "preparation/readings.hpp"
 #include "preparation/taught_points.hpp"
@@ -33,13 +35,14 @@ std::string text_at(const YamlNode& node, std::string_view key) {
   return found ? found->text() : "";
 }
 
-PointFile read_points(const YamlNode& node, const Chain& arm) {
+PointFile read_points(const YamlNode& node, const Robot& robot) {
   return read_named(node, [&](const std::filesystem::path& path) {
     PointFile file{read_file(path), {}};
     const Language* const language = recognize_language(file.text, path.string());
     if (language == nullptr)
       node.fail(path.string(), "is a program in no language that can be told (VAL II, CSV, ...)");
-    file.program = read_program(*language, file.text, path.string(), arm);
+    file.program = read_program(*language, ProgramSource(file.text, path.string()), robot.chain,
+                                {.pulses_per_deg = robot.pulses_per_deg});
     return file;
   });
 }
@@ -52,7 +55,7 @@ Readings read_readings_at(const YamlNode& node, const std::optional<CordInstrume
 }
 
 RobotPoints read_robot_points(const YamlNode& node, const std::string& points, const Robot& robot) {
-  if (node.kind == YamlNode::Kind::scalar) return robot_points(read_points(node, robot.chain).program, points, robot);
+  if (node.kind == YamlNode::Kind::scalar) return robot_points(read_points(node, robot).program, points, robot);
   if (node.kind != YamlNode::Kind::list) node.fail("", "must be a file or a list of three points [x, y, z] in mm");
   ThreePoints points_m;
   for (std::size_t i = 0; i < 3; ++i) points_m[i] = metres(1.0) * node.list(3)[i].vector3();
@@ -67,14 +70,14 @@ TaughtPoints read_local_frame(const YamlNode& node, const Robot& robot, const st
                        metres(tolerance ? tolerance->positive() : kTolerance_mm));
 }
 
-RawSet read_set(const YamlNode& node, const Chain& arm, const std::optional<CordInstrument>& cords) {
+RawSet read_set(const YamlNode& node, const Robot& robot, const std::optional<CordInstrument>& cords) {
   node.with_keys({"set", "joints", "points", "poses", "pose_points", "readings"});
   RawSet set;
   set.set = node.at("set").one_of<PoseSet>(
       {{"calibration", PoseSet::calibration}, {"validation", PoseSet::validation}, {"accept", PoseSet::accept}});
-  set.joints = read_points(node.at("joints"), arm);
+  set.joints = read_points(node.at("joints"), robot);
   set.points = text_at(node, "points");
-  if (const YamlNode* poses = node.find("poses")) set.poses = read_points(*poses, arm);
+  if (const YamlNode* poses = node.find("poses")) set.poses = read_points(*poses, robot);
   set.pose_points = text_at(node, "pose_points");
   set.readings = read_readings_at(node.at("readings"), cords);
   return set;
@@ -148,7 +151,7 @@ RawMeasurements load_preparation(const std::filesystem::path& path) {
   }
   const YamlNode& sets = root.at("sets");
   if (sets.list().empty()) sets.fail("", "must name one set of measurements at least");
-  for (const YamlNode& set : sets.children) raw.sets.push_back(read_set(set, raw.robot.chain, cords));
+  for (const YamlNode& set : sets.children) raw.sets.push_back(read_set(set, raw.robot, cords));
   return raw;
 }
 

@@ -67,6 +67,10 @@ int frame_number(double value) {
   return value >= 0.0 && value <= kMost && value == std::floor(value) ? static_cast<int>(value) : -1;
 }
 
+std::string numbered_name(bool of_tool, int number) {
+  return (of_tool ? "TOOL_DATA[" : "BASE_DATA[") + std::to_string(number) + ']';
+}
+
 bool is_line(const std::string& word) {
   return word == "lin" || word == "circ" || word == "slin" || word == "scirc";
 }
@@ -113,7 +117,7 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
     const std::size_t sign = text_.skip_spaces(std::min(close + 1, code.size()));
     if (!number || text_.next(sign) != '=' || text_.next(sign + 1) != '{') return;
     const auto frame = frame_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
-    const std::string name = word + '[' + std::to_string(frame_number(number->value)) + ']';
+    const std::string name = numbered_name(word == "tool_data", frame_number(number->value));
     auto& data = word == "tool_data" ? tool_data_ : base_data_;
     declare(data, frame_number(number->value), frame ? KnownFrame{name, *frame, ""} : KnownFrame::computed(name));
   } else if (word == "fdat") {
@@ -131,7 +135,7 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
 }
 
 KnownFrame KrlFrames::numbered(bool of_tool, int number) const {
-  const std::string name = (of_tool ? "TOOL_DATA[" : "BASE_DATA[") + std::to_string(number) + ']';
+  const std::string name = numbered_name(of_tool, number);
   if (number == 0) return {of_tool ? "flange" : "base", Eigen::Isometry3d::Identity(), ""};
   const auto& data = of_tool ? tool_data_ : base_data_;
   const auto found = data.find(number);

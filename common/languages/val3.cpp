@@ -1,6 +1,6 @@
-// Staubli VAL3 data (.dtx): jointRx (j1 to j6 in degrees) and pointRx (x, y, z in mm and rx, ry, rz in degrees, turns
-// about x, the new y and the new z). A point hangs on a frame of the file, or on the world, which is the arm's base.
-// What the program text (.pgx) does with them is not read.
+// Staubli VAL3: jointRx (j1 to j6 in degrees) and pointRx (x, y, z in mm and rx, ry, rz in degrees, turns about x, the
+// new y and the new z) of data files (.dtx). A point hangs on a frame of the data, or on the world, which is the arm's
+// base. Programs (.pgx), where they are given, tell the tools, and what is not as the data have it.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
 #include "languages/val3_data.hpp"
+#include "languages/val3_program.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -33,16 +35,23 @@ constexpr int kDeepestFrame = 20;
 class Val3Reader {
  public:
   explicit Val3Reader(const ReaderInput& input)
-      : text_(input.source, {}), arm_(input.arm), controller_(input.controller), values_(val3_values(text_)) {
+      : text_(input.source, {}),
+        arm_(input.arm),
+        controller_(input.controller),
+        values_(val3_values(text_)),
+        statements_(text_) {
     require_six_joints(input.arm, input.source.file(), "VAL3");
     for (const Val3Value& value : values_) {
-      if (value.type == "frame") frames_.try_emplace(value.name, &value);
-      if (value.type == "tool") tools_.push_back(&value);
+      if (value.type == "frame") frames_[value.name].push_back(&value);
+      if (value.type == "tool") tools_[value.name].push_back(&value);
     }
   }
 
   Program read() {
-    const KnownFrame tool = only_tool();
+    for (const auto& [begin, what] : statements_.computed())
+      skip_target(program_, {.name = "", .place = text_.place(begin)},
+                  "a motion goes to '" + what + "', which is computed when the program runs");
+    say_what_is_not_given();
     for (const Val3Value& value : values_) {
       const bool of_joints = value.type == "jointRx";
       if (!of_joints && value.type != "pointRx") continue;
@@ -50,15 +59,44 @@ class Val3Reader {
       const auto cells = of_joints ? numbers(value, kJointAttributes, joint_units(arm_), target)
                                    : numbers(value, kPointAttributes, point_units(), target);
       if (!cells) continue;
+      if (const std::string why = statements_.changed(value.name); !why.empty()) {
+        skip_target(program_, target, why);
+        continue;
+      }
       of_joints ? static_cast<void>(target.joints = *cells) : take_point(value, *cells, target);
-      if (!tools_.empty()) set_tool(target.frames, tool);
-      target.order = value.begin;
+      take_motions(value, target);
       program_.targets.push_back(std::move(target));
     }
     return std::move(program_);
   }
 
  private:
+  /// Says where programs move to values that no data file gives.
+  void say_what_is_not_given() {
+    std::set<std::string> given;
+    for (const Val3Value& value : values_) {
+      given.insert(value.name);
+      given.insert(value.name.substr(0, value.name.find('[')));
+    }
+    for (const auto& [name, begin] : statements_.moved_to()) {
+      if (!given.contains(name))
+        skip_target(program_, {.name = name, .place = text_.place(begin)}, "it is not given in this program");
+    }
+  }
+
+  /// The tools and the order of the motions to the target; without any, the only tool there is.
+  void take_motions(const Val3Value& value, Target& target) const {
+    target.order = value.begin;
+    std::vector<TargetUse> uses;
+    for (const Val3Motion& motion : statements_.motions(value.name)) {
+      TargetUse use{motion.begin, motion.motion, target.frames};
+      set_tool(use.frames, motion.tool.empty() ? KnownFrame::computed("the motion's tool") : tool(motion.tool));
+      uses.push_back(std::move(use));
+    }
+    if (!uses.empty()) return take_uses(uses, target);
+    if (!tools_.empty()) set_tool(target.frames, only_tool());
+  }
+
   static std::vector<CellUnit> point_units() {
     return {kMillimetres, kMillimetres, kMillimetres, kOwnAngle, kOwnAngle, kOwnAngle};
   }
@@ -125,29 +163,43 @@ class Val3Reader {
     return pose;
   }
 
-  KnownFrame frame(const std::string& name, int depth) const {
-    const auto found = frames_.find(name);
-    if (found == frames_.end()) return controller_.frame(name, "frame " + name);
-    const auto pose = transform(*found->second);
-    if (!pose || depth > kDeepestFrame)
-      return {name, Eigen::Isometry3d::Identity(), "frame " + name + " is not given as numbers in this file"};
-    const std::string father = word(*found->second, "fatherId");
-    if (is_world(father)) return {name, *pose, ""};
-    KnownFrame known = frame(father, depth + 1);
-    return {name, known.pose * *pose, known.unknown};
+  /// What of this name `declared` has, if it is one value that no program changes.
+  KnownFrame declared(const std::map<std::string, std::vector<const Val3Value*>>& values, const std::string& name,
+                      const std::string& what) const {
+    const std::vector<const Val3Value*>& found = values.at(name);
+    const std::string changed = statements_.changed(name);
+    const auto pose = transform(*found.front());
+    if (!pose) return KnownFrame::computed(what);
+    return {name, *pose,
+            found.size() > 1   ? what + " is given more than once"
+            : !changed.empty() ? what + " is not known: " + changed
+                               : ""};
   }
 
-  /// The file's tool, where it is the only one: which is meant stands in the program text.
+  KnownFrame frame(const std::string& name, int depth) const {
+    if (!frames_.contains(name)) return controller_.frame(name, "frame " + name);
+    KnownFrame own = declared(frames_, name, "frame " + name);
+    const std::string father = word(*frames_.at(name).front(), "fatherId");
+    if (is_world(father) || !own.unknown.empty()) return own;
+    if (depth > kDeepestFrame) return KnownFrame::computed("frame " + name);
+    const KnownFrame below = frame(father, depth + 1);
+    return {name, below.pose * own.pose, below.unknown};
+  }
+
+  KnownFrame tool(const std::string& name) const {
+    if (name == "flange[0]") return {"flange", Eigen::Isometry3d::Identity(), ""};
+    if (!tools_.contains(name)) return controller_.tool(name, "tool " + name);
+    const std::string father = word(*tools_.at(name).front(), "fatherId");
+    if (!father.empty() && father != "flange[0]") return KnownFrame::computed("tool " + name);
+    return declared(tools_, name, "tool " + name);
+  }
+
+  /// The tool of what no motion goes to: the only one, for which is meant stands in programs.
   KnownFrame only_tool() const {
-    if (tools_.empty()) return {};
-    const Val3Value& first = *tools_.front();
-    const auto pose = transform(first);
-    const std::string father = word(first, "fatherId");
-    if (tools_.size() > 1)
-      return {"tool", Eigen::Isometry3d::Identity(),
-              "the file has several tools, and which is meant stands in the program"};
-    if (!pose || (!father.empty() && father != "flange[0]")) return KnownFrame::computed("tool " + first.name);
-    return {first.name, *pose, ""};
+    if (tools_.size() == 1) return tool(tools_.begin()->first);
+    return {"tool", Eigen::Isometry3d::Identity(),
+            statements_.any() ? "there are several tools, and no motion tells which is meant"
+                              : "the file has several tools, and which is meant stands in the program"};
   }
 
   ProgramText text_;
@@ -155,20 +207,21 @@ class Val3Reader {
   const ControllerData& controller_;
   Program program_;
   std::vector<Val3Value> values_;
-  std::map<std::string, const Val3Value*> frames_;
-  std::vector<const Val3Value*> tools_;
+  Val3Statements statements_;
+  std::map<std::string, std::vector<const Val3Value*>> frames_, tools_;
 };
 
 }  // namespace
 
 Language val3_language() {
   return {.name = "val3",
-          .title = "Staubli VAL3 data",
-          .file_endings = {"dtx"},
-          .signs = {"val3/data"},
+          .title = "Staubli VAL3",
+          .file_endings = {"dtx", "pgx"},
+          .signs = {"val3/data", "val3/program"},
           .comment = "<!--",
           .comment_end = " -->",
           .headers = {"<?xml"},
+          .of_several_files = true,
           .read = [](const ReaderInput& input) { return Val3Reader(input).read(); }};
 }
 

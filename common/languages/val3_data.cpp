@@ -58,19 +58,24 @@ class TagReader {
   std::string_view bytes_;
 };
 
+/// Where the code that begins at `begin` ends: before </Code>, and behind what stands in a CDATA section.
+std::size_t end_of_code(std::string_view bytes, std::size_t begin) {
+  const std::size_t section = bytes.find_first_not_of(kBlanks, begin);
+  if (section < bytes.size() && bytes.substr(section).starts_with("<![CDATA[")) begin = bytes.find("]]>", section);
+  return std::min(bytes.find("</Code>", std::min(begin, bytes.size())), bytes.size());
+}
+
 std::string text_of(const ProgramText& text, const Tag& tag, const std::string& attribute) {
   const auto found = tag.attributes.find(attribute);
   if (found == tag.attributes.end()) return "";
   return std::string(text.text().substr(found->second.begin, found->second.size));
 }
 
-}  // namespace
-
-std::vector<Val3Value> val3_values(const ProgramText& text) {
+/// Calls visit(tag, begin) with every tag that is neither in a comment nor in code.
+template <typename Visit>
+void for_each_tag(const ProgramText& text, const Visit& visit) {
   const std::string_view bytes = text.text();
   const TagReader reader(text);
-  std::vector<Val3Value> values;
-  std::string name, type;
   for (std::size_t at = bytes.find('<'); at < bytes.size(); at = bytes.find('<', at)) {
     const std::size_t passed = std::max(reader.past(at, "<!--", "-->"), reader.past(at, "<![CDATA[", "]]>"));
     if (passed > at) {
@@ -78,6 +83,17 @@ std::vector<Val3Value> val3_values(const ProgramText& text) {
       continue;
     }
     const Tag tag = reader.tag(at);
+    visit(tag, at);
+    at = tag.name == "Code" ? end_of_code(bytes, tag.end) : tag.end;
+  }
+}
+
+}  // namespace
+
+std::vector<Val3Value> val3_values(const ProgramText& text) {
+  std::vector<Val3Value> values;
+  std::string name, type;
+  for_each_tag(text, [&](const Tag& tag, std::size_t at) {
     if (tag.name == "Data") {
       name = text_of(text, tag, "name");
       type = text_of(text, tag, "type");
@@ -87,9 +103,19 @@ std::vector<Val3Value> val3_values(const ProgramText& text) {
       const std::string key = text_of(text, tag, "key");
       values.push_back({name + '[' + (key.empty() ? "0" : key) + ']', type, at, tag.attributes});
     }
-    at = tag.end;
-  }
+  });
   return values;
+}
+
+std::vector<Val3Code> val3_programs(const ProgramText& text) {
+  std::vector<Val3Code> programs;
+  std::set<std::string> locals;
+  for_each_tag(text, [&](const Tag& tag, std::size_t) {
+    if (tag.name == "Program") locals.clear();
+    if (tag.name == "Parameter" || tag.name == "Local") locals.insert(text_of(text, tag, "name"));
+    if (tag.name == "Code") programs.push_back({tag.end, end_of_code(text.text(), tag.end), locals});
+  });
+  return programs;
 }
 
 }  // namespace demecal::inline languages

@@ -20,8 +20,10 @@
 #include "expression/text.hpp"
 #include "fitting/declared_model.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/program.hpp"
+#include "languages/program_source.hpp"
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -104,8 +106,10 @@ std::string CalibratedArm::correct_program(const std::string& text, const std::s
   const CommandModel commands = to_command_model(model);
   const Language& language = recognized_language(text, file);
   const Circumstances circumstances{.near = model.nominal.home};
+  const ControllerData controller{.pulses_per_deg = model.nominal.pulses_per_deg};
   const CorrectedProgram corrected = demecal::correct_program(
-      text, read_program(language, text, file, commands.nominal.chain), commands, circumstances);
+      text, read_program(language, ProgramSource(text, file), commands.nominal.chain, controller), commands,
+      circumstances);
   if (warnings != nullptr) {
     for (const Remark& warning : corrected.warnings) warnings->push_back(warning_text(corrected, warning));
   }

@@ -87,6 +87,16 @@ class AcceptedKeys {
                                                                                      : key));
   }
 
+  /// The path with the page's word for keys that the user chose on the way.
+  std::string within_open_maps(std::string path) const {
+    for (const auto& [map, word] : file_.open_maps) {
+      if (!path.starts_with(map + '.')) continue;
+      const std::size_t begin = map.size() + 1, end = std::min(path.find('.', begin), path.size());
+      path.replace(begin, end - begin, word);
+    }
+    return path;
+  }
+
   void ask(const YamlNode& node, const YamlNode& root, const std::string& name) {
     if (node.kind == YamlNode::Kind::map) ask_map(node, root, name);
     if (node.key.empty() || node.key != file_.included) {
@@ -96,7 +106,7 @@ class AcceptedKeys {
 
   void ask_map(const YamlNode& node, const YamlNode& root, const std::string& name) {
     if (!node.key.empty() && node.key == file_.included) return;
-    const std::string map = page_path(node.key);
+    const std::string map = within_open_maps(page_path(node.key));
     for (const YamlNode& child : node.children) present_.insert(named(map, child.name));
     const auto allowed = keys_allowed(flow_text(root, node.key), name);
     EXPECT_EQ(allowed.has_value(), !file_.open_maps.contains(map)) << name << ": the map '" << node.key << "'";

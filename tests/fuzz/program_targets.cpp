@@ -79,7 +79,11 @@ std::vector<Target> program_targets() {
            "name='p' type='pointRx'><Value key='1' x='1' y='2' z='3' rx='4' ry='5' rz='6' "
            "fatherId='f[0]'/></Data></Datas>\n",
            "<Data name=\"j\" type=\"jointRx\"><Value j1=\"1\" j2=\"2\" j3=\"3\" j4=\"4\" j5=\"5\" j6=\"6\"/></Data>"
-           "<!-- --><![CDATA[ < ]]>"})};
+           "<!-- --><![CDATA[ < ]]>",
+           "<Data name=\"p\" type=\"pointRx\"><Value x=\"1\" y=\"2\" z=\"3\" rx=\"4\" ry=\"5\" rz=\"6\"/></Data>"
+           "<Program name=\"a\"><Local name=\"l\"/><Code><![CDATA[begin\n movec(p,l,t[n],m)\n "
+           "p.trf.x=f(g(p[1]))\nend]]>"
+           "</Code></Program>"})};
 }
 
 }  // namespace demecal::fuzz

@@ -125,7 +125,9 @@ const std::vector<std::pair<WrittenIn, std::string>>& stating_programs() {
        "shoulder='lefty' elbow='epositive' wrist='wpositive' fatherId='f[0]'/><Value key='2' x='1' "
        "fatherId='p'/></Data>\n"
        "<Data name=\"t\" type=\"tool\"><Value key=\"0\" z=\"150\"/></Data><!-- -->\n<![CDATA[ <Data> "
-       "]]></Datas></Database>\n"}};
+       "]]></Datas></Database>\n<Programs><Program name=\"a\"><Parameter name=\"x\"/><Code><![CDATA[begin\n movej(p[1],"
+       "t,m) // movel(p[1],t,m)\n movel(appro(p[n],{0,0,-5,0,0,0}),t[0],m)\n f[0].trf.x=3\n call go(p[\"1\"],x)\n"
+       "end]]></Code></Program></Programs>\n"}};
   return programs;
 }
 

@@ -119,6 +119,72 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
   EXPECT_EQ(applied.apply("g.txt", "hello\n").code, 11);
 }
 
+TEST(Apply, WritesTheFilesOfAProgramIntoAFolder) {
+  Applied applied;
+  const std::string source = "DEF a()\nPTP XP1\nEND\n";
+  const std::string data = "DEFDAT a\nDECL E6AXIS XP1={A1 40.0,A2 -30.5,A3 140.0,A4 5.0,A5 -50.0,A6 10.25}\nENDDAT\n";
+  std::ofstream(applied.path("a.dat"), std::ios::binary) << data;
+  const std::vector<std::string> with{"--with", applied.path("a.dat")};
+  const Ended alone = applied.apply("a.src", source);
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  EXPECT_NE(alone.err.find("a.src: a.dat beside it, which usually belongs to the program, was not read"),
+            std::string::npos)
+      << alone.err;
+  const Ended both = applied.apply("a.src", source, with, "corrected");
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_EQ(both.err.find("beside it"), std::string::npos) << both.err;
+  EXPECT_NE(both.out.find("a.dat:2: XP1"), std::string::npos) << both.out;
+  EXPECT_EQ(applied.text("corrected/a.src"), source);
+  const std::string corrected = applied.text("corrected/a.dat");
+  EXPECT_TRUE(corrected.starts_with("DEFDAT a\n; corrected by demecal ")) << corrected;
+  EXPECT_EQ(corrected.find("A1 40.0,"), std::string::npos) << corrected;
+
+  EXPECT_EQ(applied.apply("a.src", source, with, "corrected").code, 0) << "ours may be written again";
+  EXPECT_EQ(applied.apply("a.src", source, with, ".").code, 10) << "the folder of the program itself";
+  EXPECT_EQ(applied.text("a.dat"), data);
+  EXPECT_EQ(applied.apply("a.src", source, with, "new-a.src").code, 10) << "a file";
+  EXPECT_EQ(applied.apply("a.src", source, {"--with", applied.path("a.src")}, "twice").code, 10);
+  EXPECT_EQ(applied.apply("a.src", source, {"--with", applied.path("b.dat")}, "lacking").code, 11);
+  const Ended again = applied.apply("a.src", source, {"--with", applied.path("corrected/a.dat")}, "again");
+  EXPECT_EQ(again.code, 11);
+  EXPECT_NE(again.err.find("corrected/a.dat:2: "), std::string::npos) << again.err;
+  std::ofstream(applied.path("corrected/a.dat"), std::ios::binary) << "another's\n";
+  EXPECT_EQ(applied.apply("a.src", source, with, "corrected").code, 10);
+  EXPECT_EQ(applied.text("corrected/a.dat"), "another's\n");
+  EXPECT_EQ(applied.apply("a.csv", kCsv, with, "tables").code, 11) << "a table is one file";
+}
+
+TEST(Apply, TakesFramesToolsAndPulsesThatTheControllerKeeps) {
+  Applied applied;
+  const std::string tool =
+      "/PROG  A\n/MN\n/POS\nP[1]{\n   GP1:\n\tUF : 0, UT : 2,\n\tJ1= 40.0 deg, J2= -30.5 deg, J3= 140.0 deg,\n\t"
+      "J4= 5.0 deg, J5= -50.0 deg, J6= 10.25 deg\n};\n/END\n";
+  const Ended unknown = applied.apply("a.ls", tool);
+  EXPECT_EQ(unknown.code, 0) << unknown.err;
+  EXPECT_NE(unknown.err.find("a.ls:4: P[1]: UT 2 is given neither in this program nor by --frames"), std::string::npos)
+      << unknown.err;
+  EXPECT_EQ(applied.result("a.ls"), tool);
+  std::ofstream(applied.path("frames.yaml")) << "demecal_frames: 1\ntools:\n  2: {xyz_mm: [0, 0, 100], rpy_deg: [0, 0, "
+                                                "0]}\n";
+  const Ended known = applied.apply("a.ls", tool, {"--frames", applied.path("frames.yaml")});
+  EXPECT_EQ(known.code, 0) << known.err;
+  EXPECT_NE(applied.result("a.ls"), tool) << known.err;
+  EXPECT_EQ(applied.apply("a.ls", tool, {"--frames", applied.path("a.ls")}).code, 11);
+
+  const std::string job =
+      "/JOB\n//POS\n///PULSE\nC00001=40000,-30500,140000,5000,-50000,10250\n//INST\nNOP\nMOVJ "
+      "C00001 VJ=5.00\nEND\n";
+  const Ended pulses = applied.apply("a.jbi", job);
+  EXPECT_NE(pulses.err.find("a.jbi:4: C00001: it is in pulses"), std::string::npos) << pulses.err;
+  EXPECT_EQ(applied.result("a.jbi"), job);
+  const Ended counted = applied.apply("a.jbi", job, {"--json", "--pulses-per-deg", "1000,1000,1000,1000,1000,1000"});
+  ASSERT_EQ(counted.code, 0) << counted.err;
+  EXPECT_NEAR(Json::parse(counted.out)["targets"][0]["nominal"][1].get<double>(), -30.5, 1e-9);
+  EXPECT_NE(applied.result("a.jbi"), job);
+  EXPECT_EQ(applied.apply("a.jbi", job, {"--pulses-per-deg", "1000,1000"}).code, 10);
+  EXPECT_EQ(applied.apply("a.jbi", job, {"--pulses-per-deg", "1000,1000,1000,1000,1000,0"}).code, 10);
+}
+
 TEST(Apply, ADeclaredHomeTellsTheConfigurationAsNearDoes) {
   Applied applied;
   const std::string unknown = "the arm's configuration is not known", home = "40,-30,188,0,-60,-136";

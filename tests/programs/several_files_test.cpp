@@ -127,6 +127,39 @@ TEST(SeveralFiles, StayByteForByteUnderANeutralModel) {
   }
 }
 
+TEST(SeveralFiles, OfVal3GiveThePointsTheToolsOfTheirMotions) {
+  RandomStream stream{7605};
+  const auto numbers = [](const Eigen::Isometry3d& pose) {
+    return enclosed({" x=\"", " y=\"", " z=\"", " rx=\"", " ry=\"", " rz=\""},
+                    six_numbers(pose, pose.linear().eulerAngles(0, 1, 2)), 9, "\"");
+  };
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    const CommandModel model = erring_model(stream, elbow_arm(stream));
+    const std::vector<Eigen::Isometry3d> tools{random_pose(stream), random_pose(stream)};
+    std::string points = "<Data name=\"p\" type=\"pointRx\">\n", motions;
+    JointVector near;
+    for (int point = 0; point < 3; ++point) {
+      const JointVector joints = regular_joints(stream, model.nominal.chain);
+      if (point == 0) near = joints;
+      const std::string key = std::to_string(point);
+      points += "<Value key=\"" + key + '"' + numbers(forward(model.nominal.chain, joints) * tools[1]) + "/>\n";
+      motions += "movej(p[" + key + "], t[1], m)\n";
+    }
+    points += "</Data>\n";
+    const std::string one_tool = "<Data name=\"t\" type=\"tool\"><Value key=\"1\"" + numbers(tools[1]) + "/></Data>\n";
+    const std::string two_tools = "<Data name=\"t\" type=\"tool\"><Value key=\"0\"" + numbers(tools[0]) +
+                                  "/><Value key=\"1\"" + numbers(tools[1]) + "/></Data>\n";
+    const std::string code = "<Program name=\"start\"><Code><![CDATA[begin\n" + motions + "end]]></Code></Program>\n";
+    const ProgramSource several(std::vector<ProgramFile>{{"a.dtx", points + two_tools}, {"start.pgx", code}});
+    const CorrectedProgram told = corrected_of(several, WrittenIn::val3, model, near);
+    const CorrectedProgram one = corrected_of(ProgramSource(points + one_tool, "a.dtx"), WrittenIn::val3, model, near);
+    EXPECT_THAT(texts_by_name(told), SizeIs(3));
+    EXPECT_EQ(texts_by_name(told), texts_by_name(one));
+    EXPECT_NE(corrected_files(several, told).at(0), points + two_tools);
+    EXPECT_EQ(corrected_files(several, told).at(1), code);
+  }
+}
+
 const std::string kPoint = "={X 10,Y 0,Z 0,A 0,B 0,C 0,S 2,T 2}\n";
 
 Program krl_program(const std::vector<ProgramFile>& files) {
@@ -203,7 +236,7 @@ TEST(SeveralFiles, AreNamedWhereSomethingIsWrongAndInSummaries) {
     krl_program({{"a.src", "LIN XP1\n"}, {"a.dat", "\nE6POS XP1={X 1,Y 2,Z x3..,A 0,B 0,C 0}\n"}});
     ADD_FAILURE() << "no fault";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("a.dat:2: 'x3..': must be a number (column 21)"));
+    EXPECT_THAT(error.what(), HasSubstr("a.dat:2: 'x3..': must be a number (column 22)"));
   }
   const ProgramSource tables(std::vector<ProgramFile>{{"a.csv", "q1_deg\n1\n"}, {"b.csv", "q1_deg\n1\n"}});
   EXPECT_THROW(read_program(row_of(WrittenIn::csv), tables, wrist_arm()), InputError);

@@ -1,0 +1,229 @@
+#include "languages/val3_program.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace demecal::inline languages {
+namespace {
+
+/// Functions that leave these of their arguments, from 0, as they are.
+bool keeps_argument(std::string_view function, std::size_t argument) {
+  struct Kept {
+    std::string_view function;
+    std::size_t arguments;
+  };
+  constexpr std::array<Kept, 8> kKept{{{"appro", 1},
+                                       {"compose", 2},
+                                       {"here", 2},
+                                       {"jointToPoint", 3},
+                                       {"pointToJoint", 3},
+                                       {"distance", 2},
+                                       {"open", 1},
+                                       {"close", 1}}};
+  return std::any_of(kKept.begin(), kKept.end(),
+                     [&](const Kept& kept) { return kept.function == function && argument < kept.arguments; });
+}
+
+/// The code of the programs without comments; all else is blank.
+std::string bare_code(const ProgramText& text, const std::vector<Val3Code>& programs) {
+  constexpr std::string_view kOpening = "<![CDATA[", kClosing = "]]>";
+  const std::string_view all = text.code();
+  std::string bare(all.size(), ' ');
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] == '\n' || all[i] == '\r') bare[i] = all[i];
+  }
+  for (const Val3Code& program : programs) {
+    for (std::size_t at = program.begin; at < program.end; ++at) {
+      const std::string_view rest = all.substr(at, program.end - at);
+      if (rest.starts_with("//")) {
+        at = std::min(all.find('\n', at), program.end);
+      } else if (rest.starts_with(kOpening)) {
+        at += kOpening.size() - 1;
+      } else if (rest.starts_with(kClosing)) {
+        at += kClosing.size() - 1;
+      } else {
+        bare[at] = all[at];
+      }
+    }
+  }
+  return bare;
+}
+
+/// "pPick" of "pPick[2]".
+std::string without_index(const std::string& name) {
+  return name.substr(0, name.find('['));
+}
+
+}  // namespace
+
+Val3Statements::Val3Statements(const ProgramText& text)
+    : text_(text), bare_(bare_code(text, val3_programs(text)), text.source().file()), code_(bare_, {}) {
+  for (const Val3Code& program : val3_programs(text)) {
+    any_ = true;
+    locals_ = &program.locals;
+    read(program.begin, program.end, "");
+  }
+  locals_ = nullptr;
+}
+
+/// Reads [begin, end); `use`: the function whose argument it is, empty where names may be assigned to.
+void Val3Statements::read(std::size_t begin, std::size_t end, const std::string& use) {
+  constexpr int kDeepest = 20;
+  if (++depth_ > kDeepest) text_.fail(begin, 1, "is nested too deeply");
+  for (std::size_t at = begin; at < end;) {
+    if (!code_.begins_word(at) || (at > begin && code_.code()[at - 1] == '.')) {
+      ++at;
+      continue;
+    }
+    const std::size_t open = code_.skip_spaces(code_.word_end(at));
+    const bool call = open < end && code_.code()[open] == '(';
+    at = call ? read_call(at, open, end) : read_reference(at, end, use);
+  }
+  --depth_;
+}
+
+/// Takes a name that no motion is given: as changed, unless `use` is "kept". Returns where to go on.
+std::size_t Val3Statements::read_reference(std::size_t begin, std::size_t end, const std::string& use) {
+  const Reference found = reference(begin, end);
+  const std::size_t next = code_.skip_spaces(found.end);
+  const bool assigned = use.empty() && code_.next(next) == '=' && !code_.code().substr(next).starts_with("==");
+  if (!found.name.empty() && use != "kept") {
+    const std::string why = assigned      ? "the program changes it"
+                            : use.empty() ? "the program computes with it"
+                                          : "the program uses it in " + use + "(), which is not followed";
+    changed_.try_emplace(found.name, why);
+  }
+  const std::size_t index = code_.code().find('[', begin);
+  if (index < found.end) read(index + 1, found.end, "an index");
+  return std::max(found.end, begin + 1);
+}
+
+std::size_t Val3Statements::read_call(std::size_t begin, std::size_t open, std::size_t end) {
+  const std::string function(code_.code().substr(begin, code_.word_end(begin) - begin));
+  const std::size_t close = close_of(open, end);
+  const std::vector<Argument> given = arguments(open, close);
+  if (function == "movej" || function == "movel" || function == "movec") {
+    read_motion(function, begin, given);
+  } else {
+    for (std::size_t i = 0; i < given.size(); ++i)
+      read(given[i].begin, given[i].end, keeps_argument(function, i) ? "kept" : function);
+  }
+  return close + 1;
+}
+
+void Val3Statements::read_motion(const std::string& word, std::size_t begin, const std::vector<Argument>& given) {
+  const std::size_t goals = word == "movec" ? 2 : 1;
+  Val3Motion motion{begin, word == "movej" ? Motion::joints : Motion::line, ""};
+  if (given.size() > goals) motion.tool = only_reference(given[goals]).name;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (i < goals) {
+      read_goal(given[i], motion);
+    } else if (i > goals || motion.tool.empty()) {
+      read(given[i].begin, given[i].end, "kept");
+    }
+  }
+}
+
+/// A goal is a value of the data, or near one: appro(pPick, ...).
+void Val3Statements::read_goal(const Argument& argument, const Val3Motion& motion) {
+  Reference goal = only_reference(argument);
+  const std::size_t begin = code_.skip_spaces(argument.begin);
+  if (goal.name.empty() && begin < argument.end) {
+    const std::size_t word_end = std::min(code_.word_end(begin), argument.end);
+    const std::string written(text_.text().substr(begin, std::min<std::size_t>(argument.end - begin, 40)));
+    const std::size_t open = code_.skip_spaces(word_end);
+    read(argument.begin, argument.end, "kept");
+    computed_.emplace(begin, written);
+    if (code_.code().substr(begin, word_end - begin) != "appro" || open >= argument.end) return;
+    const std::vector<Argument> near = arguments(open, close_of(open, argument.end));
+    if (near.empty() || only_reference(near.front()).name.empty()) return;
+    computed_.erase(begin);
+    motions_[only_reference(near.front()).name].push_back({motion.begin, Motion::joints, motion.tool});
+    return;
+  }
+  if (goal.name.empty()) return;
+  motions_[goal.name].push_back(motion);
+  moved_to_.try_emplace(goal.name, motion.begin);
+}
+
+/// NAME, NAME[index], and what is taken of it; no name where it is one of the program's own or a number.
+Val3Statements::Reference Val3Statements::reference(std::size_t begin, std::size_t end) const {
+  const std::string_view code = code_.code();
+  Reference found{"", std::min(code_.word_end(begin), end), true};
+  const std::string name(code.substr(begin, found.end - begin));
+  std::string index = "[0]";
+  std::size_t next = code_.skip_spaces(found.end);
+  if (next < end && code[next] == '[') {
+    const std::size_t close = std::min(code.find(']', next), end);
+    std::string inside(text_.text().substr(next + 1, close - std::min(close, next + 1)));
+    std::erase_if(inside, [](char letter) { return letter == ' ' || letter == '\t'; });
+    const bool quoted = inside.size() > 1 && inside.front() == '"' && inside.back() == '"';
+    const bool number = !inside.empty() && std::all_of(inside.begin(), inside.end(), is_digit);
+    index = quoted ? '[' + inside.substr(1, inside.size() - 2) + ']' : number ? '[' + inside + ']' : "";
+    found.end = std::min(close + 1, end);
+    next = code_.skip_spaces(found.end);
+  }
+  while (next < end && code[next] == '.') {
+    found.whole = false;
+    found.end = std::max(std::min(code_.word_end(code_.skip_spaces(next + 1)), end), next + 1);
+    next = code_.skip_spaces(found.end);
+  }
+  if (locals_ == nullptr || !locals_->contains(name)) found.name = name + index;
+  return found;
+}
+
+Val3Statements::Reference Val3Statements::only_reference(const Argument& argument) const {
+  const std::size_t begin = code_.skip_spaces(argument.begin);
+  if (begin >= argument.end || !code_.begins_word(begin)) return {};
+  Reference found = reference(begin, argument.end);
+  if (code_.skip_spaces(found.end) < argument.end || !found.whole) return {};
+  return found;
+}
+
+std::vector<Val3Statements::Argument> Val3Statements::arguments(std::size_t open, std::size_t close) const {
+  std::vector<Argument> found;
+  int depth = 0;
+  std::size_t begin = open + 1;
+  for (std::size_t at = open + 1; at < close; ++at) {
+    const char letter = code_.code()[at];
+    depth += letter == '(' || letter == '[' || letter == '{'   ? 1
+             : letter == ')' || letter == ']' || letter == '}' ? -1
+                                                               : 0;
+    if (letter != ',' || depth != 0) continue;
+    found.push_back({begin, at});
+    begin = at + 1;
+  }
+  if (code_.skip_spaces(begin) < close || !found.empty()) found.push_back({begin, std::max(begin, close)});
+  return found;
+}
+
+/// The parenthesis that closes what opens at `open`, or `end`.
+std::size_t Val3Statements::close_of(std::size_t open, std::size_t end) const {
+  int depth = 0;
+  for (std::size_t at = open; at < end; ++at) {
+    const char letter = code_.code()[at];
+    depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
+    if (depth == 0) return at;
+  }
+  return end;
+}
+
+std::vector<Val3Motion> Val3Statements::motions(const std::string& name) const {
+  std::vector<Val3Motion> found;
+  for (const std::string& key : {name, without_index(name)}) {
+    if (const auto motions = motions_.find(key); motions != motions_.end())
+      found.insert(found.end(), motions->second.begin(), motions->second.end());
+  }
+  return found;
+}
+
+std::string Val3Statements::changed(const std::string& name) const {
+  for (const std::string& key : {name, without_index(name)}) {
+    if (const auto found = changed_.find(key); found != changed_.end()) return found->second;
+  }
+  return "";
+}
+
+}  // namespace demecal::inline languages

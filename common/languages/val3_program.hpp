@@ -1,0 +1,77 @@
+// Staubli VAL3: what programs (.pgx) do with the points, joints, frames and tools of the data: to which they move, with
+// which tool, and which they change.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "languages/program.hpp"
+#include "languages/program_source.hpp"
+#include "languages/program_text.hpp"
+#include "languages/val3_data.hpp"
+
+namespace demecal::inline languages {
+
+/// A motion to a point or to joints of the data.
+struct Val3Motion {
+  std::size_t begin = 0;  ///< of the motion in the text
+  Motion motion = Motion::joints;
+  std::string tool{};  ///< "tGrip[0]"; empty: it is computed
+};
+
+/// Reads the code of all programs. Names are those of val3_values(): "pPick[2]", and "pPick[0]" of pPick alone; an
+/// index that is computed speaks of every value of its name. What is used in a way that is not known to leave it as it
+/// is, is taken to be changed.
+class Val3Statements {
+ public:
+  explicit Val3Statements(const ProgramText& text);
+  Val3Statements(const Val3Statements&) = delete;
+  Val3Statements& operator=(const Val3Statements&) = delete;
+
+  /// Whether there is any code.
+  bool any() const { return any_; }
+  std::vector<Val3Motion> motions(const std::string& name) const;
+  /// Why the value need not be that of the data when it is used, as "the program changes it"; empty: it is.
+  std::string changed(const std::string& name) const;
+  /// All values that motions go to, and where the first of each stands; of a computed index the name without it.
+  const std::map<std::string, std::size_t>& moved_to() const { return moved_to_; }
+  /// Where motions go to what is computed, and what that is.
+  const std::map<std::size_t, std::string>& computed() const { return computed_; }
+
+ private:
+  struct Reference {
+    std::string name{};  ///< with its index, if that is known; empty: none
+    std::size_t end = 0;
+    bool whole = false;  ///< nothing of it is taken, as by .trf
+  };
+  struct Argument {
+    std::size_t begin, end;
+  };
+
+  void read(std::size_t begin, std::size_t end, const std::string& use);
+  std::size_t read_reference(std::size_t begin, std::size_t end, const std::string& use);
+  std::size_t read_call(std::size_t begin, std::size_t open, std::size_t end);
+  void read_motion(const std::string& word, std::size_t begin, const std::vector<Argument>& arguments);
+  void read_goal(const Argument& argument, const Val3Motion& motion);
+  Reference reference(std::size_t begin, std::size_t end) const;
+  /// The reference that the argument is, and nothing else.
+  Reference only_reference(const Argument& argument) const;
+  std::vector<Argument> arguments(std::size_t open, std::size_t close) const;
+  std::size_t close_of(std::size_t open, std::size_t end) const;
+
+  const ProgramText& text_;
+  ProgramSource bare_;  ///< the code without comments, all else blank, every byte where it stood
+  ProgramText code_;
+  const std::set<std::string>* locals_ = nullptr;  ///< names of the program that is read, which hide those of the data
+  int depth_ = 0;                                  ///< of brackets
+  bool any_ = false;
+  std::map<std::string, std::vector<Val3Motion>> motions_;
+  std::map<std::string, std::string> changed_;
+  std::map<std::string, std::size_t> moved_to_;
+  std::map<std::size_t, std::string> computed_;
+};
+
+}  // namespace demecal::inline languages
