@@ -47,8 +47,7 @@ Eigen::VectorXd Information::gradient() {
   return gradient_;
 }
 
-TriangularFactor::TriangularFactor(int columns)
-    : stack_(Eigen::MatrixXd::Zero(columns + kFactorRows, columns)) {}
+TriangularFactor::TriangularFactor(int columns) : stack_(Eigen::MatrixXd::Zero(columns + kFactorRows, columns)) {}
 
 void TriangularFactor::add(
     const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& rows) {

@@ -95,7 +95,8 @@ std::string outliers_line(const Report& report) {
 
 std::string workspace_line(const Report& report) {
   const std::string sentence = report.workspace_error ? workspace_sentence(*report.workspace_error) : "";
-  return sentence.empty() ? sentence : "<p class=\"note\" id=\"workspace-error\">Workspace: " + escaped(sentence) + ".</p>\n";
+  return sentence.empty() ? sentence
+                          : "<p class=\"note\" id=\"workspace-error\">Workspace: " + escaped(sentence) + ".</p>\n";
 }
 
 std::string index_line(const Report& report) {
@@ -202,8 +203,8 @@ std::string stages_section(const Report& report) {
   const std::optional<double> noise_mm = noise_mean_mm(report);
   return section("stages", "Tool error, stage by stage, mm",
                  stage_table(report, stages) + "<div class=\"panel\">\n" + legend(stages, noise_mm.has_value()) +
-                     stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + outliers_line(report) + workspace_line(report) +
-                     index_line(report));
+                     stage_chart(stages, noise_mm) + "</div>\n" + last_fit_line(report) + outliers_line(report) +
+                     workspace_line(report) + index_line(report));
 }
 
 }  // namespace demecal::inline html

@@ -135,18 +135,17 @@ PredictionEntry prediction_entry(const PredictionInterval& interval) {
 
 std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool placed) {
   if (!model.posterior || !model.interval || model.measured.empty()) return {};
-  const WorkspaceError error =
-      workspace_error(*model.posterior, *model.interval, model.robot, model.measured, placed,
-                      RandomStream{model.seed, number_of(RandomPurpose::workspace_places)});
+  const WorkspaceError error = workspace_error(*model.posterior, *model.interval, model.robot, model.measured, placed,
+                                               RandomStream{model.seed, number_of(RandomPurpose::workspace_places)});
   return WorkspaceEntry{if_finite(millimetres(error.rms_m)), if_finite(millimetres(error.p95_m)), !placed};
 }
 
 std::string workspace_sentence(const WorkspaceEntry& error) {
   if (!error.rms_mm || !error.p95_mm) return {};
-  return fmt::format("the tool is predicted to be off by {:.3f} mm (rms), {:.3f} mm in 95 % of cases, with joints "
-                     "anywhere in their measured ranges{}; measurement noise is not in it",
-                     *error.rms_mm, *error.p95_mm,
-                     error.beside_base ? " and the arm as a whole shifted and turned to fit best" : "");
+  return fmt::format(
+      "the tool is predicted to be off by {:.3f} mm (rms), {:.3f} mm in 95 % of cases, with joints "
+      "anywhere in their measured ranges{}; measurement noise is not in it",
+      *error.rms_mm, *error.p95_mm, error.beside_base ? " and the arm as a whole shifted and turned to fit best" : "");
 }
 
 bool follow_each_other(const DataSet& data) {

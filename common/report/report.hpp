@@ -64,7 +64,8 @@ struct PredictionEntry {
 /// The error of the robot's own tool that is predicted over the joints' measured ranges, measurement noise left out.
 struct WorkspaceEntry {
   std::optional<double> rms_mm, p95_mm;
-  bool beside_base = false;  ///< once the arm as a whole is shifted and turned to fit best: nothing told where it stands
+  bool beside_base =
+      false;  ///< once the arm as a whole is shifted and turned to fit best: nothing told where it stands
 };
 
 struct NamedNumber {
