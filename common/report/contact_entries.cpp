@@ -31,10 +31,29 @@ std::size_t fitted_lengths(const DataSet& data) {
   }));
 }
 
-std::size_t calibration_contacts(const DataSet& data) {
-  const auto groups = contact_groups(data);
-  return static_cast<std::size_t>(
-      std::ranges::count_if(groups, [](const auto& group) { return group.first.set == PoseSet::calibration; }));
+/// Where calibration poses touch something, by the model.
+std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const CorrectedRobot& robot) {
+  std::vector<Eigen::Vector3d> places_m;
+  for (const auto& [group, place] : with_own_contacts(robot, data).contacts)
+    if (group.set == PoseSet::calibration) places_m.push_back(place.frame.translation());
+  return places_m;
+}
+
+/// What calibration at one place cannot see; empty where there are several.
+std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot) {
+  constexpr double kOnePlace_m = 0.2;
+  const std::vector<Eigen::Vector3d> places_m = touched_places_m(data, robot);
+  if (places_m.size() == 1)
+    return "All calibration poses touch one contact: what moves all of them together is not seen, such as an error of "
+           "the first joint that depends on its angle alone. A second contact elsewhere would show it.";
+  double apart_m = 0.0;
+  for (const Eigen::Vector3d& one_m : places_m)
+    for (const Eigen::Vector3d& other_m : places_m) apart_m = std::max(apart_m, (one_m - other_m).norm());
+  if (places_m.empty() || apart_m > kOnePlace_m) return {};
+  return fmt::format(
+      "All contacts that calibration poses touch lie within {:.0f} mm: links and effects were found and judged at one "
+      "place, and may be wrong by much more elsewhere. A second place, some 300 mm away, would show it.",
+      millimetres(apart_m));
 }
 
 /// Whether poses hold the tool at a length from something: a wire's, or a sphere's known radius.
@@ -94,13 +113,15 @@ std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRo
   return entries;
 }
 
-std::vector<std::string> contact_notes(const DataSet& data, const std::vector<LengthErrorEntry>& lengths,
+std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot& robot,
+                                       const std::vector<LengthErrorEntry>& lengths,
                                        const std::vector<std::string>& fitted_sets) {
   if (!has_contacts(data)) return {};
   std::vector<std::string> notes;
   if (std::string sentence = unfitted_lengths_sentence(lengths, fitted_sets); !sentence.empty())
     notes.push_back(std::move(sentence));
   if (!has_instrument(data)) {
+    if (std::string sentence = one_place_sentence(data, robot); !sentence.empty()) notes.push_back(std::move(sentence));
     if (fitted_lengths(data) == 0 && !shows_lengths(data))
       notes.emplace_back(
           "No length between contacts is known: the scale of the arm is not measured and stays the description's. Two "
@@ -108,10 +129,6 @@ std::vector<std::string> contact_notes(const DataSet& data, const std::vector<Le
     notes.emplace_back(
         "Contacts do not tell where the arm stands: its base is neither needed nor fitted, and the first joint's zero, "
         "height and what lies before its axis stay as described.");
-    if (calibration_contacts(data) == 1)
-      notes.emplace_back(
-          "All calibration poses touch one contact: what moves all of them together is not seen, such as an error of "
-          "the first joint that depends on its angle alone. A second contact elsewhere would show it.");
   }
   notes.emplace_back(
       "Tool errors here are distances from where all poses of a contact and set have it on average: they show how well "

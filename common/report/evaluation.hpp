@@ -36,8 +36,9 @@ std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRo
                                           const CorrectedRobot& before, const CorrectedRobot& after);
 
 /// What these contacts can tell of the arm and what they cannot, the most important first; empty where nothing is
-/// touched.
-std::vector<std::string> contact_notes(const DataSet& data, const std::vector<LengthErrorEntry>& lengths,
+/// touched. `robot`: the model, which has the contacts where its own poses do.
+std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot& robot,
+                                       const std::vector<LengthErrorEntry>& lengths,
                                        const std::vector<std::string>& fitted_sets);
 
 /// Where the radii of poses come from.

@@ -244,7 +244,7 @@ Report make_report(const Conclusions& run) {
   if (!data.poses.empty()) report.arm = arm_entry(model.robot, data.poses.front().target);
   report.contacts = contact_entries(data, run.preparation.registered.robot, run.before, model.robot);
   report.length_errors = length_error_entries(data, model.robot, &run.before);
-  report.contact_notes = contact_notes(data, report.length_errors, report.fitted_sets);
+  report.contact_notes = contact_notes(data, model.robot, report.length_errors, report.fitted_sets);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   if (report.prediction_interval && follow_each_other(data))
     report.prediction_interval->remark +=

@@ -13,7 +13,7 @@
 namespace demecal {
 namespace {
 
-using ::testing::IsEmpty;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
 
 DataSet three_poses() {
   DataSet data;
@@ -101,6 +101,38 @@ TEST(FollowEachOther, PosesOfAPathDoAndScatteredOnesDoNot) {
     EXPECT_FALSE(follow_each_other(scattered));
     EXPECT_TRUE(follow_each_other(path));
   }
+}
+
+/// Calibration poses that touch a contact with these joints each.
+DataSet touching(const std::vector<std::pair<std::string, JointVector>>& touches) {
+  RandomStream random{81};
+  DataSet data;
+  data.robot.chain = random_arm(random, 6, Convention::standard_dh);
+  for (const auto& [contact, joints] : touches) {
+    MeasuredPose pose;
+    pose.joints = joints;
+    pose.contact = contact;
+    data.poses.push_back(pose);
+  }
+  return data;
+}
+
+TEST(ContactNotes, SayWhereEverythingWasTouchedAtOnePlace) {
+  const JointVector here = JointVector::Constant(6, 0.3), there = JointVector::Constant(6, -0.9);
+  const JointVector near = JointVector::Constant(6, 0.31);
+  const auto notes = [](const DataSet& data) {
+    std::string all;
+    for (const std::string& note : contact_notes(data, nominal_robot(data), {}, {})) all += note + '\n';
+    return all;
+  };
+  EXPECT_THAT(notes(touching({{"a", here}, {"a", near}})), HasSubstr("touch one contact"));
+  EXPECT_THAT(notes(touching({{"a", here}, {"b", near}})), HasSubstr("judged at one place"));
+  const DataSet apart = touching({{"a", here}, {"b", there}});
+  ASSERT_GT(
+      (nominal_robot(apart).predict(here, "").translation() - nominal_robot(apart).predict(there, "").translation())
+          .norm(),
+      0.2);
+  EXPECT_THAT(notes(apart), AllOf(Not(HasSubstr("touch one contact")), Not(HasSubstr("judged at one place"))));
 }
 
 }  // namespace
