@@ -192,7 +192,12 @@ const Language& language_asked(const ApplyRequest& request, const std::string& t
 void write_corrected(const ProgramSource& source, const CorrectedProgram& corrected, const Language& language,
                      const std::string& mark, const std::vector<std::filesystem::path>& places) {
   const std::vector<std::string> texts = corrected_files(source, corrected);
-  if (places.size() > 1) std::filesystem::create_directories(places.front().parent_path());
+  std::error_code failed;
+  if (places.size() > 1) std::filesystem::create_directories(places.front().parent_path(), failed);
+  if (failed) {
+    throw ArgumentError("--out: " + places.front().parent_path().string() +
+                        " cannot be made a folder: " + failed.message());
+  }
   for (std::size_t file = 0; file < places.size(); ++file) {
     const bool changed = texts[file] != source.files()[file].text;
     write_file(places[file], changed ? with_mark(texts[file], language, mark) : texts[file]);

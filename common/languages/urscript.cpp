@@ -1,5 +1,5 @@
 // Universal Robots URScript: what movej, movel, movep, movec, servoj and servoc are sent to, as p[...] or [...], there
-// or in the variable they name, and inside get_inverse_kin().
+// or in the variable they name, inside get_inverse_kin() and in a feature, pose_trans(feature, p[...]).
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -35,7 +35,7 @@ int targets_of(std::string_view word) {
 class UrReader {
  public:
   explicit UrReader(const ReaderInput& input)
-      : text_(input.source, {.comment = '#'}), code_(text_.code()), arm_(input.arm) {
+      : text_(input.source, {.comment = '#'}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
     require_six_joints(input.arm, input.source.file(), "URScript");
   }
 
@@ -50,6 +50,7 @@ class UrReader {
       if (tool_) set_tool(use_.frames, *tool_);
       read_call(text_.skip_spaces(end), targets);
     });
+    leave_targets_on_targets();
     for (Target& target : program_.targets) take_uses(uses_at_.at(literal_of_.at(target.begin())), target);
     std::sort(program_.targets.begin(), program_.targets.end(),
               [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
@@ -115,6 +116,8 @@ class UrReader {
     const std::size_t begin = text_.skip_spaces(offset), end = text_.word_end(begin);
     const std::string word(code_.substr(begin, end - begin));
     if (word == "get_inverse_kin" && text_.next(end) == '(') return inverse_kinematics(text_.skip_spaces(end));
+    if (word == "pose_trans" && text_.next(end) == '(' && use_.frames.frame.empty())
+      return in_feature(text_.skip_spaces(end), hint);
     const auto variable = assigned_.find(word);
     const char after = text_.next(end);
     if (variable != assigned_.end() && (after == ',' || after == ')')) {
@@ -127,22 +130,70 @@ class UrReader {
     }
   }
 
-  /// The tool of set_tcp(): a literal, or a variable that is given one and no other.
-  void read_tool(std::size_t open) {
-    std::optional<std::size_t> literal = literal_at(open + 1);
-    const std::size_t begin = text_.skip_spaces(open + 1);
-    const std::string word(code_.substr(begin, text_.word_end(begin) - begin));
+  /// The word that begins at or after `offset`.
+  std::string word_from(std::size_t offset) const {
+    const std::size_t begin = text_.skip_spaces(offset);
+    return std::string(code_.substr(begin, text_.word_end(begin) - begin));
+  }
+
+  /// The pose of a literal, or of a variable that is given one and no other.
+  std::optional<Eigen::Isometry3d> pose_at(std::size_t offset) const {
+    std::optional<std::size_t> literal = literal_at(offset);
+    const std::string word = word_from(offset);
     const auto variable = assigned_.find(word);
     if (!literal && variable != assigned_.end() && variable->second.size() == 1 && !computed_.contains(word)) {
       literal = variable->second.front();
     }
-    tool_ = KnownFrame::computed("the tool of set_tcp");
-    if (!literal || code_[*literal] != 'p') return;
+    if (!literal || code_[*literal] != 'p') return std::nullopt;
     const auto values = list_numbers(text_, read_list(text_, text_.skip_spaces(*literal + 1), '['), 6);
-    if (!values) return;
+    if (!values) return std::nullopt;
     Eigen::Isometry3d pose(rotation_from(OrientationForm::rotation_vector, {(*values)[3], (*values)[4], (*values)[5]}));
     pose.translation() = Eigen::Vector3d((*values)[0], (*values)[1], (*values)[2]);
-    tool_ = KnownFrame{"set_tcp", pose, ""};
+    return pose;
+  }
+
+  /// The tool of set_tcp().
+  void read_tool(std::size_t open) {
+    const auto pose = pose_at(open + 1);
+    tool_ = pose ? KnownFrame{"set_tcp", *pose, ""} : KnownFrame::computed("the tool of set_tcp");
+  }
+
+  /// pose_trans(feature, pose).
+  void in_feature(std::size_t open, const ArmHint& hint) {
+    const std::size_t second = argument_end(open + 1);
+    if (second >= code_.size() || code_[second] != ',') return;
+    const StatedFrames outside = use_.frames;
+    set_frame(use_.frames, feature(open + 1, second));
+    target_at(second + 1, hint);
+    use_.frames = outside;
+  }
+
+  /// The feature that stands at [begin, end).
+  KnownFrame feature(std::size_t begin, std::size_t end) const {
+    const std::string argument(text_.trimmed(begin, end)), name = word_from(begin);
+    const auto pose = pose_at(begin);
+    const auto literal = literal_at(begin);
+    if (literal && pose) {
+      const BracketItem list = read_list(text_, text_.skip_spaces(*literal + 1), '[');
+      if (text_.skip_spaces(list.begin + list.size) == text_.skip_spaces(end)) return {"pose_trans", *pose, ""};
+    }
+    if (argument.empty() || argument != name) return KnownFrame::computed("the feature of pose_trans");
+    if (pose) return {name, *pose, ""};
+    const bool set = assigned_.contains(name) || computed_.contains(name);
+    return set ? KnownFrame::computed("feature " + name) : controller_.frame(name, "feature " + name);
+  }
+
+  /// A feature that motions go to changes when it is corrected, and what hangs on it with it.
+  void leave_targets_on_targets() {
+    for (auto& [begin, uses] : uses_at_) {
+      for (TargetUse& use : uses) {
+        const auto variable = assigned_.find(use.frames.frame);
+        if (variable == assigned_.end()) continue;
+        const bool moved_to = std::any_of(variable->second.begin(), variable->second.end(),
+                                          [&](std::size_t literal) { return seen_.contains(literal); });
+        if (moved_to) use.frames.unknown_frame = "it hangs on " + use.frames.frame + ", which is itself moved to";
+      }
+    }
   }
 
   void inverse_kinematics(std::size_t open) {
@@ -198,6 +249,7 @@ class UrReader {
   ProgramText text_;
   std::string_view code_;
   const Chain& arm_;
+  const ControllerData& controller_;
   Program program_;
   std::map<std::string, std::vector<std::size_t>> assigned_;
   std::set<std::string> computed_;  ///< variables that are given something else, too

@@ -33,7 +33,8 @@ const std::vector<NamingProgram>& naming_programs() {
       {WrittenIn::val3,
        "<Data name=\"p\" type=\"pointRx\"><Value x=\"1\" y=\"2\" z=\"3\" rx=\"4\" ry=\"5\" rz=\"6\" "
        "fatherId=\"fTable[0]\"/></Data>",
-       "ftable[0]", ""}};
+       "ftable[0]", ""},
+      {WrittenIn::urscript, "movej(get_inverse_kin(pose_trans(Plane_1, p[0.1,0.2,0.3,0,0,0])))\n", "plane_1", ""}};
   return programs;
 }
 

@@ -149,12 +149,14 @@ TEST(UrScript, ReadsWhatMotionsAreSentTo) {
       "  movec(p[1,0,0,0,0,0], w_p, a=1)\n  movel(pose_trans(f, p[0,0,0,0,0,0]))\n  movej([d2r(1),0,0,0,0,0])\n"
       "  movej(unknown)\nend\n",
       "p", wrist_arm());
-  EXPECT_THAT(names(program), ElementsAre("w_p", "", "", ""));
+  EXPECT_THAT(names(program), ElementsAre("w_p", "", "", "", ""));
   EXPECT_TRUE(program.targets[0].is_pose());
   ASSERT_EQ(program.targets[0].hint.near.size(), 6);
   EXPECT_EQ(program.targets[0].hint.near[1], -1.5);
   EXPECT_THAT(values(program.targets[2].joints), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_EQ(program.uncorrected.size(), 3u);
+  EXPECT_EQ(program.targets[4].frames.frame, "feature f");
+  EXPECT_NE(program.targets[4].frames.unknown_frame, "");
+  EXPECT_EQ(program.uncorrected.size(), 2u);
 }
 
 TEST(UrScript, NamesTheFault) {

@@ -143,6 +143,7 @@ TEST(Apply, WritesTheFilesOfAProgramIntoAFolder) {
   EXPECT_EQ(applied.apply("a.src", source, with, ".").code, 10) << "the folder of the program itself";
   EXPECT_EQ(applied.text("a.dat"), data);
   EXPECT_EQ(applied.apply("a.src", source, with, "new-a.src").code, 10) << "a file";
+  EXPECT_EQ(applied.apply("a.src", source, with, "new-a.src/deeper").code, 10) << "below a file";
   EXPECT_EQ(applied.apply("a.src", source, {"--with", applied.path("a.src")}, "twice").code, 10);
   EXPECT_EQ(applied.apply("a.src", source, {"--with", applied.path("b.dat")}, "lacking").code, 11);
   const Ended again = applied.apply("a.src", source, {"--with", applied.path("corrected/a.dat")}, "again");

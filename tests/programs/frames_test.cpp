@@ -108,6 +108,35 @@ TEST(UrScriptFrames, AreTheToolsOfSetTcp) {
               HasSubstr("different tools"));
 }
 
+TEST(UrScriptFrames, AreTheFeaturesOfPoseTrans) {
+  const std::string plane = "plane=p[0.5,0,0.1,0,0,1.5707963267948966]\n", point = "p[0.1,0.2,0.3,0,0,0]";
+  const auto frames = [](const std::string& text) { return only_target(WrittenIn::urscript, text).frames; };
+  const Target named = only_target(WrittenIn::urscript, plane + "movel(pose_trans(plane, " + point + "), a=1)\n");
+  expect_point(named, {0.3, 0.1, 0.4});
+  EXPECT_EQ(named.motion, Motion::line);
+  expect_point(only_target(WrittenIn::urscript, "movel(pose_trans(p[0.5,0,0,0,0,0]," + point + "))\n"),
+               {0.6, 0.2, 0.3});
+  expect_point(only_target(WrittenIn::urscript, plane + "q=" + point + "\nmovel(pose_trans(plane,q))\n"),
+               {0.3, 0.1, 0.4});
+  EXPECT_THAT(frames("plane=get_plane()\nmovel(pose_trans(plane," + point + "))\n").unknown_frame,
+              HasSubstr("feature plane is computed"));
+  EXPECT_THAT(frames("movel(pose_trans(plane," + point + "))\n").unknown_frame,
+              HasSubstr("feature plane is given neither in this program nor by --frames"));
+  EXPECT_THAT(frames("movel(pose_trans(p[x,0,0,0,0,0]," + point + "))\n").unknown_frame, HasSubstr("is computed"));
+  EXPECT_THAT(frames(plane + "q=" + point + "\nmovel(pose_trans(plane,q))\nmovel(q)\n").unknown_frame,
+              HasSubstr("different frames"));
+  const Program nested = read_program(
+      WrittenIn::urscript, plane + "movel(pose_trans(plane,pose_trans(plane," + point + ")))\n", "p", wrist_arm());
+  EXPECT_TRUE(nested.targets.empty());
+  EXPECT_EQ(nested.uncorrected.size(), 1u);
+  const Program approached =
+      read_program(WrittenIn::urscript, "pick=" + point + "\nmovel(pose_trans(pick,p[0,0,-0.1,0,0,0]))\nmovel(pick)\n",
+                   "p", wrist_arm());
+  ASSERT_EQ(approached.targets.size(), 2u);
+  EXPECT_EQ(approached.targets[0].frames.unknown_frame, "");
+  EXPECT_THAT(approached.targets[1].frames.unknown_frame, HasSubstr("hangs on pick, which is itself moved to"));
+}
+
 TEST(Val2Frames, AreThoseOfToolAndBase) {
   const std::string points = ".END\n.LOCATIONS\np 1 0 0 0 1 0 0 0 1 10 20 30\nt 1 0 0 0 1 0 0 0 1 0 0 150\n.END\n";
   const Target tool = only_target(WrittenIn::val2, ".PROGRAM a\n 10 TOOL t\n" + points);
