@@ -3,6 +3,7 @@
 #include "../config/sample_files.hpp"
 #include "../config/temporary_folder.hpp"
 #include "config/data_set_file.hpp"
+#include "config/frames_file.hpp"
 #include "config/input_files.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
@@ -98,6 +99,10 @@ std::vector<Target> file_targets() {
           {"data_set", {files}, read_data_set},
           {"scenario", {kScenarioText, shipped("configs/scenarios/demo.yaml")}, reader("scenario.yaml", load_scenario)},
           {"preparation", {shipped_preparation()}, read_preparation},
+          {"frames",
+           {"demecal_frames: 1\nframes: {1: {xyz_mm: [1, 2, 3], abc_deg: [4, 5, 6]}}\n"
+            "tools: {grip: {xyz_mm: [0, 0, 150], quaternion_wxyz: [1, 0, 0, 0]}}\n"},
+           reader("frames.yaml", load_frames)},
           {"matrices", {shipped("configs/matrices/puma761.yaml")}, reader("matrices.yaml", read_matrices)},
           {"grid", {shipped("configs/grids/search.yaml")}, reader("grid.yaml", load_grid)},
           {"urdf", {shipped("tests/fuzz/seeds/arm.urdf")}, reader("arm.urdf", read_urdf)},

@@ -1,4 +1,5 @@
 // Readers end with a program or with a sentence, whatever bytes they are given.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -150,6 +151,34 @@ TEST(Readers, EndWithFramesOrASentence) {
         ++refused;
       }
       marked_line(with_mark(text, row_of(language), "corrected by demecal"));
+    }
+  }
+  EXPECT_GT(read, 200);
+  EXPECT_GT(refused, 200);
+}
+
+TEST(Readers, OfSeveralFilesEndWithAProgramOrASentence) {
+  RandomStream stream{7404};
+  const Chain arm = wrist_arm();
+  int read = 0, refused = 0;
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    for (const auto& [language, whole] : stating_programs()) {
+      if (!row_of(language).of_several_files) continue;
+      const std::string text = stream.chance(0.5) ? whole : disturbed(stream, whole);
+      const std::size_t cut = stream.index(text.size() + 1);
+      const ProgramSource source({{"a", text.substr(0, cut)}, {"b", text.substr(cut)}});
+      try {
+        const Program program = read_program(row_of(language), source, arm);
+        expect_sound(program, source.text());
+        for (const Target& target : program.targets) {
+          EXPECT_EQ(target.place.file, source.file_at(target.begin()));
+          EXPECT_LE(target.place.line, 1u + static_cast<std::size_t>(std::ranges::count(text, '\n')));
+        }
+        ++read;
+      } catch (const InputError& error) {
+        EXPECT_THAT((std::vector<std::string>{"a", "b"}), ::testing::Contains(error.where().file));
+        ++refused;
+      }
     }
   }
   EXPECT_GT(read, 200);
