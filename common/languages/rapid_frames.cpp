@@ -49,6 +49,10 @@ KnownFrame object_of(const ProgramText& text, const BracketItem& list, const std
   return user && object ? KnownFrame{name, *user * *object, ""} : KnownFrame::computed("work object " + name);
 }
 
+KnownFrame hidden(const std::string& what) {
+  return {what, Eigen::Isometry3d::Identity(), what + " is LOCAL to another file of the program"};
+}
+
 /// The ends of the arguments from `begin`: commas outside of brackets, and the semicolon (or end) last.
 std::vector<std::size_t> argument_ends(std::string_view code, std::size_t begin) {
   std::vector<std::size_t> ends;
@@ -94,6 +98,10 @@ void RapidFrames::read_declaration(const std::string& type, std::size_t at) {
   const bool tool = type == "tooldata";
   auto& data = tool ? tools_ : frames_;
   declared_.insert(begin);
+  const std::size_t statement = code.find_last_of(";\n", at) + 1;  // npos + 1: the text's begin
+  const std::string_view before = code.substr(statement, at - statement);
+  if (lower_case(before.substr(std::min(before.find_first_not_of(" \t"), before.size()))).starts_with("local"))
+    local_to_[key] = text_.source().file_at(begin);
   const std::size_t sign = text_.skip_spaces(end);
   const std::size_t value = code.substr(sign).starts_with(":=") ? text_.skip_spaces(sign + 2) : code.size();
   if (value >= code.size() || code[value] != '[')
@@ -115,12 +123,20 @@ void RapidFrames::forget_assigned(const std::string& word, std::size_t begin, st
   }
 }
 
-KnownFrame RapidFrames::known_tool(const std::string& name) const {
+/// Whether the name is LOCAL to another file than that of the motion.
+bool RapidFrames::is_hidden(const std::string& name, std::size_t begin) const {
+  const auto local = local_to_.find(name);
+  return local != local_to_.end() && local->second != text_.source().file_at(begin);
+}
+
+KnownFrame RapidFrames::known_tool(const std::string& name, std::size_t begin) const {
+  if (is_hidden(name, begin)) return hidden("tool " + name);
   const auto found = tools_.find(name);
   return found != tools_.end() ? found->second : controller_.tool(name, "tool " + name);
 }
 
-KnownFrame RapidFrames::known_object(const std::string& name) const {
+KnownFrame RapidFrames::known_object(const std::string& name, std::size_t begin) const {
+  if (is_hidden(name, begin)) return hidden("work object " + name);
   const auto found = frames_.find(name);
   return found != frames_.end() ? found->second : controller_.frame(name, "work object " + name);
 }
@@ -144,13 +160,13 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
     const std::string name = lower_case(code.substr(first, std::min(text_.word_end(first), ends[i]) - first));
     if (is_tool(name) || (i + 1 == ends.size() && !is_tool(tool))) tool = name;
   }
-  set_tool(use.frames, known_tool(tool));
+  set_tool(use.frames, known_tool(tool, begin));
   const std::string all = lower_case(code.substr(end, ends.back() - end));
   const std::size_t option = all.find("\\wobj");
   if (option != std::string::npos) {
     const std::size_t sign = all.find(":=", option);
     const std::size_t name = sign == std::string::npos ? ends.back() : text_.skip_spaces(end + sign + 2);
-    set_frame(use.frames, known_object(lower_case(code.substr(name, text_.word_end(name) - name))));
+    set_frame(use.frames, known_object(lower_case(code.substr(name, text_.word_end(name) - name)), begin));
   }
   const std::size_t targets = word.starts_with("movec") || word == "triggc" ? 2 : 1;
   held_.push_back({end, ends[targets - 1], use});

@@ -26,13 +26,16 @@ class RapidFrames {
   void read_declaration(const std::string& type, std::size_t at);
   void read_move(std::size_t begin, const std::string& word, std::size_t end);
   void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
-  KnownFrame known_tool(const std::string& name) const;
-  KnownFrame known_object(const std::string& name) const;
+  /// Of a tool that the motion at `begin` names.
+  KnownFrame known_tool(const std::string& name, std::size_t begin) const;
+  KnownFrame known_object(const std::string& name, std::size_t begin) const;
+  bool is_hidden(const std::string& name, std::size_t begin) const;
 
   const ProgramText& text_;
   const ControllerData& controller_;
   std::map<std::string, KnownFrame> tools_, frames_;
-  std::set<std::size_t> declared_;  ///< where the names of declarations stand
+  std::map<std::string, std::size_t> local_to_;  ///< names that are LOCAL, and to which file
+  std::set<std::size_t> declared_;               ///< where the names of declarations stand
   std::map<std::string, std::vector<TargetUse>> uses_;
   struct Held {
     std::size_t begin, end;  ///< of a motion's targets

@@ -198,6 +198,19 @@ TEST(SeveralFiles, GivingAToolTwiceDoNotTellIt) {
               HasSubstr("t is given more than once"));
 }
 
+TEST(SeveralFiles, KeepTheirLocalTools) {
+  const std::string moved = "MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]],v9,fine,t;\n";
+  const auto unknown = [&](const std::string& scope) {
+    const std::string tool = scope + "PERS tooldata t:=[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
+    const ProgramSource modules({{"a.mod", "MODULE a\n  " + tool + moved}, {"b.mod", moved}});
+    const Program program = read_program(row_of(WrittenIn::rapid), modules, wrist_arm());
+    EXPECT_EQ(program.targets.at(0).frames.unknown_tool, "");
+    return program.targets.at(1).frames.unknown_tool;
+  };
+  EXPECT_EQ(unknown(""), "");
+  EXPECT_THAT(unknown("LOCAL "), HasSubstr("LOCAL to another file"));
+}
+
 TEST(SeveralFiles, DoNotPassOnWhatTheySet) {
   const std::string set = "$TOOL={X 1,Y 2,Z 3,A 0,B 0,C 0}\n$BASE={X 1,Y 2,Z 3,A 0,B 0,C 0}\n";
   const Program program = krl_program({{"a.src", set + "LIN XP1\n"},
