@@ -53,11 +53,15 @@ TEST(ControllerData, GivesTheFramesAndToolsThatProgramsName) {
     EXPECT_EQ(stated.unknown_frame, "");
     EXPECT_TRUE(stated.base_from_frame.isApprox(frame, 1e-12));
     EXPECT_EQ(stated.unknown_tool, "");
-    if (!naming.tool.empty()) EXPECT_TRUE(stated.tool && stated.tool->isApprox(tool, 1e-12));
+    if (!naming.tool.empty()) {
+      EXPECT_TRUE(stated.tool && stated.tool->isApprox(tool, 1e-12));
+    }
     controller = {.frames = {{"9", frame}}, .tools = {{"9", tool}}};
     const StatedFrames others = read_with(naming, controller).targets.at(0).frames;
     EXPECT_THAT(others.unknown_frame, HasSubstr("is given neither in this program nor by --frames"));
-    if (!naming.tool.empty()) EXPECT_THAT(others.unknown_tool, HasSubstr("neither in this program"));
+    if (!naming.tool.empty()) {
+      EXPECT_THAT(others.unknown_tool, HasSubstr("neither in this program"));
+    }
   }
 }
 
