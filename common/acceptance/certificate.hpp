@@ -76,6 +76,9 @@ struct Certificate {
   CertifiedView view{};
 };
 
+/// Frames' origins from the base over every joint to the flange and the tool, in the frame of the measurements, m.
+std::vector<Eigen::Vector3d> arm_points(const CorrectedRobot& robot, const MeasuredPose& pose);
+
 /// The poses judged: accept poses; without any validation poses, and so on.
 std::vector<std::size_t> judged_poses(const DataSet& data);
 

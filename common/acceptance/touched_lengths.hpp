@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "acceptance/certificate.hpp"
 #include "data/data_set.hpp"
 #include "prediction/corrected_robot.hpp"
 
@@ -28,5 +29,9 @@ bool touch_alone(const DataSet& data, std::span<const std::size_t> rows);
 /// at most: so many lengths are independent of one another.
 std::vector<TouchedLength> touched_lengths(const DataSet& data, std::span<const std::size_t> rows,
                                            const CorrectedRobot& robot);
+
+/// Fills in what these lengths tell of a model. Throws InputError where none is known, or the base was to be fitted.
+void judge_lengths(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows,
+                   const CertifiedRun& run, Certificate& certificate);
 
 }  // namespace demecal::inline acceptance

@@ -28,6 +28,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 
@@ -225,7 +226,11 @@ std::string model_text(const CalibratedModel& model) {
 }
 
 CalibratedModel load_model(const std::filesystem::path& path) {
-  const YamlNode file = read_yaml(path).with_version("model", 1);
+  return read_model(read_file(path), path.string());
+}
+
+CalibratedModel read_model(const std::string& text, const std::string& path) {
+  const YamlNode file = parse_yaml(text, path).with_version("model", 1);
   file.with_keys({"demecal_model",
                   "job",
                   "version",

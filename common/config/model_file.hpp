@@ -19,6 +19,8 @@ std::string model_text(const CalibratedModel& model);
 /// The model of a model.yaml. Predictions need `robot` alone; estimates and notes are for people and not read back.
 /// Throws InputError with file, line, value and rule at the first fault.
 CalibratedModel load_model(const std::filesystem::path& path);
+/// The same of its text; `path` is for messages.
+CalibratedModel read_model(const std::string& text, const std::string& path);
 
 /// The key `effects` with one item an effect: kind, joint (from 1), form, settings and coefficients by their names, a
 /// symbolic effect's formula, standard errors, and the ranges it was measured in. read_effects() reads it back.

@@ -13,6 +13,7 @@
 #include "calibration/job.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/job_file.hpp"
+#include "config/model_file.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "diagnosis/outcome.hpp"
@@ -85,6 +86,8 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   CalibrateResult result = calibrate(data, to_job(settings), make_fleet, teller.interrupt(), options);
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
+  arm->text = model_text(arm->model);
+  arm->model.robot = read_model(arm->text, "model.yaml").robot;
   return CalibratedArm(std::move(arm));
 }
 

@@ -72,13 +72,14 @@ CalibratedArm::CalibratedArm(std::shared_ptr<const Implementation> implementatio
     : implementation_(std::move(implementation)) {}
 
 CalibratedArm CalibratedArm::load(const std::filesystem::path& model_file) {
-  CalibratedModel model = load_model(model_file);
+  std::string text = read_file(model_file);
+  CalibratedModel model = read_model(text, model_file.string());
   require_one_robot(model, model_file.string(), "a calibrated arm");
-  return CalibratedArm(std::make_shared<Implementation>(Implementation{std::move(model)}));
+  return CalibratedArm(std::make_shared<Implementation>(Implementation{std::move(model), std::move(text)}));
 }
 
 void CalibratedArm::save(const std::filesystem::path& model_file) const {
-  write_file(model_file, model_text(implementation_->model));
+  write_file(model_file, implementation_->text);
 }
 
 Arm CalibratedArm::nominal() const {

@@ -28,8 +28,10 @@ struct Measurements::Implementation {
   std::vector<std::string> findings;
 };
 
+/// The model's arm is what its text says: the text's numbers are not the bits of those that were fitted.
 struct CalibratedArm::Implementation {
   CalibratedModel model;
+  std::string text;  ///< of its model.yaml
 };
 
 /// Checked against its arm; throws InputError as load_data_set() does, and where a joint is far outside its limits.

@@ -286,7 +286,6 @@ struct Report {
   std::vector<ParameterEntry> parameters;
   std::vector<std::string> unidentified;  ///< sentences
   RuntimeEntry runtime;
-
   bool loop_ran() const { return !stopped.empty() && stopped != "not_run"; }
   bool added_any() const;
 };

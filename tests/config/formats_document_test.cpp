@@ -156,7 +156,7 @@ TEST(FormatsDocument, HasTheKeysOfDataSets) {
   expect_keys_of(
       {.title = "DATASET.yaml",
        .read = load_data_set,
-       .open_maps = {{"tools_mm", "TARGET"}, {"contacts.kinds", "CONTACT"}, {"contacts.radii_mm", "CONTACT"}}});
+       .open_maps = {{"tools_mm", "TARGET"}, {"contacts.kinds", "CONTACT"}, {"contacts.radii_mm", "CONTACT"}, {"contacts.flatness_mm", "CONTACT"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfCells) {
