@@ -153,10 +153,12 @@ TEST(FormatsDocument, HasTheKeysOfRobots) {
 }
 
 TEST(FormatsDocument, HasTheKeysOfDataSets) {
-  expect_keys_of(
-      {.title = "DATASET.yaml",
-       .read = load_data_set,
-       .open_maps = {{"tools_mm", "TARGET"}, {"contacts.kinds", "CONTACT"}, {"contacts.radii_mm", "CONTACT"}, {"contacts.flatness_mm", "CONTACT"}}});
+  expect_keys_of({.title = "DATASET.yaml",
+                  .read = load_data_set,
+                  .open_maps = {{"tools_mm", "TARGET"},
+                                {"contacts.kinds", "CONTACT"},
+                                {"contacts.radii_mm", "CONTACT"},
+                                {"contacts.flatness_mm", "CONTACT"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfCells) {
