@@ -41,7 +41,7 @@ struct ApplyRequest {
   std::string model_file, program_file, out, language, frames_file;
   std::vector<std::string> further_files;
   bool json = false, strict = false, force = false;
-  double payload_kg = 0.0;
+  std::optional<double> payload_kg;
   std::optional<double> temperature_celsius;
   std::vector<double> tool_mm;
   std::vector<double> near, pulses_per_deg;

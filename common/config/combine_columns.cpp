@@ -17,7 +17,8 @@ using GroupOfColumns = std::vector<ColumnName> ColumnMap::*;
 using SingleColumn = std::optional<ColumnName> ColumnMap::*;
 
 constexpr GroupOfColumns kGroups[] = {&ColumnMap::joints, &ColumnMap::position,  &ColumnMap::orientation,
-                                      &ColumnMap::sigma,  &ColumnMap::distances, &ColumnMap::approach};
+                                      &ColumnMap::sigma,  &ColumnMap::distances, &ColumnMap::approach,
+                                      &ColumnMap::torque};
 constexpr SingleColumn kSingles[] = {&ColumnMap::payload, &ColumnMap::temperature, &ColumnMap::time,   &ColumnMap::set,
                                      &ColumnMap::pose,    &ColumnMap::target,      &ColumnMap::contact};
 

@@ -86,6 +86,7 @@ std::string columns_text(const GivenTable& given, const std::string& indent) {
   list("sigma", columns.sigma);
   list("orientation", columns.orientation);
   list("approach", columns.approach);
+  list("torque", columns.torque);
   single("payload", columns.payload);
   single("temperature", columns.temperature);
   single("time", columns.time);

@@ -155,8 +155,8 @@ DescribedDataSet load_described_data_set(const std::filesystem::path& path) {
 }
 
 ColumnMap read_column_map(const YamlNode& node, ColumnsOf of) {
-  node.with_keys({"joints", "position", "orientation", "sigma", "distances", "approach", "payload", "temperature",
-                  "time", "set", "pose", "target", "contact"});
+  node.with_keys({"joints", "position", "orientation", "sigma", "distances", "approach", "torque", "payload",
+                  "temperature", "time", "set", "pose", "target", "contact"});
   ColumnMap map;
   map.where = {node.file, node.line};
   map.joints = read_columns(of == ColumnsOf::all ? &node.at("joints") : node.find("joints"));
@@ -165,6 +165,7 @@ ColumnMap read_column_map(const YamlNode& node, ColumnsOf of) {
   map.sigma = read_columns(node.find("sigma"));
   map.distances = read_columns(node.find("distances"));
   map.approach = read_columns(node.find("approach"));
+  map.torque = read_columns(node.find("torque"));
   map.payload = read_single(node.find("payload"));
   map.temperature = read_single(node.find("temperature"));
   map.time = read_single(node.find("time"));

@@ -87,7 +87,8 @@ Tree read_formula(const YamlNode& node, const Chain& chain) {
 
 double read_setting(const YamlNode& node, const Robot& robot) {
   if (node.name == "from") return static_cast<double>(node.whole_number(1, robot.chain.size()));
-  return node.name.starts_with("reference_") ? node.number() : node.positive();
+  const bool of_any_sign = node.name.starts_with("reference_") || node.name.starts_with("logged_");
+  return of_any_sign ? node.number() : node.positive();
 }
 
 void read_settings(const YamlNode& node, const EffectLaw& law, const Robot& robot, Effect& effect) {

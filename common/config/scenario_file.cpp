@@ -126,8 +126,8 @@ void read_temperature(const YamlNode& node, Scenario& scenario) {
 }
 
 void read_measurement(const YamlNode& node, Scenario& scenario) {
-  node.with_keys({"sensor_from_base", "noise_mm", "orientation_noise_deg", "approach_recorded", "payloads_kg",
-                  "interval_s", "temperature"});
+  node.with_keys({"sensor_from_base", "noise_mm", "orientation_noise_deg", "approach_recorded", "torque_log",
+                  "payloads_kg", "interval_s", "temperature"});
   if (const YamlNode* frame = node.find("sensor_from_base")) scenario.sensor_from_base = read_transform(*frame);
   if (const YamlNode* noise = node.find("noise_mm")) scenario.noise_m = metres(noise->non_negative());
   if (const YamlNode* noise = node.find("orientation_noise_deg")) {
@@ -135,6 +135,12 @@ void read_measurement(const YamlNode& node, Scenario& scenario) {
     scenario.orientation_noise_rad = radians(noise->non_negative());
   }
   if (const YamlNode* recorded = node.find("approach_recorded")) scenario.approach_recorded = recorded->boolean();
+  if (const YamlNode* log = node.find("torque_log")) {
+    log->with_keys({"noise_nm", "friction_nm"});
+    scenario.torque_log.emplace();
+    if (const YamlNode* noise = log->find("noise_nm")) scenario.torque_log->noise = noise->non_negative();
+    if (const YamlNode* friction = log->find("friction_nm")) scenario.torque_log->friction = friction->non_negative();
+  }
   if (const YamlNode* payloads = node.find("payloads_kg")) {
     for (const YamlNode& payload : payloads->list()) scenario.payloads_kg.push_back(payload.non_negative());
   }

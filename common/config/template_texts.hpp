@@ -31,6 +31,7 @@ columns:                   # by name, or by number from 1
   position: [x_mm, y_mm, z_mm]   # measured tool point
   # orientation: [qw, qx, qy, qz]    # measured, unit quaternion
   # approach: [s1, s2, s3, s4, s5, s6]   # sign of each joint's last motion: shows backlash
+  # torque: [torque1_nm, torque2_nm, torque3_nm, torque4_nm, torque5_nm, torque6_nm]   # as the controller logged them
   # payload: payload_kg
   # temperature: temperature_celsius
   # time: time_s

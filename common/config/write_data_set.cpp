@@ -128,6 +128,17 @@ ColumnGroup approach_columns(std::size_t joints) {
   return group;
 }
 
+ColumnGroup torque_columns(const Chain& chain) {
+  ColumnGroup group{.key = "torque", .columns = {}};
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const char* const unit = is_revolute(chain.joints[i]) ? "_nm" : "_n";
+    group.columns.push_back({numbered("torque", i, unit), [=](const MeasuredPose& pose) {
+                               return number_text((*pose.torque)[static_cast<Eigen::Index>(i)]);
+                             }});
+  }
+  return group;
+}
+
 using OptionalNumber = std::optional<double> MeasuredPose::*;
 
 ColumnGroup single(const std::string& key, const std::string& heading, OptionalNumber value) {
@@ -156,6 +167,7 @@ std::vector<ColumnGroup> column_groups(const DataSet& data) {
   if (has(&MeasuredPose::orientation)) groups.push_back(orientation_columns());
   if (distances > 0) groups.push_back(distance_columns(distances));
   if (has(&MeasuredPose::approach)) groups.push_back(approach_columns(data.robot.chain.joints.size()));
+  if (has(&MeasuredPose::torque)) groups.push_back(torque_columns(data.robot.chain));
   if (has(&MeasuredPose::payload_kg)) groups.push_back(single("payload", "payload_kg", &MeasuredPose::payload_kg));
   if (has(&MeasuredPose::temperature_celsius)) {
     groups.push_back(single("temperature", "temperature_celsius", &MeasuredPose::temperature_celsius));

@@ -65,6 +65,7 @@ void check_column_map(const ColumnMap& columns, const Chain& chain) {
   if (!columns.sigma.empty()) check_sigma(columns);
   if (!columns.orientation.empty()) check_count(columns, columns.orientation, 4, "columns.orientation (w, x, y, z)");
   if (!columns.approach.empty()) check_count(columns, columns.approach, chain.joints.size(), "columns.approach");
+  if (!columns.torque.empty()) check_count(columns, columns.torque, chain.joints.size(), "columns.torque");
   check_distinct(columns);
   if (columns.position.empty() && columns.orientation.empty() && columns.distances.empty() && !columns.contact) {
     throw InputError(columns.where, "",

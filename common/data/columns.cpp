@@ -13,7 +13,7 @@ double unchanged(double value) {
   return value;
 }
 
-constexpr std::array<ColumnUnit, 7> kUnits{{
+constexpr std::array<ColumnUnit, 9> kUnits{{
     {"deg", Quantity::angle, radians},
     {"rad", Quantity::angle, unchanged},
     {"mm", Quantity::length, metres},
@@ -21,6 +21,8 @@ constexpr std::array<ColumnUnit, 7> kUnits{{
     {"kg", Quantity::mass, unchanged},
     {"celsius", Quantity::temperature, unchanged},
     {"s", Quantity::time, unchanged},
+    {"nm", Quantity::torque, unchanged},
+    {"n", Quantity::force, unchanged},
 }};
 
 double from_centimetres(double value) {
@@ -37,7 +39,7 @@ double from_thousandths(double value) {
 }
 
 /// Units that headings give in brackets, beside those above.
-constexpr std::array<ColumnUnit, 22> kHeadingUnits{{
+constexpr std::array<ColumnUnit, 24> kHeadingUnits{{
     {"°", Quantity::angle, radians},
     {"degree", Quantity::angle, radians},
     {"degrees", Quantity::angle, radians},
@@ -60,23 +62,27 @@ constexpr std::array<ColumnUnit, 22> kHeadingUnits{{
     {"sec", Quantity::time, unchanged},
     {"seconds", Quantity::time, unchanged},
     {"ms", Quantity::time, from_thousandths},
+    {"n m", Quantity::torque, unchanged},
+    {"n*m", Quantity::torque, unchanged},
 }};
 
 /// Units that other programs write; silence about them would be a wrong number.
-constexpr std::array<std::string_view, 21> kForeignUnits{
-    "degrees", "mrad", "arcsec", "arcmin", "turns", "um",         "cm", "inch", "in",  "ft", "g",
-    "lb",      "n",    "k",      "kelvin", "f",     "fahrenheit", "ms", "us",   "min", "h"};
+constexpr std::array<std::string_view, 20> kForeignUnits{
+    "degrees", "mrad", "arcsec", "arcmin", "turns", "um",         "cm", "inch", "in",  "ft",
+    "g",       "lb",   "k",      "kelvin", "f",     "fahrenheit", "ms", "us",   "min", "h"};
 
 struct Wording {
   std::string_view is;
   std::string_view suffixes;
 };
-constexpr std::array<Wording, 5> kWording{{
+constexpr std::array<Wording, 7> kWording{{
     {"an angle", "_deg or _rad"},
     {"a length", "_mm or _m"},
     {"a mass", "_kg"},
     {"a temperature", "_celsius"},
     {"a time", "_s"},
+    {"a torque", "_nm"},
+    {"a force", "_n"},
 }};
 const Wording& wording(Quantity quantity) {
   return kWording[static_cast<std::size_t>(quantity)];
@@ -100,6 +106,10 @@ ColumnUnit unit_without_suffix(const ColumnName& column, Quantity quantity, cons
       return *find_unit("celsius");
     case Quantity::time:
       return *find_unit("s");
+    case Quantity::torque:
+      return *find_unit("nm");
+    case Quantity::force:
+      return *find_unit("n");
     case Quantity::angle:
     case Quantity::length:
       break;
@@ -176,7 +186,7 @@ std::string why_no_number(const std::string& text, char decimal) {
 
 std::vector<ColumnName> ColumnMap::all() const {
   std::vector<ColumnName> names;
-  for (const auto* group : {&joints, &position, &orientation, &sigma, &distances, &approach}) {
+  for (const auto* group : {&joints, &position, &orientation, &sigma, &distances, &approach, &torque}) {
     names.insert(names.end(), group->begin(), group->end());
   }
   for (const auto* single : {&payload, &temperature, &time, &set, &pose, &target, &contact}) {

@@ -29,13 +29,14 @@ struct ColumnMap {
   std::vector<ColumnName> sigma;  ///< of the position: one for all axes, x, y, z, or range and two angles; or none
   std::vector<ColumnName> distances;
   std::vector<ColumnName> approach;  ///< one per joint, or none
+  std::vector<ColumnName> torque;    ///< one per joint, or none
   std::optional<ColumnName> payload, temperature, time, set, pose, target, contact;
 
   /// All columns named, in the order above.
   std::vector<ColumnName> all() const;
 };
 
-enum class Quantity { angle, length, mass, temperature, time };
+enum class Quantity { angle, length, mass, temperature, time, torque, force };
 
 /// A unit in which users may give a quantity.
 struct ColumnUnit {
@@ -44,7 +45,7 @@ struct ColumnUnit {
   UnitConversion to_inside;  ///< to SI and radians; temperatures stay in celsius
 };
 
-/// The unit of that name, among: deg rad mm m kg celsius s. Nothing for any other.
+/// The unit of that name, among: deg rad mm m kg celsius s nm n. Nothing for any other.
 std::optional<ColumnUnit> find_unit(std::string_view name);
 
 /// The unit that a heading gives apart from its name, as in "X [mm]": those of find_unit(), and what other programs
@@ -57,9 +58,9 @@ struct AssumedUnits {
   std::optional<ColumnUnit> length;
 };
 
-/// The unit of a column that holds `quantity`: that in which its name ends, else the assumed one. Masses, temperatures
-/// and times have one unit each and need none in the name. Throws InputError where an angle or length has no unit, or
-/// where the name ends in a unit of something else or one that is not supported.
+/// The unit of a column that holds `quantity`: that in which its name ends, else the assumed one. Masses, temperatures,
+/// times, torques and forces have one unit each and need none in the name. Throws InputError where an angle or length
+/// has no unit, or where the name ends in a unit of something else or one that is not supported.
 ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUnits& assumed);
 
 /// Angle where the column's name or its heading gives a unit of that, else length.

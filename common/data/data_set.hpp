@@ -38,6 +38,7 @@ struct MeasuredPose {
   /// nothing: it is one.
   std::optional<Eigen::Matrix3d> position_whitening{};
   std::optional<ApproachSigns> approach;
+  std::optional<JointVector> torque{};  ///< by which each drive held its joint, along its axis, as logged: Nm or N
   std::optional<double> payload_kg;
   std::optional<double> temperature_celsius;
   std::optional<double> time_s;

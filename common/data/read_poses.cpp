@@ -22,7 +22,7 @@ using TableColumns = std::vector<TableColumn>;
 
 /// The columns of a data set, found in its table.
 struct PoseColumns {
-  TableColumns joints, position, orientation, sigma, distances, approach;
+  TableColumns joints, position, orientation, sigma, distances, approach, torque;
   bool sigma_by_angles = false;
   std::optional<TableColumn> payload, temperature, time, set, pose, target, contact;
 };
@@ -42,13 +42,18 @@ TableColumns find_all(const Tables& tables, const std::vector<ColumnName>& names
   return columns;
 }
 
-TableColumns find_joints(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+/// One column a joint, of the quantity that `quantity_of` gives for it.
+TableColumns find_by_joint(const Tables& tables, const std::vector<ColumnName>& names, const AssumedUnits& units,
+                           const Chain& chain, Quantity quantity_of(const Joint&)) {
   TableColumns columns;
-  for (std::size_t i = 0; i < map.joints.size(); ++i) {
-    const ColumnName& name = map.joints[i];
-    columns.emplace_back(tables[name.table], name, joint_quantity(chain.joints[i]), units);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    columns.emplace_back(tables[names[i].table], names[i], quantity_of(chain.joints[i]), units);
   }
   return columns;
+}
+
+Quantity load_quantity(const Joint& joint) {
+  return is_revolute(joint) ? Quantity::torque : Quantity::force;
 }
 
 template <typename... Rest>
@@ -67,12 +72,13 @@ TableColumns find_sigma(const Tables& tables, const ColumnMap& map, const Assume
 
 PoseColumns find_columns(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
   const bool by_angles = states_range_and_angles(tables, map);
-  return {.joints = find_joints(tables, map, units, chain),
+  return {.joints = find_by_joint(tables, map.joints, units, chain, joint_quantity),
           .position = find_all(tables, map.position, Quantity::length, units),
           .orientation = find_all(tables, map.orientation),
           .sigma = find_sigma(tables, map, units, by_angles),
           .distances = find_all(tables, map.distances, Quantity::length, units),
           .approach = find_all(tables, map.approach),
+          .torque = find_by_joint(tables, map.torque, units, chain, load_quantity),
           .sigma_by_angles = by_angles,
           .payload = find_one(tables, map.payload, Quantity::mass, units),
           .temperature = find_one(tables, map.temperature, Quantity::temperature, units),
@@ -205,6 +211,7 @@ MeasuredPose read_pose(const PoseColumns& columns, const PoseRows& rows) {
   if (columns.contact) pose.contact = rows.text(*columns.contact);
   read_measured(columns, rows, pose);
   if (!columns.approach.empty()) pose.approach = read_approach(columns.approach, rows);
+  if (!columns.torque.empty()) pose.torque = read_vector<JointVector>(columns.torque, rows);
   if (columns.payload) pose.payload_kg = read_payload(*columns.payload, rows);
   if (columns.temperature) pose.temperature_celsius = rows.number(*columns.temperature);
   if (columns.time) pose.time_s = rows.number(*columns.time);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "effects/weight_parts.hpp"
 #include "expression/bound.hpp"
 #include "kinematics/chain.hpp"
 
@@ -78,6 +79,19 @@ bool came_from_both_sides(const DataSet& data, std::span<const std::size_t> pose
     if (up[i] && down[i]) return true;
   }
   return false;
+}
+
+/// One per joint; nothing where torques were not logged.
+std::vector<std::map<std::string, double>> logged_weights_of(const DataSet& data, std::span<const std::size_t> poses) {
+  std::vector<std::map<std::string, double>> weights;
+  const auto logged = [&](std::size_t pose) { return data.poses[pose].torque.has_value(); };
+  if (!std::ranges::all_of(poses, logged)) return weights;
+  std::vector<ArmState> states;
+  for (const std::size_t pose : poses) states.push_back(arm_state(data.robot, Stop(data.poses[pose])));
+  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
+    weights.push_back(logged_weights(data.robot, states, joint));
+  }
+  return weights;
 }
 
 }  // namespace
@@ -168,6 +182,7 @@ Evidence evidence_of(const DataSet& data, std::span<const std::size_t> poses) {
   evidence.temperature = temperature.varied();
   evidence.time = time.varied();
   evidence.masses = !data.robot.masses.empty();
+  evidence.logged_weights = logged_weights_of(data, poses);
   for (const RecordedRange& joint : joints) evidence.joint_ranges.push_back({joint.lower, joint.upper});
   const auto count = static_cast<double>(poses.size());
   if (evidence.temperature) evidence.mean_temperature_celsius = temperature.sum / count;

@@ -49,6 +49,7 @@ void set_loads(const Robot& robot, ArmState& state) {
 Stop::Stop(const MeasuredPose& pose)
     : joints(pose.joints),
       approach(pose.approach.value_or(ApproachSigns{})),
+      torque(pose.torque.value_or(JointVector{})),
       payload_kg(pose.payload_kg.value_or(0.0)),
       temperature_celsius(pose.temperature_celsius),
       time_s(pose.time_s) {}

@@ -17,6 +17,7 @@ namespace demecal::inline effects {
 struct Stop {
   JointVector joints;                           ///< commanded, rad or m
   ApproachSigns approach;                       ///< -1, 0 or +1 per joint; empty: unknown, taken as 0
+  JointVector torque{};                         ///< of the drives, as logged, Nm or N; empty: unknown, taken as 0
   double payload_kg = 0.0;                      ///< at the tool point
   std::optional<double> temperature_celsius{};  ///< none: effects take the arm to be at their reference
   std::optional<double> time_s{};               ///< none: effects take the stop to be at their reference
@@ -56,6 +57,8 @@ struct ArmState {
   const JointVector& joints() const { return stop.joints; }
   /// The sign of the joint's last motion; 0 where unknown.
   double approach(int joint) const { return stop.approach.size() > 0 ? stop.approach[joint] : 0.0; }
+  /// By which the joint's drive was logged to hold it; 0 where unknown.
+  double drive_torque(int joint) const { return stop.torque.size() > 0 ? stop.torque[joint] : 0.0; }
   /// What gravity does to the joint along its axis: Nm for revolute, N for prismatic joints.
   double torque(const Chain& chain, int joint) const;
 };

@@ -24,14 +24,15 @@ namespace demecal::inline effects {
 namespace {
 
 constexpr double kSamplePayload_kg = 1.0;
-const std::string kWithPayload = "with_payload";
-const std::string kGravityTurn = "gravity_turn";
+const std::string kWithPayload = "with_payload", kGravityTurn = "gravity_turn";
 
 /// A joint that gives way where gravity pushes it. Forms: `masses`, by the torque of known masses and the payload;
 /// `payload`, of the payload alone; `moments`, of unknown masses, whose first moments times the compliance are the
 /// coefficients (settings keep_3_mx: 1 say which; with_payload: 1 adds the payload's torque, known; gravity_turn: 1 or
 /// 2 takes the part of gravity that a leaning mount turns about either direction across it); `tilted`, of known masses
-/// where gravity leans a little from where it is said to point.
+/// where gravity leans a little from where it is said to point; `logged`, by the torque with which the drive was logged
+/// to hold the joint, less friction and the sensor's zero, or where it was not logged by the weights that such torques
+/// told of (settings of logged_weights()).
 class ComplianceLaw final : public EffectLaw {
  public:
   std::string_view kind() const override { return "compliance"; }
@@ -44,7 +45,7 @@ class ComplianceLaw final : public EffectLaw {
   std::string diagnosis(const Effect& effect, const Robot& robot) const override;
   std::vector<std::string> settings() const override;
   bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
-  std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted"}; }
+  std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted", "logged"}; }
   bool bears_payload(const Effect& effect, const Robot& robot) const override;
   std::string implausibility(const Effect& effect) const override;
   void append_symbolic_motions(SymbolicWriter& writer) const override;
@@ -77,9 +78,12 @@ double effort(const Robot& robot, const ArmState& state, int joint, double mass_
   return axis.dot((moment_kg_m - mass_kg * place.translation()).cross(gravity_mps2));
 }
 
-double payload_effort(const Robot& robot, const ArmState& state, int joint) {
-  const double mass = state.stop.payload_kg;
-  return effort(robot, state, joint, mass, mass * state.payload_point_m, state.gravity_mps2);
+/// Gravity's torque on the joint, by what its drive was logged to hold it with.
+double logged_torque(const Effect& effect, const Robot& robot, const ArmState& state) {
+  if (state.stop.torque.size() == 0)
+    return weight_torque(effect.settings, robot, state, effect.joint) + payload_torque(robot, state, effect.joint);
+  return -state.drive_torque(effect.joint) - effect.setting("logged_friction") * state.approach(effect.joint) -
+         effect.setting("logged_zero");
 }
 
 /// The effort of everything the joint carries under another gravity.
@@ -116,13 +120,14 @@ void ComplianceLaw::unit_motions(const Effect& effect, const Robot& robot, const
   const int joint = effect.joint;
   int coefficient = 0;
   const auto append = [&](double size) { append_joint_motion(robot, joint, coefficient++, size, motions); };
-  if (effect.form == "payload") return append(payload_effort(robot, state, joint));
+  if (effect.form == "payload") return append(payload_torque(robot, state, joint));
   if (effect.form == "moments") {
     const ArmState pulled = under_turned_gravity(state, gravity_turn(effect));
     for (const WeightPart& part : kept_parts(effect)) append(lever(robot, pulled, joint, part));
-    if (with_payload(effect)) append(payload_effort(robot, state, joint));
+    if (with_payload(effect)) append(payload_torque(robot, state, joint));
     return;
   }
+  if (effect.form == "logged") return append(logged_torque(effect, robot, state));
   append(state.torque(robot.chain, joint));
   if (effect.form != "tilted") return;
   for (const Eigen::Vector3d& gravity : turned_gravity(state.gravity_mps2)) {
@@ -144,6 +149,15 @@ void propose_single_parts(const Robot& robot, const std::vector<ArmState>& state
   }
 }
 
+/// Whether torques were logged, and the joint bears weight by them.
+bool tell_of_weight(const Robot& robot, const Evidence& evidence, const std::vector<ArmState>& states, int joint) {
+  const auto place = static_cast<std::size_t>(joint);
+  if (place >= evidence.logged_weights.size()) return false;
+  return std::ranges::any_of(states, [&](const ArmState& state) {
+    return std::abs(weight_torque(evidence.logged_weights[place], robot, state, joint)) > kNoLoad;
+  });
+}
+
 std::vector<Effect> ComplianceLaw::proposals(const Robot& robot, const Evidence& evidence) const {
   std::vector<Effect> effects;
   const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
@@ -153,11 +167,15 @@ std::vector<Effect> ComplianceLaw::proposals(const Robot& robot, const Evidence&
       effects.push_back({.kind = "compliance", .joint = joint, .settings = {}, .form = form});
     };
     double payload = 0.0;
-    for (const ArmState& state : laden) payload = std::max(payload, std::abs(payload_effort(robot, state, joint)));
+    for (const ArmState& state : laden) payload = std::max(payload, std::abs(payload_torque(robot, state, joint)));
     const bool payload_pulls = evidence.payload && payload > kNoLoad;
     const bool masses_pull = torques_by_size(robot, states, joint).back() > kNoLoad;
     if (evidence.masses && (masses_pull || payload_pulls)) propose("masses");
     if (payload_pulls) propose("payload");
+    if (tell_of_weight(robot, evidence, states, joint)) {
+      propose("logged");
+      effects.back().settings = evidence.logged_weights[static_cast<std::size_t>(joint)];
+    }
     if (!evidence.masses) {
       propose_single_parts(robot, states, joint, effects);
       const std::vector<WeightPart> parts = independent_parts(robot, states, joint);
@@ -174,6 +192,7 @@ std::vector<Effect> ComplianceLaw::proposals(const Robot& robot, const Evidence&
 
 Needs ComplianceLaw::needs(const Effect& effect, const Robot& /*robot*/) const {
   if (effect.form == "payload") return {.payload = true};
+  if (effect.form == "logged") return {.torque = true};
   if (effect.form == "moments") return {.payload = with_payload(effect)};
   return {.masses = true};
 }
@@ -181,6 +200,7 @@ Needs ComplianceLaw::needs(const Effect& effect, const Robot& /*robot*/) const {
 std::string ComplianceLaw::formula(const Effect& effect, const Robot& robot) const {
   const std::string joint = std::to_string(effect.joint + 1);
   if (effect.form == "payload") return write_joint_equation(effect, robot, {{0, "tau_payload" + joint}});
+  if (effect.form == "logged") return write_joint_equation(effect, robot, {{0, "tau_logged" + joint, -1.0}});
   if (effect.form == "tilted") {
     return write_joint_equation(effect, robot, {{0, "tau" + joint}, {1, "tau_x" + joint}, {2, "tau_y" + joint}});
   }
@@ -198,6 +218,8 @@ std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) c
   const std::string gives_way = joint_name(effect.joint) + " gives way ";
   const auto amount = [&](double value) { return motion_text(robot, effect.joint, value) + " per " + load; };
   if (effect.form == "payload") return gives_way + "by " + amount(effect.value(0)) + " of the payload's pull on it.";
+  if (effect.form == "logged")
+    return gives_way + "by " + amount(effect.value(0)) + " that its drive is logged to hold.";
   if (effect.form == "tilted") {
     const double lean = std::atan2(std::hypot(effect.value(1), effect.value(2)), std::abs(effect.value(0)));
     return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it, and gravity leans by " +
@@ -214,6 +236,7 @@ std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) c
 }
 
 bool ComplianceLaw::bears_payload(const Effect& effect, const Robot& robot) const {
+  if (effect.form == "logged") return true;
   return effect.form == "moments" ? with_payload(effect) : needs(effect, robot).masses;
 }
 
@@ -238,6 +261,15 @@ void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
     }
     return;
   }
+  if (effect.form == "logged") {
+    Expression torque = writer.constant(0.0);
+    for (const auto& [name, value] : effect.settings) {
+      if (!name.starts_with(kLogged)) continue;
+      const auto part = weight_part(std::string_view(name).substr(kLogged.size()));
+      if (part) torque = torque + value * lever(writer.state, effect.joint, *part, gravity);
+    }
+    return writer.append_joint(coefficient, torque);
+  }
   writer.append_joint(coefficient++, writer.torque(effect.joint));
   if (effect.form != "tilted") return;
   for (const Eigen::Vector3d& pull : turned) {
@@ -248,8 +280,12 @@ void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
 std::vector<std::string> ComplianceLaw::settings() const {
   std::vector<std::string> names{kGravityTurn};
   for (int link = 0; link < kMaxJoints; ++link) {
-    for (int axis = 0; axis < 4; ++axis) names.push_back(std::string(kKeep) + name_of({link, axis}));
+    for (int axis = 0; axis < 4; ++axis) {
+      names.push_back(std::string(kKeep) + name_of({link, axis}));
+      names.push_back(std::string(kLogged) + name_of({link, axis}));
+    }
   }
+  names.insert(names.end(), {"logged_friction", "logged_zero"});
   names.push_back(kWithPayload);
   return names;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <utility>
 
@@ -78,6 +79,21 @@ double Effect::setting(const std::string& name) const {
   const auto found = settings.find(name);
   DEMECAL_CHECK(found != settings.end(), kind << " has no setting '" << name << "'");
   return found->second;
+}
+
+std::span<const CircumstanceWords> circumstances() {
+  static constexpr std::array<CircumstanceWords, 5> kAll{
+      {{"approach", "the side from which joints come", "no side", &Needs::approach,
+        [](const MeasuredPose& pose) { return pose.approach.has_value(); }},
+       {"torque", "the drives' torques", "the weight that they told of while it was calibrated", &Needs::torque,
+        [](const MeasuredPose& pose) { return pose.torque.has_value(); }},
+       {"payload", "the payload", "an empty hand", &Needs::payload,
+        [](const MeasuredPose& pose) { return pose.payload_kg.has_value(); }},
+       {"temperature", "the temperature", "the effect's reference", &Needs::temperature,
+        [](const MeasuredPose& pose) { return pose.temperature_celsius.has_value(); }},
+       {"time", "the time", "the effect's reference", &Needs::time,
+        [](const MeasuredPose& pose) { return pose.time_s.has_value(); }}}};
+  return kAll;
 }
 
 std::optional<DecoyEffect> EffectLaw::decoy(const Effect& /*effect*/, const Evidence& /*evidence*/) const {

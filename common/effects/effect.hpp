@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,13 +54,25 @@ struct CoefficientLabel {
 
 /// What a data set must hold for an effect to be seen.
 struct Needs {
-  bool approach = false, payload = false, temperature = false, time = false, masses = false;
+  bool approach = false, torque = false, payload = false, temperature = false, time = false, masses = false;
 };
+
+/// What an effect may depend on beside joints and masses, for people.
+struct CircumstanceWords {
+  std::string_view name;     ///< "temperature"
+  std::string_view words;    ///< "the temperature"
+  std::string_view instead;  ///< what models take where it is not known
+  bool Needs::*needed;
+  bool (*recorded)(const MeasuredPose&);
+};
+std::span<const CircumstanceWords> circumstances();
 
 /// What the data at hand hold: proposals are made within it.
 struct Evidence {
   bool approach = false, payload = false, temperature = false, time = false;  ///< recorded and varied
-  bool masses = false;                     ///< the links' masses are known, and trusted
+  bool masses = false;  ///< the links' masses are known, and trusted
+  /// One per joint, where drives' torques were logged and varied: what they say of gravity, see logged_weights().
+  std::vector<std::map<std::string, double>> logged_weights{};
   bool orientation = false;                ///< measured
   std::vector<Interval> joint_ranges{};    ///< one per joint, rad or m
   double mean_temperature_celsius = 20.0;  ///< a reference for thermal effects

@@ -120,47 +120,139 @@ const Eigen::Vector3d& moment_nm(const ArmState& state, int joint) {
   return state.loads[static_cast<std::size_t>(joint)].moment_nm;
 }
 
-/// A bearing, and the link before it, that give way across the axis under the moment of gravity there.
+/// A bearing, and the link before it, that give way across the axis under the moment of gravity there. Forms: `masses`,
+/// by the moment of known masses and the payload, about x and about y; `moments`, alike about both, by that of unknown
+/// masses, whose first moments times the compliance are the coefficients (settings keep_3_mx: 1 say which): of joint 1,
+/// the base, alone is it tried.
 class LinkBendingLaw final : public EffectLaw {
  public:
   std::string_view kind() const override { return "link_bending"; }
-  std::vector<CoefficientLabel> coefficients(const Effect& /*effect*/, const Robot& /*robot*/) const override {
-    return {{"x_rad_per_nm", "rad/Nm"}, {"y_rad_per_nm", "rad/Nm"}};
+  std::vector<CoefficientLabel> coefficients(const Effect& effect, const Robot& robot) const override;
+  void unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
+                    std::vector<UnitMotion>& motions) const override;
+  std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override;
+  Needs needs(const Effect& effect, const Robot& /*robot*/) const override { return {.masses = !of_parts(effect)}; }
+  std::string formula(const Effect& effect, const Robot& robot) const override;
+  std::string diagnosis(const Effect& effect, const Robot& robot) const override;
+  std::vector<std::string> settings() const override;
+  bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
+  std::vector<std::string> forms() const override { return {"masses", "moments"}; }
+  void append_symbolic_motions(SymbolicWriter& writer) const override;
+
+ private:
+  static bool of_parts(const Effect& effect) { return effect.form == "moments"; }
+};
+
+std::vector<CoefficientLabel> LinkBendingLaw::coefficients(const Effect& effect, const Robot& /*robot*/) const {
+  if (!of_parts(effect)) return {{"x_rad_per_nm", "rad/Nm"}, {"y_rad_per_nm", "rad/Nm"}};
+  std::vector<CoefficientLabel> labels;
+  for (const WeightPart& part : kept_parts(effect)) {
+    const bool mass = part.axis == 3;
+    labels.push_back({"moment_" + name_of(part) + (mass ? "_rad_per_m" : "_rad"), mass ? "rad/m" : "rad"});
   }
-  void unit_motions(const Effect& effect, const Robot& /*robot*/, const ArmState& state,
-                    std::vector<UnitMotion>& motions) const override {
+  return labels;
+}
+
+void LinkBendingLaw::unit_motions(const Effect& effect, const Robot& /*robot*/, const ArmState& state,
+                                  std::vector<UnitMotion>& motions) const {
+  if (!of_parts(effect)) {
     for (int axis = 0; axis < 2; ++axis) {
       motions.push_back({axis, effect.joint, 3 + axis, moment_nm(state, effect.joint)[axis]});
     }
+    return;
   }
-  std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override {
-    std::vector<Effect> effects;
-    if (!evidence.masses) return effects;
-    const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
-    for (int joint = 0; joint < robot.chain.size(); ++joint) {
-      const auto bends = [&](const ArmState& state) { return moment_nm(state, joint).head<2>().norm() > kNoLoad; };
-      if (std::ranges::any_of(states, bends)) effects.push_back({.kind = "link_bending", .joint = joint});
+  int coefficient = 0;
+  for (const WeightPart& part : kept_parts(effect)) {
+    const Eigen::Vector3d moment = lever_moment(state, effect.joint, part);
+    for (int axis = 0; axis < 2; ++axis) motions.push_back({coefficient, effect.joint, 3 + axis, moment[axis]});
+    ++coefficient;
+  }
+}
+
+std::vector<Effect> LinkBendingLaw::proposals(const Robot& robot, const Evidence& evidence) const {
+  std::vector<Effect> effects;
+  const std::vector<ArmState> states = sampled_states(robot, evidence, 0.0);
+  if (!evidence.masses) {
+    const std::vector<WeightPart> parts = tilting_parts(robot, states, 0);
+    const auto propose = [&] {
+      effects.push_back({.kind = "link_bending", .joint = 0, .settings = {}, .form = "moments"});
+    };
+    const auto keep = [&](const WeightPart& part) {
+      effects.back().settings[std::string(kKeep) + name_of(part)] = 1.0;
+    };
+    for (const WeightPart& part : parts) {
+      propose();
+      keep(part);
     }
+    if (parts.size() < 2) return effects;
+    propose();
+    std::ranges::for_each(parts, keep);
     return effects;
   }
-  Needs needs(const Effect& /*effect*/, const Robot& /*robot*/) const override { return {.masses = true}; }
-  std::string formula(const Effect& effect, const Robot& robot) const override {
-    const std::string joint = std::to_string(effect.joint + 1);
+  for (int joint = 0; joint < robot.chain.size(); ++joint) {
+    const auto bends = [&](const ArmState& state) { return moment_nm(state, joint).head<2>().norm() > kNoLoad; };
+    if (std::ranges::any_of(states, bends))
+      effects.push_back({.kind = "link_bending", .joint = joint, .settings = {}, .form = "masses"});
+  }
+  return effects;
+}
+
+std::string LinkBendingLaw::formula(const Effect& effect, const Robot& robot) const {
+  const std::string joint = std::to_string(effect.joint + 1);
+  if (!of_parts(effect)) {
     return write_equations(effect, robot,
                            {{"tilt_x" + joint, {{0, "M_x" + joint}}}, {"tilt_y" + joint, {{1, "M_y" + joint}}}});
   }
-  std::string diagnosis(const Effect& effect, const Robot& /*robot*/) const override {
-    return "The axis of joint " + std::to_string(effect.joint + 1) + " tilts by " + angle_text(effect.value(0)) +
-           " about its x and " + angle_text(effect.value(1)) +
+  std::vector<Equation> equations;
+  for (const char* const axis : {"x", "y"}) {
+    Equation& equation = equations.emplace_back(Equation{std::string("tilt_") + axis + joint, {}});
+    for (const WeightPart& part : kept_parts(effect)) {
+      equation.terms.push_back({equation.terms.size(), std::string("lever_") + axis + '_' + name_of(part)});
+    }
+  }
+  return write_equations(effect, robot, equations);
+}
+
+std::string LinkBendingLaw::diagnosis(const Effect& effect, const Robot& /*robot*/) const {
+  const std::string joint = std::to_string(effect.joint + 1);
+  if (!of_parts(effect)) {
+    return "The axis of joint " + joint + " tilts by " + angle_text(effect.value(0)) + " about its x and " +
+           angle_text(effect.value(1)) +
            " about its y per Nm of gravity's moment there: its bearing or the link before it bends.";
   }
-  Circumstance prerequisite() const override { return Circumstance::masses; }
-  void append_symbolic_motions(SymbolicWriter& writer) const override {
-    const int joint = writer.effect.joint;
-    const SymbolicVector moment = gravity_moment(writer.state, joint);
-    for (int axis = 0; axis < 2; ++axis) writer.append(axis, joint, 3 + axis, moment[static_cast<std::size_t>(axis)]);
+  double moments_rad = 0.0, masses_rad_per_m = 0.0;
+  const std::vector<WeightPart> parts = kept_parts(effect);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    (parts[i].axis < 3 ? moments_rad : masses_rad_per_m) += std::abs(effect.value(i));
   }
-};
+  const std::string amount = moments_rad > 0 ? angle_text(moments_rad) : angle_text(masses_rad_per_m) + " a metre";
+  return "What holds joint " + joint + " tilts under the weight of the arm, whose masses are not known: by up to " +
+         amount + '.';
+}
+
+std::vector<std::string> LinkBendingLaw::settings() const {
+  std::vector<std::string> names;
+  for (int link = 0; link < kMaxJoints; ++link) {
+    for (int axis = 0; axis < 4; ++axis) names.push_back(std::string(kKeep) + name_of({link, axis}));
+  }
+  return names;
+}
+
+void LinkBendingLaw::append_symbolic_motions(SymbolicWriter& writer) const {
+  const int joint = writer.effect.joint;
+  const auto append = [&](int coefficient, const SymbolicVector& moment) {
+    for (int axis = 0; axis < 2; ++axis)
+      writer.append(coefficient, joint, 3 + axis, moment[static_cast<std::size_t>(axis)]);
+  };
+  if (of_parts(writer.effect)) {
+    int coefficient = 0;
+    for (const WeightPart& part : kept_parts(writer.effect))
+      append(coefficient++, lever_moment(writer.state, joint, part));
+    return;
+  }
+  const SymbolicVector moment = gravity_moment(writer.state, joint);
+  for (int axis = 0; axis < 2; ++axis) writer.append(axis, joint, 3 + axis, moment[static_cast<std::size_t>(axis)]);
+}
 
 }  // namespace
 

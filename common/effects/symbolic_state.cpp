@@ -180,6 +180,16 @@ SymbolicVector gravity_moment(const SymbolicState& state, int joint) {
   return place(state, joint).own_direction(moment(state, joint, state.robot->gravity_mps2));
 }
 
+SymbolicVector lever_moment(const SymbolicState& state, int joint, const WeightPart& part) {
+  const Eigen::Vector3d& gravity_mps2 = state.robot->gravity_mps2;
+  const double strength = gravity_mps2.norm();
+  if (strength == 0.0) return constant_vector(state.algebra(), Eigen::Vector3d::Zero());
+  const SymbolicFrame& link = state.links[static_cast<std::size_t>(part.link)];
+  const SymbolicVector arm =
+      part.axis == 3 ? minus(link.origin, place(state, joint).origin) : link.axes[static_cast<std::size_t>(part.axis)];
+  return place(state, joint).own_direction(cross(arm, constant_vector(state.algebra(), gravity_mps2 / strength)));
+}
+
 Expression lever(const SymbolicState& state, int joint, const WeightPart& part, const Eigen::Vector3d& gravity_mps2) {
   Algebra& algebra = state.algebra();
   const double strength = gravity_mps2.norm();

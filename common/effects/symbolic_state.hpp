@@ -79,6 +79,8 @@ SymbolicState symbolic_state(Algebra& algebra, const Robot& robot, const std::ve
 Expression effort(const SymbolicState& state, int joint, const Eigen::Vector3d& gravity_mps2);
 /// The moment of gravity at the joint's place, in the axes of the place, Nm.
 SymbolicVector gravity_moment(const SymbolicState& state, int joint);
+/// As lever_moment() of numbers.
+SymbolicVector lever_moment(const SymbolicState& state, int joint, const WeightPart& part);
 /// As lever() of numbers, under any gravity.
 Expression lever(const SymbolicState& state, int joint, const WeightPart& part, const Eigen::Vector3d& gravity_mps2);
 

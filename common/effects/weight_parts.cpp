@@ -1,6 +1,7 @@
 #include "effects/weight_parts.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,6 +38,24 @@ std::vector<WeightPart> parts_beyond(const Robot& robot, int joint) {
   return parts;
 }
 
+/// Of which `fill` writes what each does: those that add to the ones before.
+template <typename Fill>
+std::vector<WeightPart> parts_told_apart(const Robot& robot, int joint, std::size_t rows, const Fill& fill) {
+  std::vector<WeightPart> kept;
+  std::vector<Eigen::VectorXd> basis;
+  Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
+  for (const WeightPart& part : parts_beyond(robot, joint)) {
+    fill(part, column);
+    const double before = column.norm();
+    if (before < kNoLoad) continue;
+    project_off(basis, column);
+    if (column.norm() < kIndependent * before) continue;
+    basis.emplace_back(column.normalized());
+    kept.push_back(part);
+  }
+  return kept;
+}
+
 constexpr int kStates = 64;
 constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
 
@@ -56,6 +75,16 @@ Interval range_of(const Robot& robot, const Evidence& evidence, std::size_t join
 
 }  // namespace
 
+Eigen::Vector3d lever_moment(const ArmState& state, int joint, const WeightPart& part) {
+  const double strength = state.gravity_mps2.norm();
+  if (strength == 0.0) return Eigen::Vector3d::Zero();
+  const Eigen::Isometry3d& place = state.places[static_cast<std::size_t>(joint)];
+  const Eigen::Isometry3d& link = state.links[static_cast<std::size_t>(part.link)];
+  const Eigen::Vector3d arm = part.axis == kMass ? Eigen::Vector3d(link.translation() - place.translation())
+                                                 : Eigen::Vector3d(link.linear().col(part.axis));
+  return place.linear().transpose() * arm.cross(state.gravity_mps2 / strength);
+}
+
 double lever(const Robot& robot, const ArmState& state, int joint, const WeightPart& part) {
   const double strength = state.gravity_mps2.norm();
   if (strength == 0.0) return 0.0;
@@ -71,21 +100,63 @@ double lever(const Robot& robot, const ArmState& state, int joint, const WeightP
 }
 
 std::vector<WeightPart> independent_parts(const Robot& robot, const std::vector<ArmState>& states, int joint) {
-  std::vector<WeightPart> kept;
-  std::vector<Eigen::VectorXd> basis;
-  Eigen::VectorXd column(static_cast<Eigen::Index>(states.size()));
-  for (const WeightPart& part : parts_beyond(robot, joint)) {
+  return parts_told_apart(robot, joint, states.size(), [&](const WeightPart& part, Eigen::VectorXd& column) {
     for (std::size_t i = 0; i < states.size(); ++i) {
       column[static_cast<Eigen::Index>(i)] = lever(robot, states[i], joint, part);
     }
-    const double before = column.norm();
-    if (before < kNoLoad) continue;
-    project_off(basis, column);
-    if (column.norm() < kIndependent * before) continue;
-    basis.emplace_back(column.normalized());
-    kept.push_back(part);
+  });
+}
+
+std::vector<WeightPart> tilting_parts(const Robot& robot, const std::vector<ArmState>& states, int joint) {
+  return parts_told_apart(robot, joint, 2 * states.size(), [&](const WeightPart& part, Eigen::VectorXd& column) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      column.segment<2>(2 * static_cast<Eigen::Index>(i)) = lever_moment(states[i], joint, part).head<2>();
+    }
+  });
+}
+
+double payload_torque(const Robot& robot, const ArmState& state, int joint) {
+  const Eigen::Isometry3d& place = state.places[static_cast<std::size_t>(joint)];
+  const Eigen::Vector3d axis = place.linear().col(2), weight_n = state.stop.payload_kg * state.gravity_mps2;
+  if (!is_revolute(robot.chain, joint)) return axis.dot(weight_n);
+  return axis.dot(Eigen::Vector3d(state.payload_point_m - place.translation()).cross(weight_n));
+}
+
+std::map<std::string, double> logged_weights(const Robot& robot, const std::vector<ArmState>& states, int joint) {
+  constexpr double kVaried = 1e-6;
+  const std::vector<WeightPart> parts = independent_parts(robot, states, joint);
+  const auto rows = static_cast<Eigen::Index>(states.size()), count = static_cast<Eigen::Index>(parts.size());
+  Eigen::MatrixXd columns(rows, count + 2);
+  Eigen::VectorXd gravity(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const ArmState& state = states[static_cast<std::size_t>(row)];
+    if (state.stop.torque.size() == 0) return {};
+    for (Eigen::Index part = 0; part < count; ++part) {
+      columns(row, part) = lever(robot, state, joint, parts[static_cast<std::size_t>(part)]);
+    }
+    columns(row, count) = state.approach(joint);
+    columns(row, count + 1) = 1.0;
+    gravity[row] = -state.drive_torque(joint) - payload_torque(robot, state, joint);
   }
-  return kept;
+  if (rows == 0 || gravity.maxCoeff() - gravity.minCoeff() < kVaried) return {};
+  const Eigen::VectorXd fitted = columns.completeOrthogonalDecomposition().solve(gravity);
+  std::map<std::string, double> weights{{"logged_friction", fitted[count]}, {"logged_zero", fitted[count + 1]}};
+  for (Eigen::Index part = 0; part < count; ++part) {
+    weights[std::string(kLogged) + name_of(parts[static_cast<std::size_t>(part)])] = fitted[part];
+  }
+  return weights;
+}
+
+double weight_torque(const std::map<std::string, double>& weights, const Robot& robot, const ArmState& state,
+                     int joint) {
+  double torque = 0.0;
+  for (const auto& [name, value] : weights) {
+    if (!name.starts_with(kLogged)) continue;
+    if (const auto part = weight_part(std::string_view(name).substr(kLogged.size()))) {
+      torque += value * lever(robot, state, joint, *part);
+    }
+  }
+  return torque;
 }
 
 std::vector<WeightPart> kept_parts(const Effect& effect) {

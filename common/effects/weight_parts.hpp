@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,9 +26,28 @@ struct WeightPart {
 /// (mass) for a revolute joint, 0 or dimensionless for a prismatic one.
 double lever(const Robot& robot, const ArmState& state, int joint, const WeightPart& part);
 
+/// The moment of gravity of unit strength about the joint's place, in its axes, per unit of the part: dimensionless
+/// (moments) or m (mass).
+Eigen::Vector3d lever_moment(const ArmState& state, int joint, const WeightPart& part);
+
 /// The parts of the links beyond the joint that can be told apart at these states: moments before masses, inner links
 /// before outer ones, each kept where more than 1 % of it is independent of those before.
 std::vector<WeightPart> independent_parts(const Robot& robot, const std::vector<ArmState>& states, int joint);
+/// The same of what tilts the joint's place across its axis.
+std::vector<WeightPart> tilting_parts(const Robot& robot, const std::vector<ArmState>& states, int joint);
+
+/// What the drives' torques tell of the weight on a joint: the torque (Nm or N) of gravity of each independent part
+/// ("logged_3_mx", times its lever), of friction ("logged_friction", against the last motion) and of the sensor itself
+/// ("logged_zero"), by least squares over these states. Of what their payloads weigh it is free. Nothing where torques
+/// were not logged at all of them, or are the same at all.
+std::map<std::string, double> logged_weights(const Robot& robot, const std::vector<ArmState>& states, int joint);
+/// Before the name of a part among those.
+inline constexpr std::string_view kLogged = "logged_";
+/// The torque of gravity on the joint by such weights, payload left out.
+double weight_torque(const std::map<std::string, double>& weights, const Robot& robot, const ArmState& state,
+                     int joint);
+/// That of the state's payload at the tool point alone.
+double payload_torque(const Robot& robot, const ArmState& state, int joint);
 
 /// Before the name of a part in the settings of an effect that has it.
 inline constexpr std::string_view kKeep = "keep_";

@@ -50,6 +50,7 @@ class ExperimentDesign {
   MeasuredPose random_stop(const std::vector<Interval>& ranges) {
     MeasuredPose pose = problem_.data.poses[problem_.fitted[random_.index(problem_.fitted.size())]];
     pose.joints = feasible_.draw(ranges, random_);
+    pose.torque = std::nullopt;
     return pose;
   }
 

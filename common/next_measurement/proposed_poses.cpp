@@ -74,6 +74,7 @@ std::vector<MeasuredPose> random_stops(const DiagnosisProblem& problem, int coun
   for (int i = 0; i < count; ++i) {
     MeasuredPose& pose = stops.emplace_back(problem.data.poses[problem.fitted[random.index(problem.fitted.size())]]);
     pose.joints = feasible.draw(feasible.allowed(), random);
+    pose.torque = std::nullopt;
     pose.payload_kg = std::nullopt;
     if (!levels.empty()) pose.payload_kg = levels[random.index(levels.size())];
     pose.approach = std::nullopt;

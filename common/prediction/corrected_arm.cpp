@@ -80,16 +80,12 @@ SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std
   return base * (flange(algebra, robot.chain, joints, by.places) * SymbolicFrame(algebra, robot.tool(target)));
 }
 
-/// What it depends on beside joints and masses, by law.needs(); empty where on nothing.
-std::string circumstances(const Needs& needs) {
+/// What it depends on beside joints and masses; empty where on nothing.
+std::string words_of(const Needs& needs) {
   std::string words;
-  const auto add = [&](bool needed, const char* word) {
-    if (needed) words += (words.empty() ? "" : " and ") + std::string(word);
-  };
-  add(needs.approach, "the side from which joints come");
-  add(needs.payload, "the payload");
-  add(needs.temperature, "the temperature");
-  add(needs.time, "the time");
+  for (const CircumstanceWords& one : circumstances()) {
+    if (needs.*one.needed) words += (words.empty() ? "" : " and ") + std::string(one.words);
+  }
   return words;
 }
 
@@ -99,12 +95,13 @@ std::string note_on(const Effect& effect, const Robot& robot, bool held) {
   const std::string name =
       effect.kind + (effect.joint < 0 ? std::string() : " of joint " + std::to_string(effect.joint + 1));
   const Needs needs = law_of(effect).needs(effect, robot);
-  const std::string words = circumstances(needs);
+  const std::string words = words_of(needs);
   if (!held) {
     return name + " is left out" + (words.empty() ? "" : ", for it depends on " + words) + '.';
   }
   std::string note;
   if (needs.approach || needs.temperature || needs.time) note = name + " is taken with s = 0 and T = 0.";
+  if (needs.torque) note = name + " is by the weight that the logged torques told of.";
   if (law_of(effect).bears_payload(effect, robot))
     note += (note.empty() ? "" : " ") + name + " is that of an arm that carries nothing.";
   return note;

@@ -168,7 +168,7 @@ class Corrector {
   Stop stop_at(const Target& target, const JointVector& joints) const {
     Stop stop(joints);
     stop.approach = target.approach.value_or(signs_);
-    stop.payload_kg = target.payload_kg.value_or(circumstances_.payload_kg);
+    stop.payload_kg = target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
     stop.temperature_celsius =
         target.temperature_celsius ? target.temperature_celsius : circumstances_.temperature_celsius;
     stop.time_s = target.time_s;
@@ -200,7 +200,7 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
   Corrector corrector(model, circumstances);
-  for (std::string& sentence : warnings_of(result.program, model, circumstances.tool_given)) {
+  for (std::string& sentence : warnings_of(result.program, model, circumstances)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
   result.warnings.insert(result.warnings.end(), result.program.uncorrected.begin(), result.program.uncorrected.end());

@@ -16,7 +16,7 @@ namespace demecal::inline programs {
 
 /// Circumstances of targets that do not state their own; none: the model's reference.
 struct Circumstances {
-  double payload_kg = 0.0;
+  std::optional<double> payload_kg{};  ///< none: an empty hand
   std::optional<double> temperature_celsius{};
   JointVector near{};       ///< joints that the arm is near to where the program does not tell; empty: unknown
   bool tool_given = false;  ///< the model's tool is one that the user names
@@ -59,8 +59,9 @@ std::vector<std::string> corrected_files(const ProgramSource& source, const Corr
 /// A sentence for each thing that is not as it should be; none where all is well.
 std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected, const CommandModel& model);
 
-/// The same of the program, as read, as a whole, such as a tool that was identified far from where it is described.
-/// `tool_given`: the model's tool is one that the user names.
-std::vector<std::string> warnings_of(const Program& program, const CommandModel& model, bool tool_given = false);
+/// The same of the program, as read, as a whole, such as a tool that was identified far from where it is described, or
+/// effects that depend on what neither its targets nor `circumstances` state.
+std::vector<std::string> warnings_of(const Program& program, const CommandModel& model,
+                                     const Circumstances& circumstances);
 
 }  // namespace demecal::inline programs

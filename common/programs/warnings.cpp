@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
@@ -108,6 +109,45 @@ void check_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std
   }
 }
 
+/// "compliance of joint 2", or how many effects there are.
+std::string names_of(const std::vector<const Effect*>& effects) {
+  if (effects.size() > 2) return std::to_string(effects.size()) + " effects";
+  std::string names;
+  for (const Effect* const effect : effects) {
+    names += (names.empty() ? "" : " and ") + effect->kind;
+    if (effect->joint >= 0) names += " of joint " + std::to_string(effect->joint + 1);
+  }
+  return names;
+}
+
+/// What the model's effects depend on and nobody states; the side of approach follows from the motions.
+void check_circumstances(const Program& program, const CommandModel& model, const Circumstances& given,
+                         std::vector<std::string>& sentences) {
+  const auto stated = [&](const CircumstanceWords& one) {
+    const auto by_all = [&](auto member) {
+      return std::ranges::all_of(program.targets, [=](const Target& target) { return (target.*member).has_value(); });
+    };
+    if (one.needed == &Needs::payload) return given.payload_kg.has_value() || by_all(&Target::payload_kg);
+    if (one.needed == &Needs::temperature)
+      return given.temperature_celsius.has_value() || by_all(&Target::temperature_celsius);
+    return one.needed == &Needs::approach || one.needed == &Needs::time;
+  };
+  for (const CircumstanceWords& one : circumstances()) {
+    if (stated(one)) continue;
+    std::vector<const Effect*> depending;
+    for (const Effect& effect : model.robot.effects) {
+      if (law_of(effect).needs(effect, model.robot.described).*one.needed) depending.push_back(&effect);
+    }
+    if (depending.empty()) continue;
+    std::string option;
+    if (one.needed == &Needs::payload) option = "; --payload-kg tells it";
+    if (one.needed == &Needs::temperature) option = "; --temperature-celsius tells it";
+    sentences.push_back(names_of(depending) + (depending.size() == 1 ? " depends on " : " depend on ") +
+                        std::string(one.words) + ", which the program does not state: " + std::string(one.instead) +
+                        " is taken" + option);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected,
@@ -132,7 +172,8 @@ std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget
   return sentences;
 }
 
-std::vector<std::string> warnings_of(const Program& program, const CommandModel& model, bool tool_given) {
+std::vector<std::string> warnings_of(const Program& program, const CommandModel& model,
+                                     const Circumstances& circumstances) {
   std::vector<std::string> sentences = model.notes;
   if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
@@ -140,7 +181,8 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
     sentences.emplace_back(
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
-  if (tool_given) check_given_tool(program, model.nominal.chain.tool_m, sentences);
+  check_circumstances(program, model, circumstances, sentences);
+  if (circumstances.tool_given) check_given_tool(program, model.nominal.chain.tool_m, sentences);
   return sentences;
 }
 

@@ -19,31 +19,12 @@
 namespace demecal::inline report {
 namespace {
 
-/// A circumstance that an effect may need, and whether a pose has it.
-struct PoseCircumstance {
-  const char* name;
-  const char* words;    ///< what a pose without it has not
-  const char* instead;  ///< what the model takes there
-  bool Needs::*needed;
-  bool (*has)(const MeasuredPose&);
-};
-
-constexpr PoseCircumstance kCircumstances[] = {
-    {"approach", "approach direction", "no side", &Needs::approach,
-     [](const MeasuredPose& pose) { return pose.approach.has_value(); }},
-    {"payload", "payload", "an empty hand", &Needs::payload,
-     [](const MeasuredPose& pose) { return pose.payload_kg.has_value(); }},
-    {"temperature", "temperature", "the effect's reference", &Needs::temperature,
-     [](const MeasuredPose& pose) { return pose.temperature_celsius.has_value(); }},
-    {"time", "time", "the effect's reference", &Needs::time,
-     [](const MeasuredPose& pose) { return pose.time_s.has_value(); }}};
-
-UnappliedEffect unapplied(const Effect& effect, const PoseCircumstance& lacking, std::size_t without,
+UnappliedEffect unapplied(const Effect& effect, const CircumstanceWords& lacking, std::size_t without,
                           std::size_t poses) {
-  UnappliedEffect one{effect.kind, std::nullopt, lacking.name, without, {}};
+  UnappliedEffect one{effect.kind, std::nullopt, std::string(lacking.name), without, {}};
   if (effect.joint >= 0) one.joint = static_cast<std::uint64_t>(effect.joint) + 1;
   one.sentence = fmt::format(
-      "{}{} cannot be applied as it was calibrated at {} of {} poses: they have no {}, and {} is taken", one.kind,
+      "{}{} cannot be applied as it was calibrated at {} of {} poses: they do not state {}, and {} is taken", one.kind,
       one.joint ? fmt::format(" of joint {}", *one.joint) : "", without, poses, lacking.words, lacking.instead);
   return one;
 }
@@ -203,10 +184,10 @@ std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, cons
   std::vector<UnappliedEffect> all;
   for (const Effect& effect : robot.effects) {
     const Needs needs = law_of(effect).needs(effect, data.robot);
-    for (const PoseCircumstance& one : kCircumstances) {
+    for (const CircumstanceWords& one : circumstances()) {
       if (!(needs.*one.needed)) continue;
       const auto without = static_cast<std::size_t>(
-          std::ranges::count_if(data.poses, [&one](const MeasuredPose& pose) { return !one.has(pose); }));
+          std::ranges::count_if(data.poses, [&one](const MeasuredPose& pose) { return !one.recorded(pose); }));
       if (without > 0) all.push_back(unapplied(effect, one, without, data.poses.size()));
     }
   }

@@ -70,7 +70,7 @@ bool contradicts(const FindingEntry& finding);
 struct UnappliedEffect {
   std::string kind;
   std::optional<std::uint64_t> joint;  ///< from 1; none: of the whole arm
-  std::string lacking;                 ///< "approach", "payload", "temperature" or "time"
+  std::string lacking;                 ///< "approach", "torque", "payload", "temperature" or "time"
   std::size_t poses = 0;               ///< without it
   std::string sentence;  ///< "backlash of joint 2 cannot be applied as it was calibrated at 30 of 30 poses: ..."
 };

@@ -22,6 +22,12 @@ struct TouchedPoint {
   bool for_acceptance = false;                     ///< touched by accept poses only
 };
 
+/// How the drives' torques are logged.
+struct TorqueLog {
+  double noise = 0.0;     ///< standard deviation, Nm or N
+  double friction = 0.0;  ///< by which a joint that moved up needs more, and one that moved down less
+};
+
 /// What is wrong with it is its TrueErrors.
 struct Scenario : TrueErrors {
   std::string name;
@@ -46,6 +52,7 @@ struct Scenario : TrueErrors {
   double orientation_noise_rad = 0.0;
   std::vector<double> payloads_kg;  ///< drawn per pose; empty: no payload column
   bool approach_recorded = true;
+  std::optional<TorqueLog> torque_log{};  ///< none: torques are not logged
 
   // or what it touches in place of being measured
   std::vector<TouchedPoint> touched;           ///< empty: it is measured

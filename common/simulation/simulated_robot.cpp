@@ -150,6 +150,16 @@ Eigen::Isometry3d SimulatedRobot::true_pose(const Visit& visit) const {
   return drifted(scenario_.sensor_from_base * pose, scenario_.drift, visit.time_s);
 }
 
+JointVector SimulatedRobot::logged_torque(const Visit& visit, RandomStream& random) const {
+  const Situation now = situation(visit);
+  JointVector torque(visit.commanded.size());
+  for (Eigen::Index joint = 0; joint < torque.size(); ++joint) {
+    torque[joint] = scenario_.torque_log->friction * visit.approach[joint] -
+                    now.loads[static_cast<std::size_t>(joint)].effort + scenario_.torque_log->noise * random.normal();
+  }
+  return torque;
+}
+
 MeasuredPose SimulatedRobot::measure(const Visit& visit, RandomStream& random) const {
   const Eigen::Isometry3d pose = true_pose(visit);
   MeasuredPose measured;
@@ -160,6 +170,7 @@ MeasuredPose SimulatedRobot::measure(const Visit& visit, RandomStream& random) c
     measured.orientation = (rotation_by(noise) * Eigen::Quaterniond(pose.linear())).normalized();
   }
   if (scenario_.approach_recorded) measured.approach = visit.approach;
+  if (scenario_.torque_log) measured.torque = logged_torque(visit, random);
   if (!scenario_.payloads_kg.empty()) measured.payload_kg = visit.payload_kg;
   if (scenario_.temperature) measured.temperature_celsius = temperature_celsius(*scenario_.temperature, visit.time_s);
   if (scenario_.seconds_per_pose > 0.0) measured.time_s = visit.time_s;

@@ -32,7 +32,7 @@ class SimulatedRobot {
   /// True pose of the tool in the sensor's frame.
   Eigen::Isometry3d true_pose(const Visit& visit) const;
   /// One measurement of that pose, without set and pose id: noise drawn from `random`, 3 normals for the position and,
-  /// where it is measured, 3 for the orientation.
+  /// where it is measured, 3 for the orientation; one a joint where torques are logged.
   MeasuredPose measure(const Visit& visit, RandomStream& random) const;
 
   JointVector true_joints(const JointVector& commanded, const ApproachSigns& approach, double payload_kg) const {
@@ -48,6 +48,7 @@ class SimulatedRobot {
 
  private:
   Situation situation(const Visit& visit) const;
+  JointVector logged_torque(const Visit& visit, RandomStream& random) const;
   JointVector joints_in(const Situation& circumstances) const;
   std::vector<Eigen::Vector3d> axis_tilts(const Situation& circumstances) const;
 

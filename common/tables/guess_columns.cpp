@@ -138,6 +138,9 @@ GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::ve
       triple(named, {{"sx", "sy", "sz"}, {"ux", "uy", "uz"}, {"sigmax", "sigmay", "sigmaz"}, {"stdx", "stdy", "stdz"}});
   guess.orientation = named.all_of({"qw", "qx", "qy", "qz"});
   guess.approach = named.all_of(numbered_names("s", 1, joints));
+  for (const std::string_view stem : {"torque", "tau", "jointtorque"}) {
+    if (guess.torque.empty()) guess.torque = named.all_of(numbered_names(stem, 1, joints));
+  }
   guess.name = named.first_of({"poseid", "pose", "pointid", "pointname", "point", "name", "pointno", "id", "nr", "no"});
   guess.time = named.first_of({"time", "timestamp", "datetime", "t", "stamp", "zeit", "zeitstempel"});
   guess.set = named.find("set");

@@ -14,13 +14,14 @@ namespace demecal::inline tables {
 
 /// Indices of columns; empty, or nothing, where the table has none of the kind.
 struct GuessedColumns {
-  std::vector<std::size_t> joints, position, orientation, sigma, approach;
+  std::vector<std::size_t> joints, position, orientation, sigma, approach, torque;
   std::optional<std::size_t> name, time, set, payload, temperature, target, contact;
 };
 
 /// By their headings: joints q1 or j1, joint_1, axis1, A1 ... in a row of `joints`, or `joint_names` themselves; x y z;
-/// qw qx qy qz; sx sy sz; a name or point; a time. In a table without headings: three columns of numbers are a
-/// position, as many as there are joints are joints, both together are both, and a first column of words is the name.
+/// qw qx qy qz; sx sy sz; torque1 or tau1 ...; a name or point; a time. In a table without headings: three columns of
+/// numbers are a position, as many as there are joints are joints, both together are both, and a first column of words
+/// is the name.
 GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names);
 
 /// Whether the table itself says the column's unit, at the end of its name or beside it.

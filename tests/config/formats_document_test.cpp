@@ -244,6 +244,9 @@ std::map<std::string, std::set<std::string>> names_of_coefficients() {
   std::vector<Effect> effects = all_proposals(turning);
   effects.push_back({.kind = "compliance", .joint = 0, .settings = {{"with_payload", 1.0}}, .form = "moments"});
   for (const char* part : {"mx", "my", "mz", "mass"}) effects.back().settings[std::string("keep_3_") + part] = 1.0;
+  effects.push_back(effects.back());
+  effects.back().kind = "link_bending";
+  effects.back().settings.erase("with_payload");
   std::map<std::string, std::set<std::string>> names;
   for (const Robot& robot : {turning, sliding}) {
     for (const Effect& effect : effects) {
@@ -256,7 +259,7 @@ std::map<std::string, std::set<std::string>> names_of_coefficients() {
 }
 
 TEST(FormatsDocument, HasEveryLawOfTheCatalogue) {
-  static const std::regex link("keep_[0-9]_");
+  static const std::regex link("(keep|logged)_[0-9]_");
   const auto coefficients = names_of_coefficients();
   const auto set_of = [](const std::vector<std::string>& words) {
     return std::set<std::string>(words.begin(), words.end());
@@ -269,7 +272,7 @@ TEST(FormatsDocument, HasEveryLawOfTheCatalogue) {
     const EffectLaw* law = find_law(kind);
     ASSERT_NE(law, nullptr);
     std::set<std::string> settings;
-    for (const std::string& name : law->settings()) settings.insert(std::regex_replace(name, link, "keep_L_"));
+    for (const std::string& name : law->settings()) settings.insert(std::regex_replace(name, link, "$1_L_"));
     EXPECT_EQ(row.cells.at(1), law->subject() == Subject::joint ? "yes" : "no");
     EXPECT_THAT(code_spans(row.cells.at(2)), ContainerEq(law->forms()));
     EXPECT_THAT(set_of(code_spans(row.cells.at(3))), ContainerEq(settings));

@@ -66,6 +66,8 @@ MeasuredPose random_pose(const DataSet& data, std::size_t index, RandomStream& r
   pose.orientation =
       Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
   pose.distances_m = {random.real(0.1, 2.0), random.real(0.1, 2.0)};
+  pose.torque = JointVector(joints);
+  for (double& torque : *pose.torque) torque = random.real(-200.0, 200.0);
   pose.payload_kg = random.real(0.0, 5.0);
   pose.temperature_celsius = random.real(15.0, 30.0);
   pose.time_s = 20.0 * static_cast<double>(index);
@@ -119,6 +121,7 @@ void expect_same_pose(const MeasuredPose& back, const MeasuredPose& pose) {
   ASSERT_EQ(back.distances_m.size(), pose.distances_m.size());
   expect_same(back.distances_m[1], pose.distances_m[1]);
   EXPECT_EQ(*back.approach, *pose.approach);
+  EXPECT_EQ(*back.torque, *pose.torque);
   EXPECT_EQ(back.payload_kg, pose.payload_kg);
   EXPECT_EQ(back.temperature_celsius, pose.temperature_celsius);
   EXPECT_EQ(back.time_s, pose.time_s);

@@ -62,7 +62,7 @@ void expect_json(const std::string& title, const std::vector<std::string>& texts
 
 /// Expects the page to have these columns; those with the number of a joint or an anchor have N there.
 void expect_columns(const std::string& title, const std::vector<std::string>& tables) {
-  static const std::regex number("^([qsl])[0-9]+");
+  static const std::regex number("^([qsl]|torque)[0-9]+");
   std::set<std::string> columns;
   for (const std::string& table : tables) {
     std::istringstream text(table);

@@ -50,20 +50,23 @@ TEST(ReadPoses, ReadsEveryCircumstance) {
   map.orientation = columns_named({"qw", "qx", "qy", "qz"});
   map.distances = columns_named({"l1_mm", "l2_m"});
   map.approach = columns_named({"s1", "s2", "s3"});
+  map.torque = columns_named({"t1", "t2_nm", "t3"});
   map.payload = column("payload_kg");
   map.temperature = column("temperature_celsius");
   map.time = column("order");
   map.set = column("set");
   map.pose = column("pose_id");
   map.target = column("target_id");
-  const auto poses = read(kHeading +
-                              ",qw,qx,qy,qz,l1_mm,l2_m,s1,s2,s3,payload_kg,temperature_celsius,order,set,pose_id,"
-                              "target_id\n40,-45,100,1,2,3,0.9995,0,0,0,500,0.25,-1,0,+1,2.5,21,7,accept,P 1,A\n",
-                          map);
+  const auto poses =
+      read(kHeading +
+               ",qw,qx,qy,qz,l1_mm,l2_m,s1,s2,s3,t1,t2_nm,t3,payload_kg,temperature_celsius,order,set,pose_id,"
+               "target_id\n40,-45,100,1,2,3,0.9995,0,0,0,500,0.25,-1,0,+1,-80.5,20,300,2.5,21,7,accept,P 1,A\n",
+           map);
   const MeasuredPose& pose = poses[0];
   EXPECT_DOUBLE_EQ(pose.orientation->w(), 1.0);
   EXPECT_THAT(pose.distances_m, ElementsAre(0.5, 0.25));
   EXPECT_EQ(*pose.approach, ApproachSigns(Eigen::Vector3d(-1.0, 0.0, 1.0)));
+  EXPECT_EQ(*pose.torque, JointVector(Eigen::Vector3d(-80.5, 20.0, 300.0)));
   EXPECT_EQ(pose.payload_kg, 2.5);
   EXPECT_EQ(pose.temperature_celsius, 21.0);
   EXPECT_EQ(pose.time_s, 7.0);
@@ -134,6 +137,9 @@ TEST(ReadPoses, RefusesBrokenCircumstances) {
             "poses.csv:2: '0.5': column s2 must be -1, 0 or 1: the sign of the joint's last motion");
   EXPECT_THAT(with("qw,qx,qy,qz", "0.7,0.7,0.7,0", orientation), HasSubstr("must be a unit quaternion w, x, y, z"));
   EXPECT_EQ(with("l1_mm", "0", distance), "poses.csv:2: '0': column l1_mm must be positive: it is a measured length");
+  const auto torque = [](ColumnMap& map) { map.torque = columns_named({"t1_n", "t2", "t3"}); };
+  EXPECT_EQ(with("t1_n,t2,t3", "1,2,3", torque),
+            "set.yaml:5: 't1_n': ends in a unit of a force; it is expected to hold a torque and end in _nm");
   EXPECT_EQ(with("payload_kg", "-1", payload),
             "poses.csv:2: '-1': column payload_kg must not be negative: it is a mass");
   EXPECT_EQ(with("set", "training", set),

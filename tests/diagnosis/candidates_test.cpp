@@ -64,9 +64,8 @@ TEST(Evidence, LacksWhatOnePoseLacksOrWhatNeverChanged) {
   }
   const Evidence evidence = evidence_of(arm.data, all_poses(arm.data));
   EXPECT_FALSE(evidence.approach || evidence.payload || evidence.temperature || evidence.time || evidence.masses);
-  EXPECT_THAT(
-      kinds_of(untestable_kinds(evidence, {})),
-      UnorderedElementsAre("backlash", "hysteresis", "thermal_offset", "thermal_length", "drift", "link_bending"));
+  EXPECT_THAT(kinds_of(untestable_kinds(evidence, {})),
+              UnorderedElementsAre("backlash", "hysteresis", "thermal_offset", "thermal_length", "drift"));
   EXPECT_THAT(kinds_of(untestable_kinds(evidence, {"drift", "gain"})), UnorderedElementsAre("drift"));
 }
 

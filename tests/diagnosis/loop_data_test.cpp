@@ -122,8 +122,8 @@ TEST(ClosedLoopData, WithoutCircumstancesSayWhatTheyCannotShow) {
   const LoopResult result = run_loop(data, kZeroed, quick());
   expect_sound(result.outcome);
   EXPECT_EQ(count_added(result, "backlash", 1), 0);
-  EXPECT_THAT(unseen(result.outcome), UnorderedElementsAre("backlash", "hysteresis", "thermal_offset", "thermal_length",
-                                                           "drift", "link_bending"));
+  EXPECT_THAT(unseen(result.outcome),
+              UnorderedElementsAre("backlash", "hysteresis", "thermal_offset", "thermal_length", "drift"));
   for (const NotFound& each : result.outcome.not_found) {
     EXPECT_THAT(unseen(result.outcome), ::testing::Not(Contains(each.effect.kind)));
   }

@@ -88,7 +88,7 @@ TEST(Catalogue, ProposesNothingThatTheDataCannotShow) {
     for (const EffectLaw* law : catalogue()) {
       for (const Effect& effect : law->proposals(robot, {})) {
         const Needs needs = law->needs(effect, robot);
-        EXPECT_FALSE(needs.approach || needs.payload || needs.temperature || needs.time || needs.masses)
+        EXPECT_FALSE(needs.approach || needs.torque || needs.payload || needs.temperature || needs.time || needs.masses)
             << law->kind() << ' ' << effect.form;
       }
     }

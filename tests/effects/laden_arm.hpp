@@ -37,6 +37,8 @@ inline Stop random_stop(RandomStream& stream, const Robot& robot) {
   Stop stop(random_joints(stream, robot.chain));
   stop.approach = ApproachSigns(robot.chain.size());
   for (double& sign : stop.approach) sign = stream.chance(0.5) ? 1.0 : -1.0;
+  stop.torque = JointVector(robot.chain.size());
+  for (double& torque : stop.torque) torque = stream.real(-80.0, 80.0);
   stop.payload_kg = stream.real(0.5, 5.0);
   stop.temperature_celsius = stream.real(22.0, 35.0);
   stop.time_s = stream.real(100.0, 900.0);
@@ -49,6 +51,9 @@ inline Evidence full_evidence(const Robot& robot) {
   for (const Joint& joint : robot.chain.joints) evidence.joint_ranges.push_back({joint.lower, joint.upper});
   evidence.highest_ratio = 12;
   evidence.stated_ratios = {50.5};
+  evidence.logged_weights.assign(
+      robot.chain.joints.size(),
+      {{"logged_friction", 1.0}, {"logged_zero", -0.5}, {"logged_6_mx", 30.0}, {"logged_6_mass", 80.0}});
   return evidence;
 }
 

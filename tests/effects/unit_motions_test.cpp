@@ -193,6 +193,33 @@ TEST(UnitMotions, OfUnknownMassesSpanTheTorqueOfAnyMasses) {
   }
 }
 
+TEST(UnitMotions, OfABaseUnderUnknownMassesSpanTheMomentOfAnyMasses) {
+  RandomStream stream{34, 14};
+  for (const Arm arm : kArms) {
+    const Robot robot = laden_arm(stream, arm);
+    Evidence evidence = full_evidence(robot);
+    evidence.masses = false;
+    const std::vector<Effect> effects = find_law("link_bending")->proposals(robot, evidence);
+    ASSERT_GT(effects.size(), 2u);
+    const Effect& all = effects.back();  // those before it are its parts, one by one
+    const auto count = static_cast<Eigen::Index>(law_of(all).coefficients(all, robot).size());
+    EXPECT_EQ(count, std::ssize(effects) - 1);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(80, count);
+    Eigen::VectorXd moment(80);
+    for (Eigen::Index stop = 0; stop < 40; ++stop) {
+      const ArmState state = arm_state(robot, Stop(random_joints(stream, robot.chain)));
+      std::vector<UnitMotion> motions;
+      append_unit_motions(all, robot, state, motions);
+      for (const UnitMotion& motion : motions) {
+        ASSERT_EQ(motion.place, 0);
+        columns(2 * stop + motion.axis - 3, motion.coefficient) += motion.size;
+      }
+      moment.segment<2>(2 * stop) = state.loads[0].moment_nm.head<2>();
+    }
+    EXPECT_LT(largest_residual(columns, moment), 0.02 * moment.cwiseAbs().maxCoeff());
+  }
+}
+
 TEST(UnitMotions, OfTiltedGravityAreTheTorqueOfLeaningGravity) {
   RandomStream stream{34, 5};
   constexpr double kLean = 1e-5;

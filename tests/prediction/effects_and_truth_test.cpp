@@ -5,6 +5,7 @@
 
 #include "effects/effect.hpp"
 #include "effects/laden_arm.hpp"
+#include "effects/weight_parts.hpp"
 #include "random_robot.hpp"
 #include "simulation/simulated_robot.hpp"
 
@@ -223,6 +224,43 @@ TEST(EffectsAndTruth, SeatedBacklashSaturatesOnTheSideOfTheLoad) {
     append_unit_motions(effect, robot, state, motions);
     ASSERT_EQ(motions.size(), 1u);
     EXPECT_NEAR(motions[0].size, state.torque(robot.chain, 1) > 0.0 ? 0.5 : -0.5, 1e-9);
+  }
+}
+
+TEST(EffectsAndTruth, LoggedTorquesTellOfTheMassesThatNobodyStated) {
+  RandomStream stream{35, 6};
+  for (const Arm arm : kArms) {
+    const Robot heavy = laden_arm(stream, arm);
+    Scenario scenario = faultless(heavy, Eigen::Isometry3d::Identity(), kReference_celsius);
+    scenario.torque_log = TorqueLog{.noise = 0.0, .friction = 3.0};
+    const SimulatedRobot simulated(scenario);
+    Robot robot = heavy;
+    robot.masses.clear();
+    const auto logged = [&] {
+      const Stop stop = random_stop(stream, heavy);
+      return Stop(simulated.measure({stop.joints, stop.approach, stop.payload_kg, 0.0}, stream));
+    };
+    std::vector<ArmState> states;
+    for (int i = 0; i < 120; ++i) {
+      Stop stop = logged();
+      stop.payload_kg = 0.0;
+      stop.torque = simulated.measure({stop.joints, stop.approach, 0.0, 0.0}, stream).torque.value();
+      states.push_back(arm_state(robot, stop));
+    }
+    for (int joint = 0; joint < robot.chain.size(); ++joint) {
+      Effect effect = valued("compliance", joint, logged_weights(robot, states, joint), {1.0}, "logged");
+      for (const ArmState& state : states) {
+        Stop unlogged = state.stop;
+        unlogged.torque = {};
+        const double truth = arm_state(heavy, state.stop).torque(heavy.chain, joint);
+        for (const ArmState& either : {state, arm_state(robot, unlogged)}) {
+          std::vector<UnitMotion> motions;
+          append_unit_motions(effect, robot, either, motions);
+          const double found = motions.empty() ? 0.0 : motions.at(0).size;
+          EXPECT_NEAR(found, truth, 0.03 * std::abs(truth) + 0.3) << "joint " << joint + 1;  // parts below 1 % are left
+        }
+      }
+    }
   }
 }
 

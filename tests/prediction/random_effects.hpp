@@ -37,6 +37,10 @@ inline Evidence all_evidence(const Chain& chain, bool masses) {
   evidence.orientation = true;
   evidence.highest_ratio = 20;
   for (const Joint& joint : chain.joints) evidence.joint_ranges.push_back({joint.lower, joint.upper});
+  const std::string last = "logged_" + std::to_string(chain.size());
+  evidence.logged_weights.assign(
+      chain.joints.size(),
+      {{"logged_friction", 1.0}, {"logged_zero", -0.5}, {last + "_mx", 30.0}, {last + "_mass", 80.0}});
   return evidence;
 }
 

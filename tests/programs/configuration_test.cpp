@@ -26,7 +26,7 @@ struct Configured {
   }
   CorrectedProgram correct(const std::string& text, const JointVector& near = {}) const {
     return correct_program(text, read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain), model,
-                           {.near = near});
+                           {.temperature_celsius = 20.0, .near = near});
   }
 };
 

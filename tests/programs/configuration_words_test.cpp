@@ -84,7 +84,7 @@ struct Listing {
   CorrectedProgram corrected(const JointVector& near = {}) const {
     const std::string text = "/PROG  T\n/MN\n" + moves + "/POS\n" + positions + "/END\n";
     return correct_program(text, read_program(WrittenIn::fanuc_ls, text, "p.ls", model.nominal.chain), model,
-                           {.near = near});
+                           {.temperature_celsius = 20.0, .near = near});
   }
 };
 

@@ -173,7 +173,7 @@ TEST(UnknownFrames, LeaveTheirLinesAndSaySo) {
 TEST(GivenTool, StandsInForOneThatTheFileDoesNotGiveAndGivesWayToOneThatItStates) {
   RandomStream stream{7512};
   const CommandModel model = erring_model(stream, elbow_arm(stream));
-  const Circumstances given{.tool_given = true};
+  const Circumstances given{.temperature_celsius = 20.0, .tool_given = true};
   const std::string move = "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\nLIN {X 500,Y 200,Z 300,A 0,B 90,C 0}\n";
   const auto first_warning = [&](const std::string& text) {
     const CorrectedProgram corrected =

@@ -12,7 +12,9 @@
 namespace demecal {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Wrong by a wave in joint 2 alone, measured from -1 to 1 rad.
 CommandModel wave_model(double bound_rad) {
@@ -52,6 +54,32 @@ TEST(Concerns, NameTheJointBeyondTheCalibratedRange) {
   EXPECT_THAT(corrected.warnings[0].sentence,
               HasSubstr("joint 2 is sent to 63.0254 deg, outside the calibrated range"));
   EXPECT_EQ(warning_text(corrected, corrected.warnings[0]).substr(0, 11), "p.script:1:");
+}
+
+TEST(Concerns, SayWhatEffectsDependOnAndNobodyStates) {
+  CommandModel model = wave_model(2e-3);
+  model.robot.effects = {
+      {.kind = "thermal_offset",
+       .joint = 2,
+       .settings = {{"reference_celsius", 20.0}},
+       .form = {},
+       .formula = {},
+       .values = {1e-5}},
+      {.kind = "compliance", .joint = 1, .settings = {}, .form = "payload", .formula = {}, .values = {1e-6}}};
+  const std::string text = joints_line(WrittenIn::urscript, joints_with(0.5, 0.2), 1, 9);
+  const auto sentences = [&](const Circumstances& given) {
+    const Program program = read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain);
+    std::vector<std::string> all;
+    for (const Remark& warning : correct_program(text, program, model, given).warnings) all.push_back(warning.sentence);
+    return all;
+  };
+  EXPECT_THAT(
+      sentences({}),
+      ElementsAre("compliance of joint 2 depends on the payload, which the program does not state: an empty hand "
+                  "is taken; --payload-kg tells it",
+                  "thermal_offset of joint 3 depends on the temperature, which the program does not state: the "
+                  "effect's reference is taken; --temperature-celsius tells it"));
+  EXPECT_THAT(sentences({.payload_kg = 0.0, .temperature_celsius = 30.0}), IsEmpty());
 }
 
 TEST(Concerns, NameTheJointBeyondItsLimits) {

@@ -41,8 +41,8 @@ TEST(UnappliedEffects, NameTheEffectItsNeedAndThePoses) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].lacking, "approach");
   EXPECT_EQ(found[0].sentence,
-            "backlash of joint 2 cannot be applied as it was calibrated at 2 of 3 poses: they have no approach "
-            "direction, and no side is taken");
+            "backlash of joint 2 cannot be applied as it was calibrated at 2 of 3 poses: they do not state the side "
+            "from which joints come, and no side is taken");
 }
 
 TEST(UnappliedEffects, StandInTheJsonOfAnEvaluation) {

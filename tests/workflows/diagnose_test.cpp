@@ -32,6 +32,25 @@ TEST(Diagnose, NamesUndeclaredBacklashBesideSmoothCorrections) {
   EXPECT_TRUE(diagnosis.result.model.joints[0].kept);
 }
 
+TEST(Diagnose, NamesAJointThatGivesWayByLoggedTorquesWhereMassesAreNotKnown) {
+  Scenario scenario = lacking_puma(false);
+  scenario.joint_errors.clear();
+  scenario.compliance = {{1, 1e-5}};
+  scenario.torque_log = TorqueLog{.noise = 0.5, .friction = 2.0};
+  DataSet data = simulate(scenario);
+  ASSERT_FALSE(data.robot.masses.empty());
+  data.robot.masses.clear();
+  const DeclaredModel links{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
+  const CalibratedModel model = diagnose(data, diagnosing_job(links), {}, {}).result.model;
+  ASSERT_EQ(model.robot.effects.size(), 1u);
+  const Effect& effect = model.robot.effects[0];
+  EXPECT_TRUE(effect.kind == "compliance" && effect.joint == 1 && effect.form == "logged");
+  EXPECT_NEAR(effect.value(0), 1e-5, 4.0 * effect.standard_errors.at(0) + 2e-7);
+  const double logged_mm = accept_rms(model.robot, data);
+  for (MeasuredPose& pose : data.poses) pose.torque.reset();
+  EXPECT_LT(accept_rms(model.robot, data), 1.05 * logged_mm);  // the weights that they told of are enough
+}
+
 TEST(Diagnose, FindsNothingMoreInTheModelThatItLeft) {
   const DataSet data = simulate(lacking_puma(true));
   const Job job = diagnosing_job(kSmooth);
