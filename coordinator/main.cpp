@@ -7,6 +7,8 @@
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "manual/manual.hpp"
+#include "pieces/pieces.hpp"
+#include "workflows/piece_threads.hpp"
 
 namespace {
 
@@ -47,6 +49,8 @@ int main(int argc, char** argv) {
   demecal::add_monitor(app, exit_code);
   demecal::add_serve(app, exit_code);
   demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
+  demecal::PieceThreads threads(0);
+  const demecal::RunPiecesBy by_threads(threads);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -9,12 +10,18 @@
 #include <set>
 #include <utility>
 
+#include "pieces/pieces.hpp"
+
 namespace demecal::inline explanations {
 namespace {
 
-class SetSearch {
+constexpr std::size_t kIslands = 4;
+constexpr int kEpochs = 10;
+
+/// The sets that one island keeps.
+class SetIsland {
  public:
-  SetSearch(const ExplanationProblem& problem, const std::vector<std::size_t>& known, const ExplanationSearch& search,
+  SetIsland(const ExplanationProblem& problem, const std::vector<std::size_t>& known, const ExplanationSearch& search,
             RandomStream random)
       : problem_(problem), search_(search), random_(std::move(random)) {
     const FittedSet first(problem, known);
@@ -23,13 +30,19 @@ class SetSearch {
     search_.most_effects = std::max(search.most_effects, known.size());
   }
 
-  std::vector<EffectSet> run(const std::vector<std::size_t>& known);
+  /// `known`, and what is left of it without the causes that are missed least, one after another.
+  void begin_with(const std::vector<std::size_t>& known);
+  /// The same sets at the start of other random numbers.
+  SetIsland settled_by(RandomStream random) const;
+  void vary(int variations);
+  /// The best of every number of causes.
+  std::vector<const FittedSet*> elite() const;
+  void welcome(const SetIsland& neighbour);
 
  private:
   static constexpr std::size_t kKept = 4;        ///< sets of every number of causes
   static constexpr std::size_t kPromising = 12;  ///< effects among which an addition is drawn
 
-  void begin_with(const std::vector<std::size_t>& known);
   void note(const FittedSet& set);
   const FittedSet& any_kept();
   std::vector<std::size_t> promising(const FittedSet& set, bool of_its_causes) const;
@@ -48,7 +61,7 @@ class SetSearch {
   std::map<std::size_t, std::vector<FittedSet>> kept_;  ///< by number of causes, the shortest description first
 };
 
-void SetSearch::note(const FittedSet& set) {
+void SetIsland::note(const FittedSet& set) {
   const std::size_t causes = set.causes().size();
   if (causes > search_.most_causes || set.columns() > most_columns_ || set.effects().size() > search_.most_effects)
     return;
@@ -66,13 +79,13 @@ void SetSearch::note(const FittedSet& set) {
   if (kept.size() > kKept) kept.pop_back();
 }
 
-const FittedSet& SetSearch::any_kept() {
+const FittedSet& SetIsland::any_kept() {
   auto at = kept_.begin();
   std::advance(at, random_.index(kept_.size()));
   return at->second[random_.index(at->second.size())];
 }
 
-std::vector<std::size_t> SetSearch::promising(const FittedSet& set, bool of_its_causes) const {
+std::vector<std::size_t> SetIsland::promising(const FittedSet& set, bool of_its_causes) const {
   const std::vector<std::size_t> causes = set.causes();
   const Eigen::VectorXd left = set.moments_left();
   std::vector<std::pair<double, std::size_t>> gains;
@@ -90,13 +103,13 @@ std::vector<std::size_t> SetSearch::promising(const FittedSet& set, bool of_its_
   return best;
 }
 
-void SetSearch::add_promising(FittedSet& set, bool of_its_causes) {
+void SetIsland::add_promising(FittedSet& set, bool of_its_causes) {
   const std::vector<std::size_t> choice = promising(set, of_its_causes);
   if (!choice.empty()) set.add(choice[random_.index(choice.size())]);
 }
 
 /// Another of the same cause, near by in the order of proposals: the next ratio, another form.
-void SetSearch::exchange_neighbour(FittedSet& set) {
+void SetIsland::exchange_neighbour(FittedSet& set) {
   if (set.effects().empty()) return;
   const std::size_t place = random_.index(set.effects().size()), present = set.effects()[place];
   constexpr std::ptrdiff_t kFarthest = 3;
@@ -112,12 +125,12 @@ void SetSearch::exchange_neighbour(FittedSet& set) {
   set.add(choice[random_.index(choice.size())]);
 }
 
-void SetSearch::leave_out_a_cause(FittedSet& set) {
+void SetIsland::leave_out_a_cause(FittedSet& set) {
   if (!set.effects().empty()) set.remove_cause(problem_.cause[set.effects()[random_.index(set.effects().size())]]);
 }
 
 /// Every cause as the one or the other has it.
-FittedSet SetSearch::mixed(const FittedSet& one, const FittedSet& other) {
+FittedSet SetIsland::mixed(const FittedSet& one, const FittedSet& other) {
   std::set<std::size_t> causes;
   for (const FittedSet* set : {&one, &other})
     for (const std::size_t cause : set->causes()) causes.insert(cause);
@@ -130,7 +143,7 @@ FittedSet SetSearch::mixed(const FittedSet& one, const FittedSet& other) {
   return both;
 }
 
-void SetSearch::leave_out_what_earns_nothing(FittedSet& set) const {
+void SetIsland::leave_out_what_earns_nothing(FittedSet& set) const {
   for (;;) {
     std::optional<std::size_t> worst;
     double most = 0.0;
@@ -146,7 +159,7 @@ void SetSearch::leave_out_what_earns_nothing(FittedSet& set) const {
 }
 
 /// Adds what its causes still lack, the best first, as long as that shortens the description.
-void SetSearch::fill(FittedSet& set, int most) {
+void SetIsland::fill(FittedSet& set, int most) {
   for (int i = 0; i < most; ++i) {
     const std::vector<std::size_t> choice = promising(set, true);
     if (choice.empty()) return;
@@ -157,7 +170,7 @@ void SetSearch::fill(FittedSet& set, int most) {
   }
 }
 
-FittedSet SetSearch::varied() {
+FittedSet SetIsland::varied() {
   constexpr double kMixed = 0.15, kAdded = 0.35, kNeighbour = 0.50, kCauseOut = 0.65;
   const double draw = random_.real();
   FittedSet set = any_kept();
@@ -181,8 +194,7 @@ FittedSet SetSearch::varied() {
   return set;
 }
 
-/// `known`, and what is left of it without the causes that are missed least, one after another.
-void SetSearch::begin_with(const std::vector<std::size_t>& known) {
+void SetIsland::begin_with(const std::vector<std::size_t>& known) {
   FittedSet set(problem_, known);
   note(FittedSet(problem_));
   note(set);
@@ -198,23 +210,66 @@ void SetSearch::begin_with(const std::vector<std::size_t>& known) {
   }
 }
 
-std::vector<EffectSet> SetSearch::run(const std::vector<std::size_t>& known) {
-  begin_with(known);
-  for (int i = 0; i < search_.variations; ++i) note(varied());
-  std::vector<EffectSet> front;
-  for (const auto& [causes, sets] : kept_) {
-    EffectSet best{sets.front().effects(), causes, sets.front().description_nats()};
-    std::ranges::sort(best.effects);
-    front.push_back(std::move(best));
+SetIsland SetIsland::settled_by(RandomStream random) const {
+  SetIsland island = *this;
+  island.random_ = std::move(random);
+  return island;
+}
+
+void SetIsland::vary(int variations) {
+  for (int i = 0; i < variations; ++i) note(varied());
+}
+
+std::vector<const FittedSet*> SetIsland::elite() const {
+  std::vector<const FittedSet*> best;
+  for (const auto& [causes, sets] : kept_) best.push_back(&sets.front());
+  return best;
+}
+
+void SetIsland::welcome(const SetIsland& neighbour) {
+  for (const FittedSet* set : neighbour.elite()) note(*set);
+}
+
+/// The best of all islands by number of causes; of equals that of the first island.
+std::vector<EffectSet> front_of(const std::vector<SetIsland>& islands) {
+  std::map<std::size_t, EffectSet> front;
+  for (const SetIsland& island : islands) {
+    for (const FittedSet* set : island.elite()) {
+      EffectSet found{set->effects(), set->causes().size(), set->description_nats()};
+      std::ranges::sort(found.effects);
+      const auto [known, fresh] = front.emplace(found.causes, found);
+      if (!fresh && found.description_nats < known->second.description_nats) known->second = std::move(found);
+    }
   }
-  return front;
+  std::vector<EffectSet> sets;
+  for (auto& [causes, set] : front) sets.push_back(std::move(set));
+  return sets;
+}
+
+/// How many of `variations` fall to the island in the epoch.
+int share_of(int variations, std::size_t island, int epoch) {
+  constexpr int kShares = static_cast<int>(kIslands) * kEpochs;
+  const int place = epoch * static_cast<int>(kIslands) + static_cast<int>(island);
+  return variations / kShares + (place < variations % kShares ? 1 : 0);
 }
 
 }  // namespace
 
 std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const std::vector<std::size_t>& known,
                                            const ExplanationSearch& search, RandomStream random) {
-  return SetSearch(problem, known, search, std::move(random)).run(known);
+  constexpr std::size_t kNames = std::size_t{1} << 53;
+  SetIsland start(problem, known, search, random);
+  start.begin_with(known);
+  std::vector<SetIsland> islands;
+  const std::uint64_t name = random.index(kNames);
+  for (std::size_t i = 0; i < (search.variations > 0 ? kIslands : 1); ++i)
+    islands.push_back(start.settled_by(RandomStream{name, i}));
+  for (int epoch = 0; epoch < kEpochs && search.variations > 0; ++epoch) {
+    in_pieces(islands.size(), [&](std::size_t i) { islands[i].vary(share_of(search.variations, i, epoch)); });
+    const std::vector<SetIsland> neighbours = islands;
+    for (std::size_t i = 0; i < islands.size(); ++i) islands[i].welcome(neighbours[(i + 1) % neighbours.size()]);
+  }
+  return front_of(islands);
 }
 
 std::vector<EffectSet> prunings(const ExplanationProblem& problem, const std::vector<std::size_t>& known) {

@@ -18,7 +18,7 @@ struct EffectSet {
 };
 
 struct ExplanationSearch {
-  int variations = 10000;          ///< sets that are made and judged
+  int variations = 10000;          ///< sets that are made and judged, on all islands
   std::size_t most_causes = 24;    ///< of a set
   std::size_t most_effects = 150;  ///< of a set
   /// Of the freedom that the model leaves, how much a set's columns may take where the first set takes less: more
@@ -28,10 +28,12 @@ struct ExplanationSearch {
   bool operator==(const ExplanationSearch&) const = default;
 };
 
-/// For every number of causes that was reached, the set with the shortest description, by number of causes. Begins with
-/// `known` and what is left of it without one cause after another. Every further set is made of one or two others:
-/// an effect added, exchanged for another or for a neighbour of its kind; a cause left out; the causes of two sets
-/// mixed; then what its causes still lack is added and what does not earn its price is left out.
+/// For every number of causes that was reached, the set with the shortest description, by number of causes. Every
+/// island begins with `known` and what is left of it without one cause after another. Every further set is made of one
+/// or two others: an effect added, exchanged for another or for a neighbour of its kind; a cause left out; the causes
+/// of two sets mixed; then what its causes still lack is added and what does not earn its price is left out. The best
+/// of every number of causes go to the next island from epoch to epoch; within one the islands are independent pieces
+/// of work.
 std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const std::vector<std::size_t>& known,
                                            const ExplanationSearch& search, RandomStream random);
 

@@ -21,7 +21,9 @@
 #include "fitting/declared_model.hpp"
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
+#include "pieces/pieces.hpp"
 #include "scheduling/fleet.hpp"
+#include "workflows/piece_threads.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal::inline library {
@@ -80,6 +82,8 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   const unsigned threads = settings.threads > 0 ? settings.threads : std::max(std::thread::hardware_concurrency(), 1U);
   ProgressTeller teller(settings.progress);
   teller.on_message("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
+  PieceThreads pieces(threads);
+  const RunPiecesBy by_threads(pieces);
   CalibrateOptions options;
   options.observer = &teller;
   const MakeFleet make_fleet = [threads] { return std::make_unique<InProcessFleet>(threads); };
