@@ -1,4 +1,4 @@
-#include "config/join_files.hpp"
+#include "config/pose_files.hpp"
 
 #include <algorithm>
 #include <cmath>
