@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
-#include "config/frames_file.hpp"
 #include "config/model_file.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"

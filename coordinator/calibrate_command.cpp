@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "calibration/job.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"

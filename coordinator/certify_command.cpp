@@ -13,7 +13,7 @@
 #include "certificate/dcc.hpp"
 #include "certificate/page.hpp"
 #include "closed_calibration/calibrated_model.hpp"
-#include "config/certificate_keys.hpp"
+#include "config/data_set_file.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/pdf_printer.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
-#include "config/joint_log_file.hpp"
+#include "config/preparation_file.hpp"
+#include "config/scenario_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/prepared_recordings.hpp"
 #include "coordinator/result_folder.hpp"

@@ -17,9 +17,9 @@
 
 #include "calibration/job.hpp"
 #include "closed_calibration/calibrated_model.hpp"
-#include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
+#include "config/planned_files.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/prior_runs.hpp"

@@ -9,7 +9,7 @@
 
 #include "config/data_set_file.hpp"
 #include "config/draft_data_set.hpp"
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "config/templates.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"

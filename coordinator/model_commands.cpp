@@ -11,9 +11,9 @@
 
 #include "acceptance/certificate.hpp"
 #include "closed_calibration/calibrated_model.hpp"
-#include "config/input_files.hpp"
 #include "config/model_export.hpp"
 #include "config/model_file.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"

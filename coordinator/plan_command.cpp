@@ -10,8 +10,9 @@
 
 #include "config/cell_file.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/planned_files.hpp"
+#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "effects/catalogue.hpp"

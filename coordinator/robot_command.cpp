@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "config/draft_data_set.hpp"
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
+#include "config/templates.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "calibration/job.hpp"
-#include "config/study_grid.hpp"
+#include "config/job_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "coordinator/workers.hpp"

@@ -1,4 +1,4 @@
-#include "config/arm_drawing.hpp"
+#include "config/robot_file.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "config/certificate_keys.hpp"
+#include "config/data_set_file.hpp"
 
 #include <algorithm>
 #include <cctype>

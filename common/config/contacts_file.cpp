@@ -1,4 +1,4 @@
-#include "config/contacts_file.hpp"
+#include "config/data_set_file.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,13 +1,14 @@
-// Data set files: what was measured, on which robot, in which columns.
+// DATASET.yaml: what was measured, on which robot, in which columns, with which contacts; and the key `certificate`,
+// which jobs and models may have too.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "data/certificate_fields.hpp"
 #include "data/columns.hpp"
 #include "data/data_set.hpp"
-#include "effects/arm_state.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {
@@ -45,10 +46,24 @@ void write_robot(const Robot& robot, const std::filesystem::path& path, const st
 std::filesystem::path write_data_set(const DataSet& data, const std::filesystem::path& folder,
                                      const std::string& purpose);
 
-/// The CSV of `stops`: their ids "N1" onwards, the commanded joints in the names and units of the columns of the data
-/// set file, the side each joint is to be approached from, and the payload where one was recorded. Angles and lengths
-/// are rounded to what a controller takes.
-std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const DataSet& data,
-                               const std::vector<Stop>& stops);
+/// Reads `contacts:` into the data set, whose poses are read already; null: nothing is said. Throws InputError where a
+/// name is of no contact, or where something is said that its kind does not have.
+void read_contacts(const YamlNode* node, const ColumnMap& columns, DataSet& data);
+
+/// An entry of `distances`: between which two, mm and sigma_mm.
+KnownDistance read_known_distance(const YamlNode& node);
+
+/// The same as YAML, empty where nothing is to be said.
+std::string contacts_text(const Contacts& contacts);
+
+/// What the map states; a key without a value states nothing. Throws InputError at an unknown key, a date or country of
+/// another form, or an uncertainty that is not positive.
+CertificateFields read_certificate(const YamlNode& node);
+
+/// What the DATASET.yaml states; nothing where it has no such key.
+CertificateFields load_certificate(const std::filesystem::path& data_set_file);
+
+/// The key and its map, as read_certificate() takes them; empty where nothing is stated.
+std::string certificate_text(const CertificateFields& fields);
 
 }  // namespace demecal::inline config

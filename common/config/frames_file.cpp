@@ -1,4 +1,4 @@
-#include "config/frames_file.hpp"
+#include "config/robot_file.hpp"
 
 #include <Eigen/Geometry>
 #include <array>

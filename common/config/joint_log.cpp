@@ -5,7 +5,6 @@
 
 #include "config/data_set_file.hpp"
 #include "config/draft_data_set.hpp"
-#include "config/joint_log_file.hpp"
 #include "config/pose_files.hpp"
 #include "data/columns.hpp"
 #include "data/read_poses.hpp"

@@ -11,11 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "config/certificate_keys.hpp"
-#include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/pose_files.hpp"
+#include "config/robot_file.hpp"
 #include "data/columns.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"

@@ -1,3 +1,5 @@
+#include "config/preparation_file.hpp"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -10,9 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "config/contacts_file.hpp"
-#include "config/input_files.hpp"
-#include "config/joint_log_file.hpp"
+#include "config/data_set_file.hpp"
+#include "config/robot_file.hpp"
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
@@ -139,6 +140,15 @@ CordInstrument read_cords(const YamlNode& node) {
   return cords;
 }
 
+/// Three cords, or nothing where it is the word `points`, an instrument that reads coordinates.
+std::optional<CordInstrument> read_instrument(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::scalar) {
+    if (node.scalar != "points") node.fail("must be `points` or a map with the key `cords`");
+    return std::nullopt;
+  }
+  return read_cords(node.with_keys({"cords"}).at("cords"));
+}
+
 }  // namespace
 
 RawMeasurements load_preparation(const std::filesystem::path& path) {
@@ -157,14 +167,6 @@ RawMeasurements load_preparation(const std::filesystem::path& path) {
   if (sets.list().empty()) sets.fail("", "must name one set of measurements at least");
   for (const YamlNode& set : sets.children) raw.sets.push_back(read_set(set, raw.robot, cords));
   return raw;
-}
-
-std::optional<CordInstrument> read_instrument(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::scalar) {
-    if (node.scalar != "points") node.fail("must be `points` or a map with the key `cords`");
-    return std::nullopt;
-  }
-  return read_cords(node.with_keys({"cords"}).at("cords"));
 }
 
 namespace {

@@ -1,4 +1,5 @@
-// Recordings of joints that a PREPARATION.yaml names under `log`, and those given by themselves.
+// PREPARATION.yaml: raw measurements, and recordings of joints while the tool touched something, which may also be
+// given by themselves.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "data/data_set.hpp"
 #include "preparation/joint_log.hpp"
+#include "preparation/prepared.hpp"
 #include "preparation/recorded_contacts.hpp"
 #include "yaml/yaml_node.hpp"
 
@@ -27,6 +29,10 @@ JointLog read_joint_log(const LogRequest& request, const Robot& robot, std::opti
 
 /// The root of a PREPARATION.yaml, its keys and version checked.
 YamlNode read_preparation(const std::filesystem::path& path);
+
+/// Everything that a PREPARATION.yaml names, read; the files are taken relative to it. Throws InputError with file,
+/// line, value and rule at the first fault in any of them.
+RawMeasurements load_preparation(const std::filesystem::path& path);
 
 /// Whether the contacts of recordings are asked for, in place of what an instrument measured.
 bool names_recordings(const YamlNode& preparation);

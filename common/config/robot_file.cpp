@@ -1,4 +1,4 @@
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "config/arm_drawing.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"

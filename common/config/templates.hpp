@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,17 @@ std::string template_text(TemplateKind kind, const std::vector<std::filesystem::
 
 /// A calibration job for the data set of that name.
 std::string first_job_text(const std::string& data_set);
+
+/// The ROBOT.yaml of an arm imported from a URDF, with what was assumed as comments. Paths are as in its arguments.
+struct ImportRequest {
+  std::string file;                      ///< the URDF
+  std::optional<std::string> base, tip;  ///< links
+  std::string beside;                    ///< the file that the text will stand in
+};
+struct ImportedRobot {
+  std::string text;
+  std::vector<std::string> notes;
+};
+ImportedRobot import_urdf(const ImportRequest& request);
 
 }  // namespace demecal::inline config

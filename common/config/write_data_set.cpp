@@ -15,9 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "config/contacts_file.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "data/columns.hpp"
 #include "data/csv.hpp"
 #include "data/data_set.hpp"

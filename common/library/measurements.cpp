@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "kinematics/forward.hpp"
 #include "temporary_folder.hpp"
 #include "yaml/yaml_node.hpp"

@@ -5,8 +5,9 @@
 #include <ostream>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 

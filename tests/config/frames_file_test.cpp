@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "config/frames_file.hpp"
+#include "config/robot_file.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 #include "languages/orientation.hpp"

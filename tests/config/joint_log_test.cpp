@@ -7,9 +7,7 @@
 #include <functional>
 #include <ostream>
 
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
-#include "config/joint_log_file.hpp"
+#include "config/preparation_file.hpp"
 #include "data/text.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"

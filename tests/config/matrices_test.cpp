@@ -1,5 +1,5 @@
 // Matrices of text load as the arm they describe, and faults in them are named by line.
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/cell_file.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/planned_files.hpp"
+#include "config/robot_file.hpp"
 #include "data/csv.hpp"
 #include "formats_document.hpp"
 #include "made_up_recording.hpp"

@@ -6,7 +6,8 @@
 #include <ostream>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/preparation_file.hpp"
+#include "config/robot_file.hpp"
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"

@@ -1,5 +1,6 @@
 // Proposed poses come in the names and units of the data set that they are to join.
 #include "config/data_set_file.hpp"
+#include "config/planned_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The arms of configs/robots stand where their descriptions have them.
 #include <gtest/gtest.h>
 
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "kinematics/random_arm.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
-#include "config/study_grid.hpp"
+#include "config/robot_file.hpp"
+#include "config/scenario_file.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "temporary_folder.hpp"
 

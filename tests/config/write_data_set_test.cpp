@@ -1,12 +1,12 @@
 // What is written loads back to the same values.
 #include "config/data_set_file.hpp"
+#include "config/robot_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "config/input_files.hpp"
 #include "random/random_stream.hpp"
 #include "temporary_folder.hpp"
 

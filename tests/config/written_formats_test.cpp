@@ -10,7 +10,8 @@
 
 #include "acceptance/certificate.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/planned_files.hpp"
+#include "config/preparation_file.hpp"
 #include "data/csv.hpp"
 #include "formats_document.hpp"
 #include "full_report.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
 #include "simulation/simulated_robot.hpp"
 
 namespace demecal {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "config/draft_data_set.hpp"
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"

@@ -1,7 +1,7 @@
 // The demo's PUMA measured more often: smooth joint errors, and backlash that no job declares.
 #pragma once
 
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
 #include "prediction/measurement.hpp"
 #include "scheduling/in_memory_fleet.hpp"
 #include "simulation/simulated_robot.hpp"

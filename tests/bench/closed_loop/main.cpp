@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "output.hpp"
 
 namespace {

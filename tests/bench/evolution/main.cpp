@@ -11,7 +11,7 @@
 
 #include "closed_loop/summary.hpp"
 #include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "evolution_case.hpp"
 
 namespace {

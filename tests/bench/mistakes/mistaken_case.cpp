@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "config/input_files.hpp"
+#include "config/robot_file.hpp"
 #include "kinematics/inverse.hpp"
 #include "mistakes.hpp"
 #include "simulation/simulated_robot.hpp"
