@@ -17,10 +17,10 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
-#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "data_files/robot_file.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "config/data_set_file.hpp"
 #include "config/model_file.hpp"
+#include "data_files/data_set_file.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/forward.hpp"

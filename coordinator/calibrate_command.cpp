@@ -15,7 +15,6 @@
 
 #include "calibration/job.hpp"
 #include "config/job_file.hpp"
-#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
@@ -24,6 +23,7 @@
 #include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
+#include "data_files/robot_file.hpp"
 #include "dds/dds_transport.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"

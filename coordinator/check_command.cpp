@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "config/data_set_file.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data_files/data_set_file.hpp"
 #include "html/check_page.hpp"
 #include "report/change_report.hpp"
 #include "report/check_history.hpp"

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "config/data_set_file.hpp"
-#include "config/preparation_file.hpp"
 #include "config/scenario_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/prepared_recordings.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
+#include "data_files/data_set_file.hpp"
+#include "drafting/preparation_file.hpp"
 #include "errors/input_error.hpp"
 #include "preparation/prepared.hpp"
 #include "preparation/recorded_contacts.hpp"

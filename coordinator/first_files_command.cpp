@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "config/data_set_file.hpp"
-#include "config/draft_data_set.hpp"
-#include "config/robot_file.hpp"
-#include "config/templates.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/draft_data_set.hpp"
+#include "drafting/templates.hpp"
 #include "errors/input_error.hpp"
 #include "report/evaluation.hpp"
 #include "tables/layout.hpp"

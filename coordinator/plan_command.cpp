@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "config/cell_file.hpp"
-#include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
-#include "config/planned_files.hpp"
-#include "config/robot_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/planned_files.hpp"
 #include "effects/catalogue.hpp"
 #include "fitting/declared_model.hpp"
 #include "html/plan_page.hpp"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
+#include "data_files/data_set_file.hpp"
 #include "terminal/report_text.hpp"
 #include "yaml/files.hpp"
 

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "config/draft_data_set.hpp"
-#include "config/robot_file.hpp"
-#include "config/templates.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "data_check/pendant.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/draft_data_set.hpp"
+#include "drafting/templates.hpp"
 #include "errors/input_error.hpp"
 #include "html/arm_picture.hpp"
 #include "kinematics/chain.hpp"

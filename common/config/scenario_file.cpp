@@ -1,6 +1,6 @@
 #include "config/scenario_file.hpp"
 
-#include "config/robot_file.hpp"
+#include "data_files/robot_file.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

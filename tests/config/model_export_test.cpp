@@ -8,8 +8,8 @@
 #include <regex>
 #include <sstream>
 
-#include "config/robot_file.hpp"
-#include "config/templates.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/templates.hpp"
 #include "kinematics/random_arm.hpp"
 #include "temporary_folder.hpp"
 #include "urdf/urdf_arm.hpp"

@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
-#include "config/planned_files.hpp"
-#include "config/robot_file.hpp"
 #include "data/csv.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/planned_files.hpp"
 #include "formats_document.hpp"
 #include "made_up_recording.hpp"
 #include "report/change_report.hpp"

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "acceptance/certificate.hpp"
-#include "config/data_set_file.hpp"
-#include "config/planned_files.hpp"
-#include "config/preparation_file.hpp"
 #include "data/csv.hpp"
+#include "data_files/data_set_file.hpp"
+#include "drafting/planned_files.hpp"
+#include "drafting/preparation_file.hpp"
 #include "formats_document.hpp"
 #include "full_report.hpp"
 #include "languages/named_languages.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "config/data_set_file.hpp"
 #include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
 #include "simulation/simulated_robot.hpp"
 
 namespace demecal {

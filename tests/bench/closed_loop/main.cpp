@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "config/robot_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "output.hpp"
 
 namespace {

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "closed_loop/summary.hpp"
-#include "config/data_set_file.hpp"
-#include "config/robot_file.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "evolution_case.hpp"
 
 namespace {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "config/data_set_file.hpp"
+#include "data_files/data_set_file.hpp"
 #include "mistaken_case.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "config/robot_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "fitting/fit.hpp"
 
 namespace demecal::bench {
