@@ -1,5 +1,6 @@
 #include "languages/program.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -7,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "data/text.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
@@ -141,6 +143,24 @@ void require_six_joints(const Chain& arm, const std::string& file, const std::st
   throw InputError(
       {file, 0}, "",
       "is a program in " + language + ", whose arms have 6 joints; the model's has " + std::to_string(arm.size()));
+}
+
+namespace {
+
+KnownFrame kept(const std::map<std::string, Eigen::Isometry3d>& frames, std::string_view key, const std::string& name) {
+  const auto found = frames.find(lower_case(key));
+  if (found != frames.end()) return {name, found->second, ""};
+  return {name, Eigen::Isometry3d::Identity(), name + " is given neither in this program nor by --frames"};
+}
+
+}  // namespace
+
+KnownFrame ControllerData::frame(std::string_view key, const std::string& name) const {
+  return kept(frames, key, name);
+}
+
+KnownFrame ControllerData::tool(std::string_view key, const std::string& name) const {
+  return kept(tools, key, name);
 }
 
 }  // namespace demecal::inline languages

@@ -1,5 +1,5 @@
 // A robot program as correction sees it: the targets that stand in its text, number by number, and the frames it
-// states.
+// states; and what a controller keeps outside of programs, which name it only: frames and tools, and what a pulse is.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -171,5 +172,23 @@ void require_quaternion(const ProgramText& text, std::span<const Cell> cells);
 
 /// Throws InputError unless the arm has the six joints that this language's targets have.
 void require_six_joints(const Chain& arm, const std::string& file, const std::string& language);
+
+struct ControllerData {
+  std::map<std::string, Eigen::Isometry3d> frames{};  ///< base from frame, by number or name in small letters
+  std::map<std::string, Eigen::Isometry3d> tools{};   ///< flange from tool, likewise
+  std::vector<double> pulses_per_deg{};               ///< of each joint (per mm where it slides); empty: unknown
+
+  /// The frame of this key or, where it is not here, one that is unknown since it "is not given in this file". `name`
+  /// is how people call it.
+  KnownFrame frame(std::string_view key, const std::string& name) const;
+  KnownFrame tool(std::string_view key, const std::string& name) const;
+};
+
+/// What a reader is given.
+struct ReaderInput {
+  const ProgramSource& source;
+  const Chain& arm;
+  const ControllerData& controller;
+};
 
 }  // namespace demecal::inline languages

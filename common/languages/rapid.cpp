@@ -12,12 +12,10 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
-#include "languages/program_writing.hpp"
 #include "languages/rapid_frames.hpp"
 
 namespace demecal::inline languages {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "languages/controller_data.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
 

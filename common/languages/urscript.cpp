@@ -15,12 +15,10 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
 #include "languages/program_text.hpp"
-#include "languages/program_writing.hpp"
 
 namespace demecal::inline languages {
 namespace {

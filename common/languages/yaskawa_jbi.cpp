@@ -15,7 +15,6 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/controller_data.hpp"
 #include "languages/languages.hpp"
 #include "languages/orientation.hpp"
 #include "languages/program.hpp"
