@@ -11,7 +11,6 @@
 #include "data_files/data_set_file.hpp"
 #include "html/check_page.hpp"
 #include "report/change_report.hpp"
-#include "report/check_history.hpp"
 #include "updating/change.hpp"
 #include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"

@@ -28,7 +28,7 @@
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"
-#include "report/pose_csv.hpp"
+#include "report/pose_places.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/check_history.hpp"
+#include "report/change_report.hpp"
 
 namespace demecal::inline html {
 

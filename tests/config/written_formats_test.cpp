@@ -21,10 +21,10 @@
 #include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
 #include "programs/summary.hpp"
-#include "report/check_history.hpp"
+#include "report/change_report.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
-#include "report/pose_csv.hpp"
+#include "report/pose_places.hpp"
 #include "report/study.hpp"
 
 namespace demecal {
