@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "effects/effect.hpp"
-#include "fitting/workspace_error.hpp"
+#include "fitting/posterior.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
