@@ -9,7 +9,7 @@
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_files/data_set_file.hpp"
-#include "html/check_page.hpp"
+#include "html/page.hpp"
 #include "report/change_report.hpp"
 #include "updating/change.hpp"
 #include "updating/fleet_model.hpp"

@@ -17,7 +17,7 @@
 #include "drafting/planned_files.hpp"
 #include "effects/catalogue.hpp"
 #include "fitting/declared_model.hpp"
-#include "html/plan_page.hpp"
+#include "html/page.hpp"
 #include "languages/languages.hpp"
 #include "planning/plan.hpp"
 #include "report/plan_report.hpp"

@@ -1,4 +1,4 @@
-#include "html/plan_page.hpp"
+#include "html/page.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
