@@ -9,6 +9,7 @@
 #include "data_files/data_set_file.hpp"
 #include "data_files/pose_files.hpp"
 #include "drafting/draft_data_set.hpp"
+#include "drafting/preparation_file.hpp"
 #include "errors/input_error.hpp"
 #include "tables/guess_columns.hpp"
 #include "tables/read_table.hpp"
