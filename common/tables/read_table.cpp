@@ -9,7 +9,6 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "tables/decimals.hpp"
-#include "tables/encoding.hpp"
 #include "tables/headings.hpp"
 
 namespace demecal::inline tables {
