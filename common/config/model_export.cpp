@@ -18,7 +18,6 @@
 #include "kinematics/units.hpp"
 #include "programs/command_model.hpp"
 #include "random/random_stream.hpp"
-#include "urdf/rewrite.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"
 #include "yaml/files.hpp"
