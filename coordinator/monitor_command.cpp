@@ -26,7 +26,7 @@
 #include "monitor/watched.hpp"
 #include "protocol/messages.hpp"
 #include "recording/event_recording.hpp"
-#include "recording/mcap_reader.hpp"
+#include "recording/mcap.hpp"
 #include "transport/transport.hpp"
 #include "yaml/files.hpp"
 

@@ -10,7 +10,7 @@
 #include "coordinator/commands.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/events.hpp"
-#include "recording/mcap_reader.hpp"
+#include "recording/mcap.hpp"
 
 namespace demecal {
 namespace {

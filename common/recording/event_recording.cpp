@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "monitor/event_json.hpp"
-#include "recording/mcap_reader.hpp"
+#include "recording/mcap.hpp"
 
 namespace demecal::inline recording {
 namespace {

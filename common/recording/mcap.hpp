@@ -1,6 +1,6 @@
 // Messages as an MCAP file (mcap.dev/spec, version 0): chunks with their indexes, statistics and checksums,
 // uncompressed. Bytes are handed out as they become due; who writes them may be stopped at any time, and loses but the
-// last chunk.
+// last chunk. And the messages of such a file, in its order.
 #pragma once
 
 #include <cstddef>
@@ -62,5 +62,18 @@ class McapWriter {
   std::map<std::uint16_t, std::vector<IndexEntry>> index_;  ///< of the present chunk
   std::vector<std::string> chunk_indexes_;
 };
+
+struct McapMessage {
+  std::string topic;
+  std::uint64_t time_ns = 0;
+  std::string data;
+};
+
+/// Whether the bytes begin as such a file does.
+bool is_mcap(std::string_view bytes);
+
+/// Of a file that was not written to its end what is whole. Throws InputError naming `file` where it is none, is
+/// compressed, or where a chunk's checksum contradicts it.
+std::vector<McapMessage> read_mcap(std::string_view bytes, const std::string& file);
 
 }  // namespace demecal::inline recording
