@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/evolved_corrections.hpp"
+#include "calibration/admissible.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "report/report.hpp"
