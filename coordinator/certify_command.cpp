@@ -10,8 +10,7 @@
 
 #include "acceptance/certificate.hpp"
 #include "acceptance/iso9283.hpp"
-#include "certificate/dcc.hpp"
-#include "certificate/page.hpp"
+#include "certificate/documents.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
