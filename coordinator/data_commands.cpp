@@ -10,7 +10,6 @@
 
 #include "config/scenario_file.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/prepared_recordings.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
@@ -95,9 +94,30 @@ std::optional<Recordings> recordings_asked(const PrepareRequest& request) {
   return recordings;
 }
 
+/// Finds the contacts of recordings of joints, checks the data set and writes it with standstills.csv.
+ExitCode prepare_recordings(const Recordings& recordings, const PrepareRequest& request) {
+  const RecordedContacts found = find_contacts(recordings);
+  const DataSet data = recorded_data_set(recordings, found);
+  if (!request.json) fmt::print("{}", recorded_table(recordings, found));
+  const CheckedData checked{data, check_data(data)};
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+
+  const WrittenFile standstills = standstills_file(recordings, found);
+  const std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml", standstills.name};
+  make_writable(request.out, names, request.force);
+  const FilesBeingWritten written(request.out, names);
+  write_data_set(data, request.out, "Prepared from raw measurements: " + recordings.name);
+  write_file(request.out + "/" + standstills.name, standstills.text);
+  if (request.json)
+    fmt::print("{}", recorded_json(recordings, found, names));
+  else
+    fmt::print("{}: {}\n", request.out, fmt::join(names, ", "));
+  return ExitCode::done;
+}
+
 ExitCode run(const PrepareRequest& request) {
-  if (const auto recordings = recordings_asked(request))
-    return prepare_recordings(*recordings, {request.out, request.json, request.force});
+  if (const auto recordings = recordings_asked(request)) return prepare_recordings(*recordings, request);
   const RawMeasurements raw = load_preparation(request.file);
   const Prepared prepared = prepare_measurements(raw);
   const std::optional<FrameKind> asked = frame_asked(request, raw, prepared);
