@@ -14,7 +14,6 @@
 #include "planning/assumptions.hpp"
 #include "planning/candidates.hpp"
 #include "planning/exchange.hpp"
-#include "planning/refinement.hpp"
 #include "planning/sockets.hpp"
 #include "random/random_purpose.hpp"
 
