@@ -15,7 +15,6 @@
 #include "languages/program_text.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/partial_correction.hpp"
 
 namespace demecal::inline programs {
 namespace {
