@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "errors/input_error.hpp"
-#include "serving/comparison.hpp"
+#include "serving/job_files.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal {

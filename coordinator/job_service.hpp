@@ -13,8 +13,8 @@
 #include "coordinator/child_process.hpp"
 #include "coordinator/job_folders.hpp"
 #include "http/user_server.hpp"
+#include "serving/job_files.hpp"
 #include "serving/job_queue.hpp"
-#include "serving/uploaded_files.hpp"
 
 namespace demecal {
 

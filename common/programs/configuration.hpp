@@ -1,6 +1,5 @@
-// The joints in which the nominal arm reaches a target, and which of its configurations the program and the user mean.
-// Whether an arm with a spherical wrist stands the same way at two joint positions: shoulder, elbow and wrist on the
-// same sides.
+// The joints in which the nominal arm reaches a target, which of its configurations the program and the user mean, and
+// whether two joint positions have the same: shoulder, elbow and wrist on the same sides.
 #pragma once
 
 #include <Eigen/Geometry>

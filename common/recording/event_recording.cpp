@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "monitor/event_json.hpp"
+#include "monitor/state_json.hpp"
 #include "recording/mcap.hpp"
 
 namespace demecal::inline recording {

@@ -1,9 +1,11 @@
-// What a job's uploaded files may name: files that were uploaded beside them, and nothing else of the machine.
+// What the files of jobs hold: uploaded ones may name files that were uploaded beside them and nothing else of the
+// machine; reports of finished jobs state their errors, which are shown beside each other.
 #pragma once
 
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "yaml/yaml_node.hpp"
@@ -26,5 +28,10 @@ struct JobFiles {
 
 /// Of the YAML files by their names, the one that is a job. Throws InputError where there is none, or more than one.
 JobFiles find_job(const std::map<std::string, YamlNode>& files);
+
+/// One JSON document with a row for each job, from its name and the text of its report.json: method, seed and errors
+/// with the base fitted, before the closed loop and after it, set by set. A report that cannot be read gives a row that
+/// says so.
+std::string comparison_text(const std::vector<std::pair<std::string, std::string>>& reports);
 
 }  // namespace demecal::inline serving
