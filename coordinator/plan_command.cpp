@@ -21,7 +21,7 @@
 #include "languages/languages.hpp"
 #include "planning/plan.hpp"
 #include "report/plan_report.hpp"
-#include "terminal/plan_text.hpp"
+#include "terminal/report_text.hpp"
 #include "yaml/yaml_text.hpp"
 
 namespace demecal {
