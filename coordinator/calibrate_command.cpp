@@ -45,7 +45,7 @@ namespace {
 struct CalibrateRequest {
   std::string job_file, out, resume, data_file, prior_file, method;
   std::vector<std::string> declared;
-  FleetArguments fleet;
+  WorkerArguments workers;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
@@ -83,7 +83,7 @@ void print_head(const CalibrateRequest& request, const Job& job, const DataSet& 
   }
   fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
              data.poses.size(), job.islands.per_joint, job.seed);
-  fmt::print(stderr, "  {}\n", to_string(request.fleet, request.worker_timeout_s));
+  fmt::print(stderr, "  {}\n", to_string(request.workers, request.worker_timeout_s));
 }
 
 /// Which job a run is of, in hashes of all that its result is a function of. `job` is that of the file with what
@@ -156,8 +156,8 @@ class ObserverPair final : public CalibrationObserver {
   void on_run_ends(RunEnd end) override {
     for (CalibrationObserver* one : observers_) one->on_run_ends(end);
   }
-  void on_fleet_ends() override {
-    for (CalibrationObserver* one : observers_) one->on_fleet_ends();
+  void on_workers_end() override {
+    for (CalibrationObserver* one : observers_) one->on_workers_end();
   }
   void on_progress(const Progress& progress) override {
     for (CalibrationObserver* one : observers_) one->on_progress(progress);
@@ -224,12 +224,12 @@ ExitCode run(CalibrateRequest request) {
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
   const FilesBeingWritten events(request.out, {"events.jsonl"});
-  EventLog event_log(request.out, !request.resume.empty(), job.name, join_as_reporter(request.fleet));
+  EventLog event_log(request.out, !request.resume.empty(), job.name, join_as_reporter(request.workers));
   ConsoleObserver console(request.quiet);
   ObserverPair observer(console, event_log);
   options.observer = &observer;
   CalibrateResult result = fit_or_report(request.out, job.name, checked, [&] {
-    return calibrate(data, job, fleet_maker(request.fleet), interrupt, options);
+    return calibrate(data, job, worker_pool_maker(request.workers), interrupt, options);
   });
   result.check = checked.check;
   const RunEnd end = result.end;
@@ -237,7 +237,7 @@ ExitCode run(CalibrateRequest request) {
     event_log.finish(LoopNews::Stage::failed, "failed: no worker came");
     fmt::print(stderr,
                "no worker for {:g} s: start `demecal-worker --domain {}`, or leave --workers at its default; {}\n",
-               request.worker_timeout_s, request.fleet.dds->domain, resuming(request));
+               request.worker_timeout_s, request.workers.dds->domain, resuming(request));
     return ExitCode::no_worker;
   }
   const Report report = write(request, data, result);
@@ -284,7 +284,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
                    "LIST of what the model contains, in place of the job's or, with --prior, of the prior's")
       ->delimiter(',')
       ->check(CLI::IsMember(declared_words()));
-  add_fleet_arguments(*command, request->fleet);
+  add_worker_arguments(*command, request->workers);
   command
       ->add_option("--worker-timeout-s", request->worker_timeout_s,
                    "how long to be without any worker before giving up")

@@ -48,7 +48,7 @@ using Clock = std::chrono::steady_clock;
 
 struct CompareRequest {
   std::string job_file, data_file, out;
-  FleetArguments fleet;
+  WorkerArguments workers;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   bool json = false, baselines_only = false, force = false;
@@ -117,7 +117,8 @@ ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const 
   CalibrateOptions options;
   ConsoleObserver console(request.json);
   options.observer = &console;
-  const CalibrateResult result = calibrate(data, job, fleet_maker(request.fleet), watch_for_interrupt(), options);
+  const CalibrateResult result =
+      calibrate(data, job, worker_pool_maker(request.workers), watch_for_interrupt(), options);
   if (result.end == RunEnd::no_worker) return ExitCode::no_worker;
   if (!request.out.empty()) write_results(request.out, data, result);
   const int fitted = fitted_in(result.model), constants = constants_in(result.model);
@@ -170,7 +171,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->json, "one line of JSON");
   add_force(*command, request->force);
   command->add_flag("--baselines-only", request->baselines_only, "leave out the job itself, which takes longest");
-  add_fleet_arguments(*command, request->fleet);
+  add_worker_arguments(*command, request->workers);
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(CLI::NonNegativeNumber);

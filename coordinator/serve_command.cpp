@@ -35,7 +35,7 @@ struct ServeRequest {
   std::string folder, address = "127.0.0.1", token_file;
   int port = 8470;
   double longest_run_h = 24.0;
-  FleetArguments fleet;
+  WorkerArguments workers;
 };
 
 /// Throws InputError where others than its owner may read the file, since they could then ask as its users.
@@ -65,9 +65,9 @@ Endpoint endpoint_of(const ServeRequest& request) {
 /// The options of the runs that say where their workers come from, as this command was given them.
 std::vector<std::string> run_arguments(const ServeRequest& request) {
   std::vector<std::string> arguments;
-  const std::string count = std::to_string(request.fleet.workers);
-  if (request.fleet.in_process) return {"--workers", "in-process:" + count};
-  arguments = dds_arguments(*request.fleet.dds);
+  const std::string count = std::to_string(request.workers.count);
+  if (request.workers.in_process) return {"--workers", "in-process:" + count};
+  arguments = dds_arguments(*request.workers.dds);
   arguments.insert(arguments.end(), {"--workers", count});
   return arguments;
 }
@@ -131,7 +131,7 @@ void add_serve(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--longest-run-h", request->longest_run_h, "hours after which a run is interrupted")
       ->check(CLI::Range(0.001, 8760.0))
       ->capture_default_str();
-  add_fleet_arguments(*command, request->fleet);
+  add_worker_arguments(*command, request->workers);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -34,7 +34,7 @@ struct StudyRequest {
   std::vector<std::string> set;
   int seeds = 6;
   std::optional<std::uint64_t> seed;
-  FleetArguments fleet;
+  WorkerArguments workers;
   std::size_t blocks = 12;
   bool closed_loop = false, json = false, quiet = false, force = false;
 };
@@ -101,7 +101,7 @@ ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) 
   }
   if (end == RunEnd::no_worker) {
     fmt::print(stderr, "no worker came: start `demecal-worker --domain {}`, or leave --workers at its default\n",
-               request.fleet.dds->domain);
+               request.workers.dds->domain);
     return ExitCode::no_worker;
   }
   return study.interrupted ? ExitCode::interrupted : ExitCode::done;
@@ -126,7 +126,7 @@ ExitCode run(const StudyRequest& request) {
     if (!request.quiet) print_progress(study, study.runs.back());
     write(request.out, study);
   };
-  const StudyOutcome outcome = run_study(data, jobs_of(request, cells), study.seeds, fleet_maker(request.fleet),
+  const StudyOutcome outcome = run_study(data, jobs_of(request, cells), study.seeds, worker_pool_maker(request.workers),
                                          watch_for_interrupt(), options, on_run);
   study.interrupted = outcome.end != RunEnd::finished;
   study.islands = outcome.fronts.size();
@@ -171,7 +171,7 @@ void add_study(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->json, "one line of JSON");
   add_force(*command, request->force);
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
-  add_fleet_arguments(*command, request->fleet);
+  add_worker_arguments(*command, request->workers);
   command->callback([request, &exit_code] { exit_code = run_or_refuse(*request); });
 }
 

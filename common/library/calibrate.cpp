@@ -21,7 +21,7 @@
 #include "fitting/declared_model.hpp"
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
-#include "scheduling/fleet.hpp"
+#include "scheduling/worker_pool.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal::inline library {
@@ -82,8 +82,8 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   teller.on_message("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
   CalibrateOptions options;
   options.observer = &teller;
-  const MakeFleet make_fleet = [threads] { return std::make_unique<InProcessFleet>(threads); };
-  CalibrateResult result = calibrate(data, to_job(settings), make_fleet, teller.interrupt(), options);
+  const MakeWorkerPool make_pool = [threads] { return std::make_unique<InProcessWorkerPool>(threads); };
+  CalibrateResult result = calibrate(data, to_job(settings), make_pool, teller.interrupt(), options);
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
   arm->text = model_text(arm->model);

@@ -14,24 +14,24 @@ namespace demecal::inline scheduling {
 
 /// How a calibration reaches its workers: opens the transport, and keeps the workers that it starts alive from one run
 /// to the next.
-class Fleet {
+class WorkerPool {
  public:
-  virtual ~Fleet() = default;
+  virtual ~WorkerPool() = default;
   virtual Transport& transport() = 0;
   /// Called before each run: starts workers where none that it started is left. `run`: one of this coordinator's.
   virtual void launch(RunId run) = 0;
 };
 
-using MakeFleet = std::function<std::unique_ptr<Fleet>()>;
+using MakeWorkerPool = std::function<std::unique_ptr<WorkerPool>()>;
 
 /// Islands are bred in this process, over the in-memory transport, and no socket is opened: one worker with as many
-/// slots as threads are asked for. What is evolved is, to the bit, what any other fleet evolves.
-class InProcessFleet final : public Fleet {
+/// slots as threads are asked for. What is evolved is, to the bit, what any other pool evolves.
+class InProcessWorkerPool final : public WorkerPool {
  public:
-  explicit InProcessFleet(std::uint32_t threads);
-  ~InProcessFleet() override;
-  InProcessFleet(const InProcessFleet&) = delete;
-  InProcessFleet& operator=(const InProcessFleet&) = delete;
+  explicit InProcessWorkerPool(std::uint32_t threads);
+  ~InProcessWorkerPool() override;
+  InProcessWorkerPool(const InProcessWorkerPool&) = delete;
+  InProcessWorkerPool& operator=(const InProcessWorkerPool&) = delete;
 
   Transport& transport() override { return *transport_; }
   void launch(RunId run) override;

@@ -1,11 +1,11 @@
-// One fleet serves all evolutions of a calibration, whatever becomes of its workers between them.
+// One pool of workers serves all evolutions of a calibration, whatever becomes of its workers between them.
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
 #include "forwarding_transport.hpp"
-#include "in_memory_fleet.hpp"
+#include "in_memory_pool.hpp"
 #include "mortal_transport.hpp"
 #include "scheduling/island_evolver.hpp"
 #include "transport/participants.hpp"
@@ -28,10 +28,10 @@ class ToldOnce : public ForwardingTransport {
   std::set<std::string> told_;
 };
 
-/// What a test sees of its fleets, and can do to their workers.
+/// What a test sees of its pools, and can do to their workers.
 class Hosts {
  public:
-  int fleets = 0, started = 0;
+  int pools = 0, started = 0;
 
   void start(const std::shared_ptr<Exchange>& exchange) {
     const std::string name = "worker-" + std::to_string(started++);
@@ -52,12 +52,12 @@ class Hosts {
   std::vector<std::unique_ptr<WorkerThread>> workers_;
 };
 
-class KeptFleet : public Fleet {
+class KeptWorkerPool : public WorkerPool {
  public:
-  explicit KeptFleet(Hosts& hosts) : hosts_(hosts), transport_(join(exchange_, Role::coordinator, "coordinator")) {
-    ++hosts_.fleets;
+  explicit KeptWorkerPool(Hosts& hosts) : hosts_(hosts), transport_(join(exchange_, Role::coordinator, "coordinator")) {
+    ++hosts_.pools;
   }
-  ~KeptFleet() override { hosts_.stop_all(); }
+  ~KeptWorkerPool() override { hosts_.stop_all(); }
   Transport& transport() override { return transport_; }
   void launch(RunId) override {
     if (hosts_.any_alive()) return;
@@ -87,7 +87,7 @@ std::vector<Population> fronts_of_all(Hosts& hosts, const std::function<void()>&
   const Job job = short_job();
   EvolverOptions options;
   options.patience.worker = std::chrono::seconds(10);
-  const MakeFleet make = [&] { return std::make_unique<KeptFleet>(hosts); };
+  const MakeWorkerPool make = [&] { return std::make_unique<KeptWorkerPool>(hosts); };
   IslandEvolver evolutions(job, make, interrupt, options);
   std::vector<Population> fronts;
   for (int i = 0; i < kEvolutions; ++i) {
@@ -96,13 +96,13 @@ std::vector<Population> fronts_of_all(Hosts& hosts, const std::function<void()>&
       fronts.push_back(std::move(joint.front));
     EXPECT_EQ(evolutions.end(), RunEnd::finished);
   }
-  evolutions.dismiss_fleet();
+  evolutions.dismiss_workers();
   EXPECT_FALSE(hosts.any_alive());
-  EXPECT_EQ(hosts.fleets, 1);
+  EXPECT_EQ(hosts.pools, 1);
   return fronts;
 }
 
-TEST(Fleet, IsMadeOnceAndItsWorkersAreKnownToEveryEvolution) {
+TEST(WorkerPool, IsMadeOnceAndItsWorkersAreKnownToEveryEvolution) {
   Hosts hosts;
   const auto fronts = fronts_of_all(hosts, [] {});
   EXPECT_EQ(hosts.started, 2);
@@ -110,7 +110,7 @@ TEST(Fleet, IsMadeOnceAndItsWorkersAreKnownToEveryEvolution) {
   EXPECT_NE(fronts[0], fronts[2]);
 }
 
-TEST(Fleet, GoesOnWithThoseWhoAreLeftWhereAWorkerDiesBetweenEvolutions) {
+TEST(WorkerPool, GoesOnWithThoseWhoAreLeftWhereAWorkerDiesBetweenEvolutions) {
   Hosts calm, disturbed;
   int times = 0;
   const auto after_a_death = fronts_of_all(disturbed, [&] {
@@ -120,7 +120,7 @@ TEST(Fleet, GoesOnWithThoseWhoAreLeftWhereAWorkerDiesBetweenEvolutions) {
   EXPECT_EQ(after_a_death, fronts_of_all(calm, [] {}));
 }
 
-TEST(Fleet, StartsWorkersAgainWhereNoneIsLeft) {
+TEST(WorkerPool, StartsWorkersAgainWhereNoneIsLeft) {
   Hosts calm, disturbed;
   int times = 0;
   const auto after_all_died = fronts_of_all(disturbed, [&] {

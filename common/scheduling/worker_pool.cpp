@@ -1,4 +1,4 @@
-#include "scheduling/fleet.hpp"
+#include "scheduling/worker_pool.hpp"
 
 #include <unistd.h>
 #include <string>
@@ -12,17 +12,17 @@ constexpr const char* kWorkerName = "in-process";
 
 }  // namespace
 
-InProcessFleet::InProcessFleet(std::uint32_t threads)
+InProcessWorkerPool::InProcessWorkerPool(std::uint32_t threads)
     : threads_(threads), transport_(join(exchange_, Role::coordinator, "coordinator")) {}
 
-InProcessFleet::~InProcessFleet() {
+InProcessWorkerPool::~InProcessWorkerPool() {
   if (!worker_.joinable()) return;
   stop_ = true;
   worker_transport_->wake();
   worker_.join();
 }
 
-void InProcessFleet::launch(RunId) {
+void InProcessWorkerPool::launch(RunId) {
   if (worker_.joinable()) return;
   worker_transport_ = join(exchange_, Role::worker, kWorkerName);
   worker_ = std::thread([this] {

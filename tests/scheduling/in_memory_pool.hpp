@@ -1,4 +1,4 @@
-// A fleet inside the test's own process.
+// A pool inside the test's own process.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace demecal {
 
-class InMemoryFleet : public Fleet {
+class InMemoryWorkerPool : public WorkerPool {
  public:
-  explicit InMemoryFleet(int workers)
+  explicit InMemoryWorkerPool(int workers)
       : workers_(workers), transport_(join(exchange_, Role::coordinator, "coordinator")) {}
 
   Transport& transport() override { return *transport_; }
