@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "coordinator/child_process.hpp"
-#include "coordinator/job_folders.hpp"
+#include "coordinator/jobs/job_folders.hpp"
 #include "http/user_server.hpp"
 #include "serving/job_files.hpp"
 #include "serving/job_queue.hpp"

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "coordinator/commands.hpp"
-#include "coordinator/job_folders.hpp"
-#include "coordinator/job_service.hpp"
+#include "coordinator/jobs/job_folders.hpp"
+#include "coordinator/jobs/job_service.hpp"
 #include "coordinator/workers.hpp"
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"

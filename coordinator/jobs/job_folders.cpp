@@ -1,4 +1,4 @@
-#include "coordinator/job_folders.hpp"
+#include "coordinator/jobs/job_folders.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

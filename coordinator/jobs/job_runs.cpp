@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "coordinator/commands.hpp"
-#include "coordinator/job_service.hpp"
+#include "coordinator/jobs/job_service.hpp"
 
 namespace demecal {
 namespace {

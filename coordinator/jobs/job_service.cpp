@@ -1,4 +1,4 @@
-#include "coordinator/job_service.hpp"
+#include "coordinator/jobs/job_service.hpp"
 
 #include <cerrno>
 #include <charconv>

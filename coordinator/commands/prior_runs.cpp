@@ -1,4 +1,4 @@
-#include "coordinator/prior_runs.hpp"
+#include "coordinator/commands/prior_runs.hpp"
 
 #include <fmt/format.h>
 #include <atomic>
