@@ -28,7 +28,6 @@
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"
-#include "report/pose_places.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

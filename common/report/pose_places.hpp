@@ -1,13 +1,11 @@
 // What a report says of single poses and contacts: how far they are off, where they were measured and which way they
-// missed, and the arm that was there; and all poses as a table.
+// missed, and the arm that was there.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "report/report.hpp"
 
 namespace demecal::inline report {
 
@@ -68,9 +66,5 @@ struct LengthErrorEntry {
   std::optional<double> before_mm;  ///< of what the closed loop started from
   std::optional<double> error_mm;   ///< of the model
 };
-
-/// pose-errors.csv: id, target, set, errors, radius, flags, joints, measured position, error by axis before and after,
-/// temperature and time; what no pose has is left out, what one pose lacks is empty.
-std::string pose_errors_csv(const Report& report);
 
 }  // namespace demecal::inline report

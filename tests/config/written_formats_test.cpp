@@ -24,7 +24,6 @@
 #include "report/change_report.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
-#include "report/pose_places.hpp"
 #include "report/study.hpp"
 
 namespace demecal {
