@@ -20,7 +20,6 @@
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
-#include "report/short_forms.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline report {
