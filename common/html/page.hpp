@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "planning/plan.hpp"
-#include "report/change_report.hpp"
 #include "report/history.hpp"
 #include "report/report.hpp"
+#include "studies/change_report.hpp"
 
 namespace demecal::inline html {
 

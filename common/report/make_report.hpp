@@ -1,5 +1,5 @@
-// From what a run concluded to the document of it, with joint corrections as formulas that people read: a wave, a slope or
-// an offset in the angle's own units.
+// From what a run concluded to the document of it, with joint corrections as formulas that people read: a wave, a slope
+// or an offset in the angle's own units.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
 #include "report/figures.hpp"
-#include "report/plan_report.hpp"
+#include "studies/plan_report.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {

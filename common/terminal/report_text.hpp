@@ -7,7 +7,7 @@
 #include "planning/plan.hpp"
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
-#include "report/study.hpp"
+#include "studies/study.hpp"
 
 namespace demecal::inline terminal {
 

@@ -21,9 +21,9 @@
 #include "report/evaluation.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
-#include "report/study.hpp"
 #include "scheduling/run_state.hpp"
 #include "scheduling/worker_pool.hpp"
+#include "studies/study.hpp"
 
 namespace demecal::inline workflows {
 

@@ -30,7 +30,6 @@
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
 #include "report/make_report.hpp"
-#include "report/study.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "scheduling/evolution_run.hpp"
 #include "scheduling/island_evolver.hpp"
@@ -38,6 +37,7 @@
 #include "scheduling/run_state.hpp"
 #include "scheduling/worker_pool.hpp"
 #include "structure/structure_fit.hpp"
+#include "studies/study.hpp"
 
 namespace demecal::inline workflows {
 /// Told what happens in a calibration, as it happens. The result does not depend on it.

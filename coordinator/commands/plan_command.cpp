@@ -20,7 +20,7 @@
 #include "html/page.hpp"
 #include "languages/languages.hpp"
 #include "planning/plan.hpp"
-#include "report/plan_report.hpp"
+#include "studies/plan_report.hpp"
 #include "terminal/report_text.hpp"
 #include "yaml/yaml_text.hpp"
 

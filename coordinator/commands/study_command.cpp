@@ -19,8 +19,8 @@
 #include "errors/input_error.hpp"
 #include "evolution/building_blocks.hpp"
 #include "report/evaluation.hpp"
-#include "report/study.hpp"
 #include "scheduling/run_state.hpp"
+#include "studies/study.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/workflows.hpp"
 

@@ -12,8 +12,8 @@
 #include "drafting/planned_files.hpp"
 #include "formats_document.hpp"
 #include "made_up_recording.hpp"
-#include "report/change_report.hpp"
-#include "report/plan_report.hpp"
+#include "studies/change_report.hpp"
+#include "studies/plan_report.hpp"
 #include "temporary_folder.hpp"
 
 namespace demecal {

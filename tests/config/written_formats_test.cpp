@@ -21,10 +21,10 @@
 #include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
 #include "programs/summary.hpp"
-#include "report/change_report.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
-#include "report/study.hpp"
+#include "studies/change_report.hpp"
+#include "studies/study.hpp"
 
 namespace demecal {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "made_up_comparison.hpp"
-#include "made_up_study.hpp"
+#include "../studies/made_up_study.hpp"
 #include "screen_reading.hpp"
 
 namespace demecal {

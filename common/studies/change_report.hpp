@@ -9,7 +9,7 @@
 #include "data/data_set.hpp"
 #include "updating/change.hpp"
 
-namespace demecal::inline report {
+namespace demecal::inline studies {
 
 /// One JSON object on one line.
 std::string to_json(const ChangeReport& change, const DataSet& data, const std::string& model_file);
@@ -35,4 +35,4 @@ std::string check_history_csv(const std::vector<CheckRecord>& records);
 /// Throws InputError at the first fault; an empty text is a history without checks.
 std::vector<CheckRecord> read_check_history(const std::string& text, const std::string& file);
 
-}  // namespace demecal::inline report
+}  // namespace demecal::inline studies

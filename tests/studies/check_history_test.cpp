@@ -1,5 +1,5 @@
 // The record of checks comes back as it was written, whatever names hold.
-#include "report/change_report.hpp"
+#include "studies/change_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "random/random_stream.hpp"
-#include "report/study.hpp"
+#include "studies/study.hpp"
 
 namespace demecal {
 

@@ -6,7 +6,7 @@
 
 #include "planning/plan.hpp"
 
-namespace demecal::inline report {
+namespace demecal::inline studies {
 
 /// The document of a plan; `files` are those written beside it.
 std::string to_json(const Plan& plan, const PlanRequest& request, const std::vector<std::string>& files);
@@ -30,4 +30,4 @@ std::string places_sentence(const Plan& plan);
 /// The sentences on what the poses will not tell.
 std::vector<std::string> unidentified_sentences(const Plan& plan);
 
-}  // namespace demecal::inline report
+}  // namespace demecal::inline studies

@@ -1,4 +1,4 @@
-#include "report/study.hpp"
+#include "studies/study.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "expression/tree.hpp"
 #include "report/json.hpp"
 
-namespace demecal::inline report {
+namespace demecal::inline studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -150,4 +150,4 @@ std::string to_json(const Study& study, int indent) {
   return to_text(json, indent);
 }
 
-}  // namespace demecal::inline report
+}  // namespace demecal::inline studies

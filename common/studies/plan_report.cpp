@@ -1,4 +1,4 @@
-#include "report/plan_report.hpp"
+#include "studies/plan_report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "kinematics/units.hpp"
 #include "next_measurement/next_measurement.hpp"
 
-namespace demecal::inline report {
+namespace demecal::inline studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -173,4 +173,4 @@ std::string to_json(const Plan& plan, const PlanRequest& request, const std::vec
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-}  // namespace demecal::inline report
+}  // namespace demecal::inline studies

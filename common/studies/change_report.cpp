@@ -1,4 +1,4 @@
-#include "report/change_report.hpp"
+#include "studies/change_report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "next_measurement/next_measurement.hpp"
 #include "report/history.hpp"
 
-namespace demecal::inline report {
+namespace demecal::inline studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -195,4 +195,4 @@ std::vector<CheckRecord> read_check_history(const std::string& text, const std::
   return records;
 }
 
-}  // namespace demecal::inline report
+}  // namespace demecal::inline studies

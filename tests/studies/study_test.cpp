@@ -1,5 +1,5 @@
 // What a study writes says what its runs were.
-#include "report/study.hpp"
+#include "studies/study.hpp"
 
 #include <gtest/gtest.h>
 

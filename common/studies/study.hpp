@@ -11,7 +11,7 @@
 #include "evolution/building_blocks.hpp"
 #include "random/distributions.hpp"
 
-namespace demecal::inline report {
+namespace demecal::inline studies {
 
 /// One calibration.
 struct StudyRun {
@@ -52,4 +52,4 @@ std::string study_csv(const Study& study);
 /// Everything: runs, medians and intervals of the cells, and all blocks.
 std::string to_json(const Study& study, int indent = -1);
 
-}  // namespace demecal::inline report
+}  // namespace demecal::inline studies
