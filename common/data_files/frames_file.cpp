@@ -11,7 +11,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/units.hpp"
-#include "languages/orientation.hpp"
+#include "parsed_programs/orientation.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline data_files {

@@ -8,7 +8,7 @@
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/drawn_arm.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "symbolic/algebra.hpp"
 #include "symbolic/code.hpp"
 #include "yaml/yaml_node.hpp"

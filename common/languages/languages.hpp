@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/program.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 

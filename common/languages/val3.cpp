@@ -17,10 +17,10 @@
 
 #include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
-#include "languages/orientation.hpp"
-#include "languages/program.hpp"
-#include "languages/program_text.hpp"
 #include "languages/val3_program.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

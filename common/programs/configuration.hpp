@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "programs/nominal_joints.hpp"
 
 namespace demecal::inline programs {

@@ -11,7 +11,7 @@
 #include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "programs/command_model.hpp"
 #include "programs/configuration.hpp"

@@ -8,7 +8,7 @@
 #include "data_files/robot_file.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
-#include "languages/orientation.hpp"
+#include "parsed_programs/orientation.hpp"
 #include "prediction/random_robot.hpp"
 
 namespace demecal {

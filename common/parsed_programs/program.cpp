@@ -1,4 +1,4 @@
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline parsed_programs {
 namespace {
 
 /// The last setting before `offset`; null where there is none.
@@ -163,4 +163,4 @@ KnownFrame ControllerData::tool(std::string_view key, const std::string& name) c
   return kept(tools, key, name);
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline parsed_programs

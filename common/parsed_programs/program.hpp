@@ -15,10 +15,10 @@
 
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/orientation.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline parsed_programs {
 
 /// What a target says of the joints that its pose is to be reached with.
 struct ArmHint {
@@ -191,4 +191,4 @@ struct ReaderInput {
   const ControllerData& controller;
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline parsed_programs

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace demecal::inline languages {
+namespace demecal::inline parsed_programs {
 
 /// How a file writes the tool's orientation.
 enum class OrientationForm {
@@ -27,4 +27,4 @@ Eigen::Matrix3d rotation_from(OrientationForm form, const std::vector<double>& n
 std::vector<double> numbers_of(const Eigen::Matrix3d& rotation, OrientationForm form,
                                const std::vector<double>& written);
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline parsed_programs

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal::inline languages {
+namespace demecal::inline parsed_programs {
 
 struct ProgramFile {
   std::string name;  ///< as named to the user
@@ -141,4 +141,4 @@ BracketItem read_list(const ProgramText& text, std::size_t begin, char opening);
 /// The values of a list of `size` numbers; nothing where it is none.
 std::optional<std::vector<double>> list_numbers(const ProgramText& text, const BracketItem& list, std::size_t size);
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline parsed_programs

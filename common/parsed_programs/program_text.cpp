@@ -1,4 +1,4 @@
-#include "languages/program_text.hpp"
+#include "parsed_programs/program_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline parsed_programs {
 
 ProgramSource::ProgramSource(std::string_view text, std::string file)
     : ProgramSource(std::vector<ProgramFile>{{std::move(file), std::string(text)}}) {}
@@ -240,4 +240,4 @@ std::optional<std::vector<double>> list_numbers(const ProgramText& text, const B
   return values;
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline parsed_programs

@@ -1,4 +1,4 @@
-#include "languages/orientation.hpp"
+#include "parsed_programs/orientation.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline parsed_programs {
 namespace {
 
 double distance(const std::vector<double>& one, const std::vector<double>& other) {
@@ -134,4 +134,4 @@ std::vector<double> numbers_of(const Eigen::Matrix3d& rotation, OrientationForm 
   return vector_numbers(rotation, written);
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline parsed_programs
