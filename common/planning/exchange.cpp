@@ -106,7 +106,7 @@ void Design::exchange(int rounds, double least_gain) {
 
 namespace {
 
-constexpr int kRefinements = 8, kTries = 30;
+constexpr int kRefinements = 8, kRefinementTries = 30;
 constexpr double kWidest = 0.25, kNarrowing = 0.7;  ///< of a joint's range: how far tries of a round go
 constexpr double kOneJoint = 0.5;                   ///< share of tries that move a single joint, anywhere
 constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
@@ -173,7 +173,7 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
       knowledge.remove(rows[i]);
       const PoseGain gain_of(knowledge);
       double most = gain_of(rows[i]);
-      for (int attempt = 0; attempt < kTries; ++attempt) {
+      for (int attempt = 0; attempt < kRefinementTries; ++attempt) {
         auto tried = moved_pose(space, model.model().sockets, poses[i], width, random);
         if (!tried) continue;
         Eigen::MatrixXd tells = model.measured_rows(*tried);
