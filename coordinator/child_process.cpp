@@ -1,14 +1,26 @@
 #include "coordinator/child_process.hpp"
 
 #include <fcntl.h>
+#include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "yaml/files.hpp"
 
 namespace demecal {
 namespace {
@@ -64,6 +76,100 @@ std::optional<int> ChildProcess::exit_code() {
   if (!exit_code_ && ::waitpid(process_, &status, WNOHANG) == process_)
     exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return exit_code_;
+}
+
+namespace {
+
+constexpr std::array<const char*, 4> kPrinters{"weasyprint", "chromium", "chromium-browser", "google-chrome"};
+constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::milliseconds kPollInterval{20};
+
+/// A folder of its own under the temporary one; removed with all that a browser left in it.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "demecal-print-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::vector<std::string> command_line(const std::string& printer, const std::string& page, const std::string& scratch,
+                                      const std::string& pdf) {
+  if (std::filesystem::path(printer).filename() == "weasyprint") return {printer, page, pdf};
+  std::vector<std::string> words{printer,
+                                 "--headless",
+                                 "--disable-gpu",
+                                 "--no-pdf-header-footer",
+                                 "--user-data-dir=" + scratch + "/profile",
+                                 "--print-to-pdf=" + pdf,
+                                 "file://" + page};
+  if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");  // a browser refuses root otherwise
+  return words;
+}
+
+/// Runs it in a group of its own, unheard; whether it ended well in time.
+bool runs_well(std::vector<std::string> words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child < 0) return false;
+  if (child == 0) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const int nowhere = ::open("/dev/null", O_RDWR);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+    ::execv(pointers.front(), pointers.data());
+    ::_exit(127);
+  }
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  int status = 0;
+  while (::waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      ::kill(-child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      return false;
+    }
+    std::this_thread::sleep_for(kPollInterval);
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+std::optional<std::string> find_printer() {
+  const char* const path = std::getenv("PATH");
+  for (const char* const name : kPrinters) {
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      const std::string file = (folder.empty() ? "." : folder) + "/" + name;
+      if (::access(file.c_str(), X_OK) == 0 && !std::filesystem::is_directory(file)) return file;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> printed(const std::string& printer, const std::string& page_file) {
+  const ScratchFolder scratch;
+  if (scratch.path().empty()) return std::nullopt;
+  const std::string pdf = scratch.path() + "/printed";
+  const std::string page = std::filesystem::absolute(page_file).string();
+  if (!runs_well(command_line(printer, page, scratch.path(), pdf)) || !std::filesystem::exists(pdf))
+    return std::nullopt;
+  std::string bytes = read_file(pdf);
+  if (!bytes.starts_with("%PDF-")) return std::nullopt;
+  return bytes;
 }
 
 }  // namespace demecal

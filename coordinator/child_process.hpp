@@ -1,4 +1,5 @@
-// A program that runs in a folder, with what it says going to a file.
+// A program that runs in a folder, with what it says going to a file; and pages as PDF, by a printer that happens to be
+// installed: weasyprint or a browser without a window.
 #pragma once
 
 #include <sys/types.h>
@@ -28,5 +29,11 @@ class ChildProcess {
   bool is_interrupted_ = false;
   std::optional<int> exit_code_;
 };
+
+/// The path of a program of PATH that can print pages; nothing where there is none.
+std::optional<std::string> find_printer();
+
+/// What the printer makes of the page of that file; nothing where it fails or takes longer than a minute.
+std::optional<std::string> printed(const std::string& printer, const std::string& page_file);
 
 }  // namespace demecal

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "config/data_set_file.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data_check/check_data.hpp"
+#include "data_files/data_set_file.hpp"
 #include "errors/input_error.hpp"
 #include "html/page.hpp"
 #include "prediction/measurement.hpp"

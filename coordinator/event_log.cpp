@@ -142,7 +142,7 @@ void EventLog::on_run_ends(RunEnd end) {
   if (state == Control::State::finished) publish_stage(Stage::closing, "closing the loop");
 }
 
-void EventLog::on_fleet_ends() {
+void EventLog::on_workers_end() {
   for (auto& [name, status] : workers_) {
     if (status.only_run == 0 || status.leaving) continue;
     status.leaving = true;  // nobody listens when it says so itself

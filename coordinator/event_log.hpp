@@ -53,7 +53,7 @@ class EventLog final : public CalibrationObserver {
 
   void on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool shown) override;
   void on_run_ends(RunEnd end) override;
-  void on_fleet_ends() override;
+  void on_workers_end() override;
   void on_progress(const Progress& progress) override { file_.note(progress); }
   void on_worker(const WorkerStatus& status) override;
   void on_lost(const std::string& worker) override { file_.note(WorkerLost{worker}); }

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <utility>
 
-#include "coordinator/arm_view.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/live_page.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/events.hpp"
-#include "recording/mcap_reader.hpp"
+#include "recording/mcap.hpp"
 
 namespace demecal {
 namespace {

@@ -13,8 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
-#include "calibration/evolved_corrections.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/loop_passes.hpp"
 #include "config/model_file.hpp"
@@ -28,7 +28,6 @@
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"
-#include "report/pose_csv.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "scheduling/fleet.hpp"
+#include "scheduling/worker_pool.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal {
@@ -51,32 +51,32 @@ pid_t start(const std::string& path, const std::vector<std::string>& arguments) 
 }
 
 /// `text` as --workers takes it. Throws CLI::ValidationError for anything else.
-void take_workers(const std::string& text, FleetArguments& fleet) {
+void take_workers(const std::string& text, WorkerArguments& workers) {
   constexpr int kMostWorkers = 256;
   static const std::string kInProcess = "in-process";
-  fleet.in_process = text.starts_with(kInProcess);
+  workers.in_process = text.starts_with(kInProcess);
   std::string number = text;
-  if (fleet.in_process) {
+  if (workers.in_process) {
     const std::string rest = text.substr(kInProcess.size());
-    fleet.workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    workers.count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     if (rest.empty()) return;
     number = rest.starts_with(':') ? rest.substr(1) : "";
   }
   int count = -1;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
-  const int least = fleet.in_process ? 1 : 0;
+  const int least = workers.in_process ? 1 : 0;
   if (error != std::errc() || end != number.data() + number.size() || count < least || count > kMostWorkers) {
     throw CLI::ValidationError(
         "--workers", fmt::format("'{}' is neither 0 to {} nor in-process nor in-process:1 to in-process:{}", text,
                                  kMostWorkers, kMostWorkers));
   }
-  fleet.workers = count;
+  workers.count = count;
 }
 
 }  // namespace
 
-void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
-  const auto take = [&fleet](const std::string& text) { take_workers(text, fleet); };
+void add_worker_arguments(CLI::App& command, WorkerArguments& workers) {
+  const auto take = [&workers](const std::string& text) { take_workers(text, workers); };
   command
       .add_option_function<std::string>(
           "--workers", take,
@@ -84,28 +84,28 @@ void add_fleet_arguments(CLI::App& command, FleetArguments& fleet) {
           "threads of this process, without DDS: nobody else can work or watch")
       ->type_name("N|in-process")
       ->default_str("one per core");  // not their number: the manual page is of every machine
-  fleet.dds = add_dds_arguments(command);
+  workers.dds = add_dds_arguments(command);
 }
 
-MakeFleet fleet_maker(const FleetArguments& arguments) {
-  return [&arguments]() -> std::unique_ptr<Fleet> {
-    if (arguments.in_process) return std::make_unique<InProcessFleet>(static_cast<std::uint32_t>(arguments.workers));
-    return std::make_unique<DdsFleet>(*arguments.dds, arguments.workers);
+MakeWorkerPool worker_pool_maker(const WorkerArguments& arguments) {
+  return [&arguments]() -> std::unique_ptr<WorkerPool> {
+    if (arguments.in_process) return std::make_unique<InProcessWorkerPool>(static_cast<std::uint32_t>(arguments.count));
+    return std::make_unique<DdsWorkerPool>(*arguments.dds, arguments.count);
   };
 }
 
-std::unique_ptr<Transport> join_as_reporter(const FleetArguments& arguments) {
+std::unique_ptr<Transport> join_as_reporter(const WorkerArguments& arguments) {
   constexpr const char* kName = "reporter";
   return arguments.in_process ? join(make_exchange(), Role::reporter, kName)
                               : join_dds(*arguments.dds, Role::reporter, kName);
 }
 
-std::string to_string(const FleetArguments& arguments, double worker_timeout_s) {
+std::string to_string(const WorkerArguments& arguments, double worker_timeout_s) {
   if (arguments.in_process)
-    return fmt::format("{} thread{} of this process", arguments.workers, arguments.workers == 1 ? "" : "s");
+    return fmt::format("{} thread{} of this process", arguments.count, arguments.count == 1 ? "" : "s");
   return fmt::format("DDS domain {}, {}", arguments.dds->domain,
-                     arguments.workers > 0 ? fmt::format("{} local workers", arguments.workers)
-                                           : fmt::format("waiting up to {:g} s for workers", worker_timeout_s));
+                     arguments.count > 0 ? fmt::format("{} local workers", arguments.count)
+                                         : fmt::format("waiting up to {:g} s for workers", worker_timeout_s));
 }
 
 LocalWorkers::LocalWorkers(const std::string& path, const std::vector<std::string>& arguments, int count) {
@@ -133,12 +133,12 @@ std::string beside_this_program(const std::string& name) {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / name).string();
 }
 
-DdsFleet::DdsFleet(const DdsOptions& options, int local_workers)
+DdsWorkerPool::DdsWorkerPool(const DdsOptions& options, int local_workers)
     : options_(options),
       local_workers_(local_workers),
       transport_(join_dds(options, Role::coordinator, "coordinator")) {}
 
-void DdsFleet::launch(RunId run) {
+void DdsWorkerPool::launch(RunId run) {
   if (workers_ && workers_->any_alive()) return;
   std::vector<std::string> arguments = dds_arguments(options_);
   arguments.insert(arguments.end(), {"--only-run", std::to_string(run)});

@@ -11,26 +11,26 @@
 
 #include "dds/dds_transport.hpp"
 #include "protocol/messages.hpp"
-#include "scheduling/fleet.hpp"
 #include "scheduling/island_evolver.hpp"
+#include "scheduling/worker_pool.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal {
 
-struct FleetArguments {
-  int workers = static_cast<int>(std::thread::hardware_concurrency());  ///< processes, or threads where `in_process`
+struct WorkerArguments {
+  int count = static_cast<int>(std::thread::hardware_concurrency());  ///< processes, or threads where `in_process`
   bool in_process = false;
   std::shared_ptr<DdsOptions> dds;
 };
-/// Adds --workers and those of add_dds_arguments(); `fleet` outlives the command.
-void add_fleet_arguments(CLI::App& command, FleetArguments& fleet);
+/// Adds --workers and those of add_dds_arguments(); `workers` outlives the command.
+void add_worker_arguments(CLI::App& command, WorkerArguments& workers);
 
-/// What makes the fleets that the arguments ask for; they outlive it.
-MakeFleet fleet_maker(const FleetArguments& arguments);
+/// What makes the pools that the arguments ask for; they outlive it.
+MakeWorkerPool worker_pool_maker(const WorkerArguments& arguments);
 /// What publishes a calibration to watchers: on the network, or where nobody listens, if no socket is to be opened.
-std::unique_ptr<Transport> join_as_reporter(const FleetArguments& arguments);
+std::unique_ptr<Transport> join_as_reporter(const WorkerArguments& arguments);
 /// For people: "DDS domain 0, 2 local workers"; `worker_timeout_s` is how long workers are waited for.
-std::string to_string(const FleetArguments& arguments, double worker_timeout_s);
+std::string to_string(const WorkerArguments& arguments, double worker_timeout_s);
 
 /// The worker processes a coordinator starts on its own machine, and stops when it is done.
 class LocalWorkers {
@@ -54,12 +54,12 @@ class LocalWorkers {
 /// The path of a program that stands beside the running one.
 std::string beside_this_program(const std::string& name);
 
-/// The fleet over DDS: the coordinator's participant, and the local worker processes it starts.
-class DdsFleet final : public Fleet {
+/// The pool over DDS: the coordinator's participant, and the local worker processes it starts.
+class DdsWorkerPool final : public WorkerPool {
  public:
   /// Joins the domain; will start `local_workers` processes, each with one slot, that serve this coordinator alone; or,
   /// where certificates are shown, one process with as many slots: handshakes grow with the square of the processes.
-  DdsFleet(const DdsOptions& options, int local_workers);
+  DdsWorkerPool(const DdsOptions& options, int local_workers);
 
   Transport& transport() override { return *transport_; }
   void launch(RunId run) override;

@@ -13,8 +13,8 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
+#include "report/evaluation.hpp"
 #include "report/report.hpp"
-#include "report/uncertainty.hpp"
 
 namespace demecal::inline acceptance {
 

@@ -1,4 +1,4 @@
-#include "certificate/dcc.hpp"
+#include "certificate/documents.hpp"
 
 #include <functional>
 #include <string>

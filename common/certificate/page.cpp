@@ -1,4 +1,4 @@
-#include "certificate/page.hpp"
+#include "certificate/documents.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

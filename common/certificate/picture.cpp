@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "certificate/page.hpp"
+#include "certificate/documents.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline certificate {

@@ -1,21 +1,14 @@
 #include "config/cell_file.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <optional>
-#include <sstream>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "config/contacts_file.hpp"
-#include "data/csv.hpp"
-#include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "planning/cell.hpp"
 #include "yaml/yaml_node.hpp"
-#include "yaml/yaml_text.hpp"
 
 namespace demecal::inline config {
 namespace {
@@ -118,29 +111,6 @@ std::vector<std::optional<Interval>> read_cell_ranges(const YamlNode& node, cons
   return ranges;
 }
 
-std::string joint_number(const Chain& chain, const JointVector& joints, int joint) {
-  constexpr double kPerUnit = 1e3;
-  const double value = is_revolute(chain, joint) ? degrees(joints[joint]) : millimetres(joints[joint]);
-  return number_text(std::round(value * kPerUnit) / kPerUnit + 0.0);
-}
-
-std::vector<std::string> joint_headings(const Chain& chain) {
-  std::vector<std::string> names;
-  for (int i = 0; i < chain.size(); ++i)
-    names.push_back("q" + std::to_string(i + 1) + (is_revolute(chain, i) ? "_deg" : "_mm"));
-  return names;
-}
-
-std::vector<std::string> approach_headings(const Chain& chain) {
-  std::vector<std::string> names;
-  for (int i = 0; i < chain.size(); ++i) names.push_back("s" + std::to_string(i + 1));
-  return names;
-}
-
-bool measures_orientation(const PlanRequest& request) {
-  return request.cell && request.cell->instrument && request.cell->instrument->measures_orientation;
-}
-
 }  // namespace
 
 CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
@@ -163,59 +133,6 @@ CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
   if (const YamlNode* tools = root.find("tools_mm"))
     for (const YamlNode& tool : tools->children) file.tools_m[tool.name] = point_m(tool);
   return file;
-}
-
-std::string planned_poses_csv(const Plan& plan, const PlanRequest& request) {
-  const Chain& chain = request.robot.chain;
-  CsvTable table{.file = {}, .header_line = 0, .columns = {"set", "pose_id"}, .rows = {}};
-  for (std::string& name : joint_headings(chain)) table.columns.push_back(std::move(name));
-  for (std::string& name : approach_headings(chain)) table.columns.push_back(std::move(name));
-  std::vector<std::string> targets;
-  for (const auto& [target, tool_m] : request.tools_m) targets.push_back(target);
-  if (targets.empty()) targets.emplace_back();
-  if (!request.tools_m.empty()) table.columns.emplace_back("target_id");
-  if (!plan.sockets.empty()) table.columns.emplace_back("contact_id");
-  for (const PlannedStop& stop : plan.stops) {
-    for (const std::string& target : targets) {
-      CsvRow row{0, {std::string(to_string(stop.set)), stop.id}};
-      for (int i = 0; i < chain.size(); ++i) row.fields.push_back(joint_number(chain, stop.pose.joints, i));
-      for (const double sign : stop.pose.approach) row.fields.push_back(number_text(sign));
-      if (!request.tools_m.empty()) row.fields.push_back(target);
-      if (stop.pose.socket) row.fields.push_back(plan.sockets[*stop.pose.socket].name);
-      table.rows.push_back(std::move(row));
-    }
-  }
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
-}
-
-std::string planned_data_set_text(const Plan& plan, const PlanRequest& request) {
-  std::ostringstream text;
-  const bool touches = !plan.sockets.empty();
-  text << yaml_comment(touches ? "Planned by demecal: put the joints in which the ball sat in its socket into poses.csv"
-                               : "Planned by demecal: add the columns of what was measured to poses.csv, nothing else "
-                                 "is missing")
-       << "demecal_dataset: 1\nname: " << yaml_text(request.robot.name) << "\nrobot: robot.yaml\nposes: poses.csv\n"
-       << "columns:\n  set: set\n  pose: pose_id\n  joints: " << yaml_list(joint_headings(request.robot.chain)) << '\n'
-       << (touches ? "  contact: contact_id\n" : "  position: [x_mm, y_mm, z_mm]   # to be added\n");
-  if (measures_orientation(request)) text << "  orientation: [qw, qx, qy, qz]   # to be added\n";
-  if (!plan.stops.empty()) text << "  approach: " << yaml_list(approach_headings(request.robot.chain)) << '\n';
-  if (!request.tools_m.empty()) {
-    text << "  target: target_id\ntools_mm:\n";
-    for (const auto& [target, tool_m] : request.tools_m)
-      text << "  " << yaml_text(target) << ": " << yaml_mm(tool_m) << '\n';
-  }
-  if (!touches) text << "frame: sensor\n";
-  if (!plan.lengths.empty()) text << contacts_text({.forms = {}, .distances = plan.lengths, .angles = {}});
-  return text.str();
-}
-
-std::string planned_job_text(const PlanRequest& request) {
-  return "demecal_job: 1\ndata: DATASET.yaml\nmethod: " +
-         std::string(request.declared.joint_corrections ? "direct" : "diagnose") +
-         "\nseed: " + std::to_string(request.seed) + "\nmodel: {declared: " + yaml_list(request.declared.words()) +
-         "}\n";
 }
 
 }  // namespace demecal::inline config

@@ -1,4 +1,4 @@
-// CELL.yaml: where an arm may go and where it can be measured; and the files that a plan leaves to be filled in.
+// CELL.yaml: where an arm may go and where it can be measured.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "data/data_set.hpp"
-#include "planning/plan.hpp"
+#include "planning/cell.hpp"
 
 namespace demecal::inline config {
 
@@ -19,13 +19,5 @@ struct CellFile {
 
 /// The cell of an arm. Throws InputError with file, line, value and rule at the first fault.
 CellFile load_cell(const std::filesystem::path& path, const Robot& robot);
-
-/// poses.csv of a plan: set, pose_id, joints, approach and, where there are several, targets; what is measured is
-/// added.
-std::string planned_poses_csv(const Plan& plan, const PlanRequest& request);
-/// The DATASET.yaml for it, once it has columns for what was measured.
-std::string planned_data_set_text(const Plan& plan, const PlanRequest& request);
-/// The JOB.yaml for that.
-std::string planned_job_text(const PlanRequest& request);
 
 }  // namespace demecal::inline config

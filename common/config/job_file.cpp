@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/certificate_keys.hpp"
+#include "data_files/data_set_file.hpp"
 #include "effects/effect.hpp"
 #include "evolution/archipelago.hpp"
 #include "yaml/files.hpp"

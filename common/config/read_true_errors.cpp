@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "expression/text.hpp"

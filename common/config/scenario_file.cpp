@@ -1,4 +1,6 @@
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
+
+#include "data_files/robot_file.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

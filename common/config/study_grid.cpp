@@ -1,4 +1,4 @@
-#include "config/study_grid.hpp"
+#include "config/job_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "config/job_file.hpp"
 #include "errors/input_error.hpp"
 #include "yaml/yaml_node.hpp"
 

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "data/read_poses.hpp"
-#include "data_check/contacts.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"

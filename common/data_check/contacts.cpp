@@ -1,4 +1,4 @@
-#include "data_check/contacts.hpp"
+#include "data_check/searches.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The searches that a check runs one after another; each returns what it finds.
+// The searches that a check runs one after another, those of what poses touch included; each returns what it finds.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline data_check {
 
@@ -65,5 +66,14 @@ std::vector<Finding> find_small_angles(const DataSet& data);
 /// Takes rows out that repeat another to the last digit of what was measured, joints included, and names each: a repeat
 /// with noise does not, unless its digits are as coarse as the noise.
 std::vector<Finding> take_out_copies(DataSet& data);
+
+/// Checks data that contacts alone tell of: tool and links are fitted to the calibration poses, robustly. Where poses
+/// then disagree by more than any arm errs, joints' signs are tried, and the description is contradicted. Else single
+/// poses are named, of all sets.
+std::vector<Finding> check_contacts(const DataSet& data);
+
+/// Poses that the contact they name does not fit: those that fit another one, as wrong_contact, others as outlier.
+/// `robot` predicts the tool.
+std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot);
 
 }  // namespace demecal::inline data_check

@@ -8,8 +8,6 @@
 #include "effects/effect.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/base_search.hpp"
-#include "fitting/identifiable.hpp"
-#include "fitting/known_relations.hpp"
 #include "fitting/least_squares.hpp"
 #include "fitting/observation.hpp"
 #include "fitting/parameter_space.hpp"

@@ -1,4 +1,4 @@
-#include "fitting/identifiable.hpp"
+#include "fitting/parameter_space.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "fitting/declared_model.hpp"
-#include "fitting/known_relations.hpp"
+#include "fitting/observation.hpp"
 #include "fitting/row_sums.hpp"
 #include "random/distributions.hpp"
 

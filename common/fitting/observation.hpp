@@ -1,4 +1,5 @@
-// The poses of a fit, and their residual rows in units of what each kind of row scatters.
+// The poses of a fit, and their residual rows in units of what each kind of row scatters; and rows of what is known
+// between contacts (lengths, parallel or square planes).
 #pragma once
 
 #include <Eigen/Core>
@@ -60,5 +61,15 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
 /// Root mean square per kind of the unscaled residuals, 0 for kinds without rows.
 RowScales root_mean_squares(const DataSet& data, const CorrectedRobot& robot,
                             const std::vector<Observation>& observations);
+
+/// Known minus placed, over what is known's own uncertainty: rows of unit variance. Derivative by the changes.
+struct RelationRows {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;  ///< rows x parameters
+};
+
+/// The rows of all relations between contacts whose places are free in `space`, both of one set. A relation that
+/// several sets have counts as one all the same: their rows share its uncertainty.
+RelationRows relation_rows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point);
 
 }  // namespace demecal::inline fitting

@@ -1,5 +1,5 @@
-// How surely a fitted model knows where the tool goes: the covariance of its numbers, and the radii that hold 95 % of
-// its errors.
+// How surely a fitted model knows where the tool goes: the covariance of its numbers, the radii that hold 95 % of its
+// errors, and how far its tool is really off over all the places its joints were measured at.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +15,7 @@
 #include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal::inline fitting {
 
@@ -108,5 +109,20 @@ double radius95_m(const PredictionInterval& interval, const Posterior& posterior
 /// measurement noise.
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                        const Stop& stop, double widened = 1.0);
+
+/// Leaves of every column what no shift and turn of the whole arm does as well, by least squares over all points.
+/// `rows`: how each of `points_m` moves, 3 x columns.
+void leave_out_motion_as_a_whole(const std::vector<Eigen::Vector3d>& points_m, std::vector<Eigen::MatrixXd>& rows);
+
+struct WorkspaceError {
+  double rms_m = 0.0, p95_m = 0.0;
+};
+
+/// What `posterior` and the interval's model error lead one to expect of the robot's own tool, joints anywhere in
+/// `measured` and approached from either side; measurement noise is not in it. Where the poses did not tell where the
+/// arm stands (`placed` is false), once the arm as a whole is shifted and turned to fit best.
+WorkspaceError workspace_error(const Posterior& posterior, const PredictionInterval& interval,
+                               const CorrectedRobot& robot, std::span<const Interval> measured, bool placed,
+                               RandomStream random);
 
 }  // namespace demecal::inline fitting

@@ -9,7 +9,7 @@
 
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "kinematics/difference.hpp"
+#include "kinematics/chain.hpp"
 
 namespace demecal::inline fitting {
 namespace {

@@ -167,7 +167,7 @@ class ViewDrawing {
   const Extent& extent_;
 };
 
-constexpr const char* kStyle =
+constexpr const char* kPictureStyle =
     "text{font:13px sans-serif;fill:#222}.title{font-weight:bold}.tick{font-size:11px;fill:#666}"
     ".frame{fill:#fff;stroke:#bbb}.grid{stroke:#e4e4e4}.link{fill:none;stroke:#52667a;stroke-width:7;stroke-linecap:"
     "round;"
@@ -195,7 +195,7 @@ std::string arm_picture(const Robot& robot, const JointVector& joints) {
       "<title>{2}</title>\n<style>{3}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fafafa\"/>\n"
       "<text class=\"title\" x=\"10\" y=\"22\">{2}</text>\n"
       "<text x=\"10\" y=\"42\">at {4}; mm in the base frame; bars: axes, dashed ones slide; ring: tool point</text>\n",
-      width, height, escaped(robot.name), kStyle, at);
+      width, height, escaped(robot.name), kPictureStyle, at);
   const std::array<View, 4> all = views();
   for (std::size_t i = 0; i < all.size(); ++i) {
     text += fmt::format("<g transform=\"translate({},{})\">\n", 10.0 + (kView_px + 10.0) * static_cast<double>(i % 2),

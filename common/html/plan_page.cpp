@@ -1,4 +1,4 @@
-#include "html/plan_page.hpp"
+#include "html/page.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -10,7 +10,7 @@
 #include "html/markup.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
-#include "report/plan_report.hpp"
+#include "studies/plan_report.hpp"
 
 namespace demecal::inline html {
 namespace {

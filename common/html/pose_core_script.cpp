@@ -1,4 +1,4 @@
-#include "html/pose_scripts.hpp"
+#include "html/sections.hpp"
 
 namespace demecal::inline html {
 

@@ -1,8 +1,10 @@
-// The parts of the report's page, in its order: each the HTML of one part, empty where the report has nothing for it.
+// The parts of the report's page, in its order: each the HTML of one part, empty where the report has nothing for it;
+// and the scripts of the part on single poses, which stand in it one after the other as one function.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "report/figures.hpp"
 #include "report/history.hpp"
@@ -50,5 +52,14 @@ std::string not_found_table(const Report& report);
 std::string untestable_table(const Report& report);
 /// How the controls fared.
 std::string decoys_table(const Report& report);
+
+/// What all parts share: the data, the choice of poses, colours; see pose_data().
+std::string_view pose_core_script();
+/// The table that sorts, filters and turns pages.
+std::string_view pose_table_script();
+/// The arm with its error vectors, turned by pointer, keys or buttons.
+std::string_view pose_view_script();
+/// Histogram, cumulative curve, and errors against what was measured.
+std::string_view pose_plots_script();
 
 }  // namespace demecal::inline html

@@ -1,7 +1,13 @@
-// Who may ask a server: where it is served, by which names, and with which token.
+// Who may ask a server (where it is served, by which names, with which token or cookie), and how much.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace demecal::inline http {
 
@@ -36,5 +42,45 @@ bool is_same_origin(const std::string& origin, const std::string& host);
 
 /// 128 bits from the system's generator, in hexadecimal digits.
 std::string random_token();
+
+struct UserToken {
+  std::string user, token;
+};
+
+class SignIn {
+ public:
+  /// Whoever asks is `everybody` where `tokens` is empty.
+  SignIn(std::vector<UserToken> tokens, std::string everybody)
+      : tokens_(std::move(tokens)), everybody_(std::move(everybody)) {}
+
+  bool needs_token() const { return !tokens_.empty(); }
+
+  /// Whose token it is, if anybody's. Takes as long whoever's it is, or nearly.
+  std::optional<std::string> user_with(const std::string& token) const;
+
+  /// Who asks, by the headers Authorization and Cookie.
+  std::optional<std::string> user_of(const std::string& authorization, const std::string& cookie) const;
+
+  /// The value of Set-Cookie for a browser that this user signs in with. Of one user's, the oldest beyond sixteen end.
+  std::string begin_session(const std::string& user);
+  /// Ends the session that the header Cookie names; the value of Set-Cookie that makes a browser forget it.
+  std::string end_session(const std::string& cookie);
+
+ private:
+  struct Session {
+    std::string id, user;
+  };
+
+  std::vector<UserToken> tokens_;
+  std::string everybody_;
+  mutable std::mutex mutex_;
+  std::deque<Session> sessions_;  ///< the oldest first
+};
+
+struct RequestBounds {
+  std::chrono::milliseconds header_time{5000};  ///< from accepting a connection to the end of its header
+  std::chrono::milliseconds rest_time{120000};  ///< for body and answer
+  std::size_t header_bytes = 16384;
+};
 
 }  // namespace demecal::inline http

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <utility>
 
-#include "http/bounds.hpp"
+#include "http/access.hpp"
 
 namespace demecal::inline http {
 

@@ -12,7 +12,6 @@
 
 #include "http/connection_queue.hpp"
 #include "http/event_history.hpp"
-#include "http/page_files.hpp"
 #include "http/server_setup.hpp"
 
 namespace demecal::inline http {

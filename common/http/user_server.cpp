@@ -12,9 +12,7 @@
 
 #include "http/bounded_server.hpp"
 #include "http/connection_queue.hpp"
-#include "http/page_files.hpp"
 #include "http/server_setup.hpp"
-#include "http/upload_count.hpp"
 
 namespace demecal::inline http {
 namespace {

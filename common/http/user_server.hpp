@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "http/access.hpp"
-#include "http/bounds.hpp"
-#include "http/sign_in.hpp"
 
 namespace demecal::inline http {
 

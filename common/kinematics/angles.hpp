@@ -1,12 +1,15 @@
 // Joint angles without jumps: where a joint's data straddle +-pi they are moved onto one side (thesis 6.2.2). Rotations
-// as vectors (axis times angle), and how they change with them.
+// as vectors (axis times angle), how they change with them, and as controllers write them.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace demecal::inline kinematics {
+
 /// `angle_rad` moved by whole turns to within half a turn of `centre_rad`.
 double wrap_near(double angle_rad, double centre_rad);
 
@@ -43,5 +46,15 @@ Eigen::Vector3d rotation_between(const Eigen::Matrix3d& from, const Eigen::Matri
 /// The left Jacobian of SO(3): a small change dw of `vector_rad` turns rotation_of(vector_rad) by left_jacobian * dw,
 /// in the frame it turns in (Chirikjian, 2012, eq. 10.86).
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad);
+
+struct ControllerAngles {
+  std::string controller;  ///< "KUKA"
+  std::string key;         ///< "kuka_abc_deg": for programs
+  std::string names;       ///< "A B C deg"
+  std::vector<double> values;
+};
+
+/// The rotation as each of the controllers that this program knows would show it: angles in deg, UR's vector in rad.
+std::vector<ControllerAngles> controller_angles(const Eigen::Matrix3d& rotation);
 
 }  // namespace demecal::inline kinematics

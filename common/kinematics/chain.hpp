@@ -1,4 +1,5 @@
-// A serial arm: its joints and links by Denavit-Hartenberg parameters, and the elementary transforms they stand for.
+// A serial arm: its joints and links by Denavit-Hartenberg parameters, the elementary transforms they stand for, and in
+// what two arms differ as their makers describe them.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace demecal::inline kinematics {
@@ -107,5 +109,9 @@ double elementary_value(const Joint& joint, LinkParameter parameter, double q);
 
 /// `frame` moved by an elementary transform of the given value.
 void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value);
+
+/// The first difference of `other` from `one`, said of `other`: "its joint 3 has d 120 mm, not 100 mm"; empty where
+/// there is none. Tools and limits may differ, and numbers by what rounding leaves (1e-9 m or rad).
+std::string first_difference(const Chain& one, const Chain& other);
 
 }  // namespace demecal::inline kinematics

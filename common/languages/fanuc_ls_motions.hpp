@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "languages/program.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 

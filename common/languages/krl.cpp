@@ -12,13 +12,11 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/controller_data.hpp"
 #include "languages/krl_frames.hpp"
 #include "languages/languages.hpp"
-#include "languages/orientation.hpp"
-#include "languages/program.hpp"
-#include "languages/program_text.hpp"
-#include "languages/program_writing.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

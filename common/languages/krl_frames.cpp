@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "data/text.hpp"
-#include "languages/orientation.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

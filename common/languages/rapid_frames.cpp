@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "data/text.hpp"
-#include "languages/orientation.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 namespace {

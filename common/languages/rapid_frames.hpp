@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "languages/controller_data.hpp"
-#include "languages/program.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 

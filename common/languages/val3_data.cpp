@@ -1,4 +1,4 @@
-#include "languages/val3_data.hpp"
+#include "languages/val3_program.hpp"
 
 #include <algorithm>
 #include <string_view>

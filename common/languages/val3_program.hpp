@@ -1,5 +1,5 @@
-// Staubli VAL3: what programs (.pgx) do with the points, joints, frames and tools of the data: to which they move, with
-// which tool, and which they change.
+// Staubli VAL3: the values that a data file (.dtx) declares, as tags with attributes, and what the code of programs
+// (.pgx) does with these points, joints, frames and tools: to which it moves, with which tool, and which it changes.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,30 @@
 #include <string>
 #include <vector>
 
-#include "languages/program.hpp"
-#include "languages/program_source.hpp"
-#include "languages/program_text.hpp"
-#include "languages/val3_data.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
+
+/// One <Value .../>, and what the <Data ...> around it says of it.
+struct Val3Value {
+  std::string name{};  ///< "pPick[2]": that of the data and its key
+  std::string type{};  ///< of the data, as written
+  std::size_t begin = 0;
+  std::map<std::string, BracketItem> attributes{};  ///< where the text inside the quotes stands
+};
+
+/// All values of the text. Throws InputError where a tag or a quote is never closed.
+std::vector<Val3Value> val3_values(const ProgramText& text);
+
+/// What stands between <Code> and </Code> of one program.
+struct Val3Code {
+  std::size_t begin = 0, end = 0;
+  std::set<std::string> locals{};  ///< the names of its parameters and local variables
+};
+
+/// All programs of the text. Throws InputError as val3_values() does.
+std::vector<Val3Code> val3_programs(const ProgramText& text);
 
 /// A motion to a point or to joints of the data.
 struct Val3Motion {

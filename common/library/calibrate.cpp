@@ -22,7 +22,7 @@
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
 #include "pieces/pieces.hpp"
-#include "scheduling/fleet.hpp"
+#include "scheduling/worker_pool.hpp"
 #include "workflows/piece_threads.hpp"
 #include "workflows/workflows.hpp"
 
@@ -86,8 +86,8 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   const RunPiecesBy by_threads(pieces);
   CalibrateOptions options;
   options.observer = &teller;
-  const MakeFleet make_fleet = [threads] { return std::make_unique<InProcessFleet>(threads); };
-  CalibrateResult result = calibrate(data, to_job(settings), make_fleet, teller.interrupt(), options);
+  const MakeWorkerPool make_pool = [threads] { return std::make_unique<InProcessWorkerPool>(threads); };
+  CalibrateResult result = calibrate(data, to_job(settings), make_pool, teller.interrupt(), options);
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
   arm->text = model_text(arm->model);

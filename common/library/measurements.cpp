@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/finding.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"

@@ -1,4 +1,4 @@
-#include "manual/described_option.hpp"
+#include "manual/manual.hpp"
 
 #include <algorithm>
 #include <sstream>

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "manual/described_option.hpp"
 #include "manual/manual.hpp"
 
 namespace demecal::inline manual {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "errors/input_error.hpp"
-#include "monitor/event_json.hpp"
 #include "monitor/event_members.hpp"
 #include "monitor/event_schema.hpp"
+#include "monitor/state_json.hpp"
 
 namespace demecal::inline monitor {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "monitor/event_json.hpp"
 #include "monitor/events.hpp"
 #include "monitor/state_json.hpp"
 #include "report/json.hpp"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "monitor/event_json.hpp"
 #include "monitor/events.hpp"
 #include "report/json.hpp"
 

@@ -1,12 +1,19 @@
-// What a watcher has seen so far as one JSON document, for programs and pages.
+// Events as JSON values, and what a watcher has seen so far as one JSON document, for programs and pages.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "monitor/watched.hpp"
+#include "protocol/messages.hpp"
 
 namespace demecal::inline monitor {
+
+/// What event_line() writes; null where that is empty.
+nlohmann::ordered_json event_json(const Message& message, double time_s);
+
+/// The value in one line, without its end.
+std::string one_line(const nlohmann::ordered_json& json);
 
 inline constexpr int kStateVersion = 1;
 

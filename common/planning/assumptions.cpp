@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "fitting/identifiable.hpp"
+#include "fitting/parameter_space.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
 

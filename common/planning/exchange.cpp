@@ -2,7 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <optional>
 #include <utility>
+
+#include "planning/sockets.hpp"
+#include "planning/travel.hpp"
 
 namespace demecal::inline planning {
 
@@ -96,6 +102,93 @@ void Design::exchange(int rounds, double least_gain) {
     refresh();
     if (square_m2() > (1.0 - least_gain) * before) return;
   }
+}
+
+namespace {
+
+constexpr int kRefinements = 8, kRefinementTries = 30;
+constexpr double kWidest = 0.25, kNarrowing = 0.7;  ///< of a joint's range: how far tries of a round go
+constexpr double kOneJoint = 0.5;                   ///< share of tries that move a single joint, anywhere
+constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
+constexpr double kLeastGain = 2e-3;                 ///< of a round, over what there was
+
+/// By how much rows would lower the expected squared error, at one state of knowledge.
+class PoseGain {
+ public:
+  explicit PoseGain(const Knowledge& knowledge)
+      : covariance_(knowledge.covariance()), wanted_(covariance_ * knowledge.weight() * covariance_) {}
+
+  double operator()(const Eigen::MatrixXd& rows) const {
+    Eigen::MatrixXd spread = rows * covariance_ * rows.transpose();
+    spread.diagonal().array() += 1.0;
+    return spread.llt().solve(rows * wanted_ * rows.transpose()).trace();
+  }
+
+ private:
+  const Eigen::MatrixXd& covariance_;
+  Eigen::MatrixXd wanted_;
+};
+
+/// Nothing where the pose touches a socket that the arm does not reach from there.
+std::optional<PlannedPose> moved_pose(const FeasibleSpace& space, const std::vector<PlannedSocket>& sockets,
+                                      const PlannedPose& pose, double width, RandomStream& random) {
+  const std::vector<Interval>& ranges = space.ranges();
+  PlannedPose tried = pose;
+  const auto set = [&](std::size_t joint, double value) {
+    tried.joints[static_cast<Eigen::Index>(joint)] = std::clamp(value, ranges[joint].lower, ranges[joint].upper);
+  };
+  if (random.chance(kOneJoint)) {
+    const std::size_t joint = random.index(ranges.size());
+    set(joint, random.real(ranges[joint].lower, ranges[joint].upper));
+  } else {
+    for (std::size_t joint = 0; joint < ranges.size(); ++joint)
+      set(joint, tried.joints[static_cast<Eigen::Index>(joint)] +
+                     width * (ranges[joint].upper - ranges[joint].lower) * random.normal());
+  }
+  const Chain& chain = space.robot().chain;
+  if (pose.socket) {
+    const auto touching = joints_touching(chain, tried.joints, sockets[*pose.socket].place_m);
+    if (!touching) return {};
+    tried.joints = *touching;
+  }
+  tried.joints = rounded(chain, tried.joints);
+  if (random.chance(kOtherSide))
+    for (double& sign : tried.approach) sign = random.chance(0.5) ? 1.0 : -1.0;
+  return tried;
+}
+
+}  // namespace
+
+RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, std::vector<PlannedPose> poses,
+                     const Eigen::MatrixXd& known, const Eigen::MatrixXd& weight, RandomStream random) {
+  std::vector<Eigen::MatrixXd> rows;
+  std::ranges::transform(poses, std::back_inserter(rows),
+                         [&](const PlannedPose& pose) { return model.measured_rows(pose); });
+  Knowledge knowledge(known, weight);
+  knowledge.set(rows);
+  double width = kWidest;
+  for (int round = 0; round < kRefinements; ++round, width *= kNarrowing) {
+    const double before = knowledge.square_m2();
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      knowledge.remove(rows[i]);
+      const PoseGain gain_of(knowledge);
+      double most = gain_of(rows[i]);
+      for (int attempt = 0; attempt < kRefinementTries; ++attempt) {
+        auto tried = moved_pose(space, model.model().sockets, poses[i], width, random);
+        if (!tried) continue;
+        Eigen::MatrixXd tells = model.measured_rows(*tried);
+        const double gain = gain_of(tells);
+        if (!(gain > most) || !is_feasible(space, *tried)) continue;
+        most = gain;
+        poses[i] = std::move(*tried);
+        rows[i] = std::move(tells);
+      }
+      knowledge.add(rows[i]);
+    }
+    knowledge.set(rows);
+    if (knowledge.square_m2() > (1.0 - kLeastGain) * before) break;
+  }
+  return {std::move(poses), knowledge.covariance()};
 }
 
 }  // namespace demecal::inline planning

@@ -11,7 +11,6 @@
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
 #include "fitting/declared_model.hpp"
-#include "fitting/identifiable.hpp"
 #include "fitting/parameter_space.hpp"
 
 namespace demecal::inline planning {
@@ -63,7 +62,7 @@ class InformationModel {
   /// The part of the lengths known between sockets (of the model's nominal data set).
   Eigen::MatrixXd information_of_lengths() const;
 
-  /// The columns as a fit would see them after these poses, for fitting/identifiable.hpp.
+  /// The columns as a fit would see them after these poses, for fitting/parameter_space.hpp.
   ScaledJacobian jacobian(const std::vector<PlannedPose>& poses) const;
 
  private:

@@ -14,7 +14,6 @@
 #include "planning/assumptions.hpp"
 #include "planning/candidates.hpp"
 #include "planning/exchange.hpp"
-#include "planning/refinement.hpp"
 #include "planning/sockets.hpp"
 #include "random/random_purpose.hpp"
 
@@ -23,7 +22,7 @@ namespace {
 
 constexpr int kUsualPoses = 40, kMostPoses = 400, kFewestJudging = 10;
 constexpr std::size_t kPlaces = 250;  ///< of the workspace that errors are predicted at
-constexpr int kRounds = 4;
+constexpr int kExchangeRounds = 4;
 
 int judging(const std::optional<int>& asked, int calibration) {
   return asked ? *asked : std::max(kFewestJudging, static_cast<int>(std::lround(0.3 * calibration)));
@@ -169,7 +168,7 @@ class Planning {
       if (in_turn && static_cast<std::size_t>(i) < candidates_.size()) design.add(static_cast<std::size_t>(i));
       if (!in_turn) design.add_best();
     }
-    design.exchange(kRounds);
+    design.exchange(kExchangeRounds);
     return design;
   }
 
@@ -197,7 +196,7 @@ class Planning {
           fmt::format("is not reached: {} poses are predicted to leave {:.3g} mm rms, with a measurement "
                       "noise of {:.3g} mm. Ask for less, or measure more precisely",
                       poses, millimetres(std::sqrt(greedy.square_m2())), millimetres(model_.model().noise_m)));
-    greedy.exchange(kRounds);
+    greedy.exchange(kExchangeRounds);
     Design best = std::move(greedy);
     while (static_cast<int>(best.chosen().size()) > fewest_poses(model_)) {
       const int fewer =

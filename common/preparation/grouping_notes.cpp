@@ -1,4 +1,4 @@
-#include "preparation/grouping_notes.hpp"
+#include "preparation/recorded_contacts.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,5 @@
-// A recording of an arm's joints, and where in it the arm stood still.
+// A recording of an arm's joints, where in it the arm stood still, and its rows as few enough samples, straight lines
+// through them, and their noise.
 #pragma once
 
 #include <cstddef>
@@ -51,5 +52,28 @@ struct StandstillSearch {
 /// Where every joint is slower than its noise and a floor of 1 mrad/s or 1 mm/s explain, for the least time. Speeds are
 /// slopes over a fifth of a second. What the arm settles by at first is left out where enough is left.
 StandstillSearch find_standstills(const JointLog& log, const StandingRule& rule, const Chain& arm);
+
+/// Rows of a log, those that are very close averaged.
+struct LogSamples {
+  std::vector<double> times_s;
+  std::vector<JointVector> joints;
+  std::vector<std::size_t> first_row, last_row;
+
+  std::size_t size() const { return times_s.size(); }
+};
+
+LogSamples samples_of(const JointLog& log);
+
+/// A straight line through the samples of a range, joint by joint.
+struct JointLine {
+  JointVector slope, mean;
+  double squares_s2 = 0.0;  ///< of the times about their mean
+};
+
+JointLine line_through(const LogSamples& samples, std::size_t from, std::size_t end);
+
+/// By what single samples are off a line, in the quietest fifth of short windows; at least what rounding explains, but
+/// no more of it than `most_rounding`.
+JointVector sample_noise(const LogSamples& samples, double most_rounding);
 
 }  // namespace demecal::inline preparation

@@ -1,4 +1,4 @@
-#include "preparation/log_samples.hpp"
+#include "preparation/joint_log.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline preparation {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "preparation/readings.hpp"
 
 namespace demecal::inline preparation {

@@ -10,8 +10,8 @@
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
-#include "languages/program.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline preparation {
 namespace {

@@ -11,7 +11,6 @@
 #include "errors/check.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
-#include "preparation/grouping_notes.hpp"
 #include "preparation/touched_places.hpp"
 #include "random/distributions.hpp"
 

@@ -1,4 +1,5 @@
-// The contacts of recordings of joints: where the arm stood, and which of the places where its tool then was are one.
+// The contacts of recordings of joints: where the arm stood, which of the places where its tool then was are one, and
+// what people should look at in them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,6 +13,7 @@
 #include "errors/input_error.hpp"
 #include "preparation/joint_log.hpp"
 #include "preparation/results.hpp"
+#include "preparation/touched_places.hpp"
 
 namespace demecal::inline preparation {
 
@@ -83,5 +85,14 @@ std::string recorded_json(const Recordings& recordings, const RecordedContacts& 
                           const std::vector<std::string>& files);
 /// "standstills.csv".
 WrittenFile standstills_file(const Recordings& recordings, const RecordedContacts& found);
+
+/// Throws InputError where names are not as many as the contacts, or a distance is between others.
+void check_names(const Recordings& recordings, const RecordedContacts& found);
+
+/// Where the grouping may be wrong, and where the tool point seems to be; `contact_of_group` has the contact that each
+/// group became, if it became one.
+std::vector<std::string> grouping_notes(const Recordings& recordings, const RecordedContacts& found,
+                                        const PlaceGroups& groups,
+                                        const std::vector<std::optional<std::size_t>>& contact_of_group);
 
 }  // namespace demecal::inline preparation

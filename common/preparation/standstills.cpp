@@ -7,7 +7,6 @@
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 #include "preparation/joint_log.hpp"
-#include "preparation/log_samples.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline preparation {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "preparation/named_points.hpp"
 #include "preparation/readings.hpp"
 

@@ -9,7 +9,6 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/posture.hpp"
 
 namespace demecal::inline programs {
 namespace {

@@ -1,4 +1,5 @@
-// The joints in which the nominal arm reaches a target, and which of its configurations the program and the user mean.
+// The joints in which the nominal arm reaches a target, which of its configurations the program and the user mean, and
+// whether two joint positions have the same: shoulder, elbow and wrist on the same sides.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "programs/nominal_joints.hpp"
 
 namespace demecal::inline programs {
@@ -66,5 +67,9 @@ class ConfigurationFinder {
   std::string present_words_{};
   std::map<std::string, JointVector> worded_{};  ///< joints last reached in a configuration of these words
 };
+
+/// Nothing where the arm is not of six revolute joints with parallel axes 2 and 3 and a wrist whose axes meet, or where
+/// one of the positions is so near to a singular one that a side cannot be told.
+std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other);
 
 }  // namespace demecal::inline programs

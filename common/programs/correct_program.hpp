@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/program.hpp"
-#include "languages/program_source.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
 #include "programs/command_model.hpp"
 #include "programs/target_correction.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 
 namespace demecal::inline programs {
 

@@ -1,4 +1,4 @@
-#include "programs/partial_correction.hpp"
+#include "programs/target_correction.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>

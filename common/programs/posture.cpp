@@ -1,4 +1,4 @@
-#include "programs/posture.hpp"
+#include "programs/configuration.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

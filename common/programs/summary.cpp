@@ -11,7 +11,7 @@
 #include "data/text.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/program_text.hpp"
 #include "programs/configuration.hpp"
 
 namespace demecal::inline programs {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/program.hpp"
+#include "parsed_programs/program.hpp"
 #include "programs/correct_program.hpp"
 #include "programs/target_correction.hpp"
 

@@ -11,11 +11,10 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
-#include "languages/orientation.hpp"
-#include "languages/program_text.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program_text.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "programs/nominal_joints.hpp"
-#include "programs/partial_correction.hpp"
 
 namespace demecal::inline programs {
 namespace {

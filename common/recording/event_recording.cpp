@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "monitor/event_json.hpp"
-#include "recording/mcap_reader.hpp"
+#include "monitor/state_json.hpp"
+#include "recording/mcap.hpp"
 
 namespace demecal::inline recording {
 namespace {

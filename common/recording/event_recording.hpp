@@ -10,7 +10,7 @@
 
 #include "monitor/events.hpp"
 #include "protocol/messages.hpp"
-#include "recording/mcap_writer.hpp"
+#include "recording/mcap.hpp"
 
 namespace demecal::inline recording {
 

@@ -1,9 +1,9 @@
 // Errors, poses and findings as JSON objects: what reports, evaluations and comparisons share.
 #pragma once
 
+#include "report/evaluation.hpp"
 #include "report/json.hpp"
 #include "report/report.hpp"
-#include "report/uncertainty.hpp"
 
 namespace demecal::inline report {
 

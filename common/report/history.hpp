@@ -1,4 +1,5 @@
-// The course of evolution: tables with a row per joint, island and epoch, or step of distal learning, and its curves.
+// Tables beside a report: the course of evolution, with a row per joint, island and epoch, or step of distal learning,
+// and its curves; and every pose.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/evolved_corrections.hpp"
+#include "calibration/admissible.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "report/report.hpp"
@@ -56,5 +57,9 @@ FitnessHistory read_fitness(const std::string& csv);
 
 /// Names come from files: a table has them on one line.
 std::string on_one_line(std::string name);
+
+/// pose-errors.csv: id, target, set, errors, radius, flags, joints, measured position, error by axis before and after,
+/// temperature and time; what no pose has is left out, what one pose lacks is empty.
+std::string pose_errors_csv(const Report& report);
 
 }  // namespace demecal::inline report

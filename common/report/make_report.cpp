@@ -6,8 +6,8 @@
 #include <ranges>
 #include <string_view>
 
+#include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
-#include "calibration/evolved_corrections.hpp"
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "calibration/joint_targets.hpp"
@@ -20,7 +20,6 @@
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
-#include "report/short_forms.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline report {

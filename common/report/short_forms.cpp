@@ -1,4 +1,4 @@
-#include "report/short_forms.hpp"
+#include "report/make_report.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>

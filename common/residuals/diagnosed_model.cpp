@@ -6,8 +6,8 @@
 
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
-#include "fitting/known_relations.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/observation.hpp"
 #include "fitting/parameter_space.hpp"
 #include "fitting/row_sums.hpp"
 #include "random/distributions.hpp"

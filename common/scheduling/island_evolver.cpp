@@ -121,8 +121,8 @@ RunResult IslandEvolver::run(RunState state, bool shown) {
 
 /// Under a number that shows whose the run is.
 RunResult IslandEvolver::attempt(RunState& state, bool shown) {
-  if (!fleet_) fleet_ = make_fleet_();
-  Transport& transport = fleet_->transport();
+  if (!pool_) pool_ = make_pool_();
+  Transport& transport = pool_->transport();
   state.rename(transport.new_run());
   if (options_.journal != nullptr) {
     options_.journal->begin(state.data());
@@ -130,35 +130,35 @@ RunResult IslandEvolver::attempt(RunState& state, bool shown) {
       transport.publish(Control{left, Control::State::cancelled, state.data().job});
   }
   if (options_.observer != nullptr) options_.observer->on_run_begins(state.data(), state.progress(), shown);
-  fleet_->launch(state.data().run);
+  pool_->launch(state.data().run);
   RecordedRun recorded(options_.observer, options_.journal);
   RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, options_.patience);
   present_ = std::move(result.present);
   result.rejected -= std::exchange(rejected_, result.rejected);
   if (options_.journal != nullptr) options_.journal->finish();
   if (options_.observer != nullptr) options_.observer->on_run_ends(result.end);
-  if (result.end != RunEnd::finished) release_fleet();
+  if (result.end != RunEnd::finished) release_workers();
   return result;
 }
 
-void IslandEvolver::start_fleet() {
-  if (fleet_) return;
-  fleet_ = make_fleet_();
-  fleet_->launch(fleet_->transport().new_run());
+void IslandEvolver::start_workers() {
+  if (pool_) return;
+  pool_ = make_pool_();
+  pool_->launch(pool_->transport().new_run());
 }
 
-void IslandEvolver::dismiss_fleet() {
+void IslandEvolver::dismiss_workers() {
   // Those who served it must learn that the last run is over.
-  if (fleet_ && !interrupt_) fleet_->transport().flush(kDismissTimeout);
-  release_fleet();
+  if (pool_ && !interrupt_) pool_->transport().flush(kDismissTimeout);
+  release_workers();
 }
 
-void IslandEvolver::release_fleet() {
-  if (!fleet_) return;
-  fleet_.reset();
+void IslandEvolver::release_workers() {
+  if (!pool_) return;
+  pool_.reset();
   present_.clear();
   rejected_ = 0;
-  if (options_.observer != nullptr) options_.observer->on_fleet_ends();
+  if (options_.observer != nullptr) options_.observer->on_workers_end();
 }
 
 void IslandEvolver::add_effort(std::uint32_t generations, std::uint64_t evaluations) {

@@ -1,4 +1,4 @@
-// Evolution on islands: the Evolver that schedules them over a fleet of workers, run by run.
+// Evolution on islands: the Evolver that schedules them over a pool of workers, run by run.
 #pragma once
 
 #include <atomic>
@@ -17,9 +17,9 @@
 #include "protocol/messages.hpp"
 #include "report/make_report.hpp"
 #include "scheduling/evolution_run.hpp"
-#include "scheduling/fleet.hpp"
 #include "scheduling/run_journal.hpp"
 #include "scheduling/run_state.hpp"
+#include "scheduling/worker_pool.hpp"
 
 namespace demecal::inline scheduling {
 
@@ -32,7 +32,7 @@ class EvolutionObserver : public RunObserver {
                              bool /*shown*/) {}
   virtual void on_run_ends(RunEnd /*end*/) {}
   /// The workers that serve this coordinator alone are let go.
-  virtual void on_fleet_ends() {}
+  virtual void on_workers_end() {}
 };
 
 struct EvolverOptions {
@@ -43,13 +43,14 @@ struct EvolverOptions {
 };
 
 /// The evolutions of one calibration: the first, and those that follow when effects were found; each a run of its own.
-/// One fleet serves them all: its workers know each other, and begin with the next run at once. A run that the journal
-/// tells the end of is not run again; one that it tells the beginning of goes on from there. A run that is stuck is
-/// begun anew, on another fleet.
+/// One pool of workers serves them all: its workers know each other, and begin with the next run at once. A run that
+/// the journal tells the end of is not run again; one that it tells the beginning of goes on from there. A run that is
+/// stuck is begun anew, on another pool.
 class IslandEvolver final : public Evolver {
  public:
-  IslandEvolver(const Job& job, MakeFleet make_fleet, const std::atomic<bool>& interrupt, const EvolverOptions& options)
-      : job_(job), make_fleet_(std::move(make_fleet)), interrupt_(interrupt), options_(options) {}
+  IslandEvolver(const Job& job, MakeWorkerPool make_pool, const std::atomic<bool>& interrupt,
+                const EvolverOptions& options)
+      : job_(job), make_pool_(std::move(make_pool)), interrupt_(interrupt), options_(options) {}
 
   /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. All but searches
   /// for the null distribution are for people to see, and in the history.
@@ -57,10 +58,10 @@ class IslandEvolver final : public Evolver {
   bool is_interrupted() const override { return interrupt_; }
   void add_effort(std::uint32_t generations, std::uint64_t evaluations) override;
 
-  /// Has the fleet's workers start before anything is to be evolved: they take their time to come.
-  void start_fleet();
-  /// Lets the fleet go. It serves no more: another would be made.
-  void dismiss_fleet();
+  /// Has the pool's workers start before anything is to be evolved: they take their time to come.
+  void start_workers();
+  /// Lets the pool go. It serves no more: another would be made.
+  void dismiss_workers();
   RunEnd end() const { return end_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
@@ -73,13 +74,13 @@ class IslandEvolver final : public Evolver {
   RunResult run(RunState state, bool shown);
   RunResult attempt(RunState& state, bool shown);
   void count(RunResult& result, int generations, bool shown);
-  void release_fleet();
+  void release_workers();
 
   const Job& job_;
-  MakeFleet make_fleet_;
+  MakeWorkerPool make_pool_;
   const std::atomic<bool>& interrupt_;
   EvolverOptions options_;
-  std::unique_ptr<Fleet> fleet_;                 ///< from the first run on
+  std::unique_ptr<WorkerPool> pool_;             ///< from the first run on
   std::map<std::string, WorkerStatus> present_;  ///< its workers when the last run ended
   std::uint64_t rejected_ = 0;                   ///< by its transport, as counted so far
   RunEnd end_ = RunEnd::finished;

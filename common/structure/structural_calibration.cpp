@@ -12,7 +12,6 @@
 #include "errors/input_error.hpp"
 #include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
-#include "structure/genome.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal::inline structure {

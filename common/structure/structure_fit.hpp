@@ -10,7 +10,6 @@
 #include "data/data_set.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
-#include "structure/genome.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal::inline structure {

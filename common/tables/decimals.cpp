@@ -1,4 +1,4 @@
-#include "tables/decimals.hpp"
+#include "tables/layout.hpp"
 
 #include <algorithm>
 #include <string_view>

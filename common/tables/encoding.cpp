@@ -1,4 +1,4 @@
-#include "tables/encoding.hpp"
+#include "tables/read_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// Which line of a table heads its columns, and what the headings say.
+// Which line of a table heads its columns, and what the headings say: a name each, and often a unit beside it.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,19 @@
 #include "tables/layout.hpp"
 
 namespace demecal::inline tables {
+
+struct Heading {
+  std::string name;
+  std::string unit;  ///< as written; empty where there is none
+};
+
+/// "X [mm]", "X (mm)", "X / mm" and "X, mm" as name and unit; a heading in another form is all name. What stands in
+/// round brackets, after a stroke or after a comma is a unit only where it is a known one: "Tool (left)" is a name.
+Heading split_heading(std::string_view text);
+
+/// The unit of a field that holds nothing but one, as in a row of units below the headings: "[mm]", "mm", "(deg)";
+/// empty where the field is something else.
+std::string lone_unit(std::string_view field);
 
 struct Headings {
   std::size_t line = 0;             ///< in the file, from 1; 0: there are none

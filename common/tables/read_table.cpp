@@ -8,8 +8,6 @@
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
-#include "tables/decimals.hpp"
-#include "tables/encoding.hpp"
 #include "tables/headings.hpp"
 
 namespace demecal::inline tables {

@@ -1,12 +1,13 @@
-// What a terminal shows of reports, the closed loop, studies and comparisons.
+// What a terminal shows of reports, the closed loop, studies, comparisons and plans.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
+#include "planning/plan.hpp"
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
-#include "report/study.hpp"
+#include "studies/study.hpp"
 
 namespace demecal::inline terminal {
 
@@ -39,5 +40,9 @@ std::string blocks_table(const Study& study, std::size_t most);
 
 /// A line per method: validation and accept error, numbers identified, time. At most 100 columns wide.
 std::string comparison_table(const Comparison& comparison);
+
+/// What is planned and what it is predicted to reach, what may be wrong with it, what it cannot tell and what it rests
+/// on. At most kTerminalColumns wide.
+std::string to_terminal(const Plan& plan, const PlanRequest& request);
 
 }  // namespace demecal::inline terminal

@@ -13,7 +13,7 @@
 #include "random/distributions.hpp"
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
-#include "report/study.hpp"
+#include "studies/study.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {

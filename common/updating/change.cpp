@@ -14,7 +14,6 @@
 #include "next_measurement/next_measurement.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
-#include "updating/change_rows.hpp"
 
 namespace demecal::inline updating {
 namespace {

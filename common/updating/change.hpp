@@ -1,7 +1,10 @@
-// Whether a robot is still as its model has it, and what has changed: a test of few new poses.
+// Whether a robot is still as its model has it, and what has changed: a test of few new poses, and the rows of unit
+// variance that it compares.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +12,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline updating {
 
@@ -52,5 +56,26 @@ struct ChangeReport {
 /// tried) has changed. Causes are added one after another. Throws InputError where the poses are too few, or are not of
 /// this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data);
+
+/// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
+/// joint comes from or on the temperature; single numbers where they are of a joint.
+std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses);
+
+/// Residuals and columns, made independent of unit variance by the model's noise and covariance.
+struct ChangeRows {
+  Eigen::VectorXd values;
+  std::vector<Eigen::MatrixXd> columns;  ///< by effect
+};
+
+/// The poses that are compared, and by what.
+struct ComparedPoses {
+  const CorrectedRobot& robot;  ///< the model's, in the data's frame
+  const std::vector<std::size_t>& poses;
+  double noise_m = 0.0;      ///< per axis
+  bool set_up_anew = false;  ///< the base was found again: it is known to nothing but these poses
+};
+
+ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
+                       const std::vector<Effect>& effects);
 
 }  // namespace demecal::inline updating

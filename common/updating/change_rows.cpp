@@ -1,4 +1,4 @@
-#include "updating/change_rows.hpp"
+#include "updating/change.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The joint corrections of several robots of one type: their mean, and how each robot's differs from it.
+// The joint corrections of several robots of one type: their mean, and how each robot's differs from it, as waves over
+// a joint's turn: what gears and encoders do beside effects with names.
 #pragma once
 
 #include <span>
@@ -8,6 +9,12 @@
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline updating {
+
+/// Cycles a turn: gears' errors are slower than 1 in 10 deg.
+inline constexpr int kHighestWave = 32;
+
+/// Shares of a joint's variance that its waves of n cycles have, cosine and sine alike; they add up to one over n.
+double wave_share(int n);
 
 /// Without what each correction is on average: that is a matter of the joint's zero.
 struct FleetCurves {

@@ -13,7 +13,7 @@
 #include "calibration/calibration.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/parameter_space.hpp"
-#include "kinematics/difference.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "updating/fleet_curves.hpp"
 #include "updating/fleet_numbers.hpp"

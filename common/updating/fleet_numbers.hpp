@@ -1,4 +1,5 @@
-// The numbers that models of several robots of one type have, and what each model knows of its own.
+// The numbers that models of several robots of one type have, and what each model knows of its own: by these, what the
+// robots have in common and how far one of them is from it, a normal law with mean and spread of each number.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +10,28 @@
 #include "effects/effect.hpp"
 #include "fitting/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
-#include "updating/type_spread.hpp"
 
 namespace demecal::inline updating {
+
+/// What measurements of one robot say of its numbers, and nothing that was believed before them.
+struct KnownNumbers {
+  Eigen::MatrixXd information;  ///< inverse covariance; none of numbers that they do not speak of
+  Eigen::VectorXd weighted;     ///< information * numbers
+};
+
+struct TypeSpread {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd mean_covariance;
+  Eigen::VectorXd spread;  ///< standard deviations of robots about the mean
+  double widening = 1.0;   ///< of a further robot's variance: few robots tell the spread, and it might be larger
+};
+
+/// Expectation maximisation of restricted likelihood (the mean counts as unknown). So few robots tell a variance badly:
+/// those of one group (numbers from 0, one each) are believed to be alike, as much as four further robots would tell.
+/// `mean_precision`: how precisely each mean is believed to be zero before. Numbers should be of size about 1, those of
+/// a group in one unit.
+TypeSpread type_spread(std::span<const KnownNumbers> robots, std::span<const int> groups,
+                       const Eigen::VectorXd& mean_precision);
 
 /// The effects that any of the models has, their coefficients zero; of references (of temperature, of time) the mean,
 /// of ranges what all know that have it.

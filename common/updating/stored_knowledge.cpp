@@ -14,7 +14,7 @@
 #include "kinematics/units.hpp"
 #include "primitives/primitive.hpp"
 #include "random/random_stream.hpp"
-#include "updating/waves.hpp"
+#include "updating/fleet_curves.hpp"
 
 namespace demecal::inline updating {
 namespace {

@@ -1,4 +1,4 @@
-#include "updating/type_spread.hpp"
+#include "updating/fleet_numbers.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>

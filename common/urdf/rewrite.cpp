@@ -1,4 +1,4 @@
-#include "urdf/rewrite.hpp"
+#include "urdf/urdf_arm.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "urdf/tip_choice.hpp"
+#include "urdf/urdf_arm.hpp"
 
 #include <algorithm>
 #include <set>

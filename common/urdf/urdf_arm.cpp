@@ -10,7 +10,6 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
-#include "urdf/tip_choice.hpp"
 
 namespace demecal::inline urdf {
 namespace {

@@ -36,9 +36,9 @@
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"
 #include "report/make_report.hpp"
-#include "scheduling/fleet.hpp"
 #include "scheduling/island_evolver.hpp"
 #include "scheduling/run_state.hpp"
+#include "scheduling/worker_pool.hpp"
 #include "structure/structural_calibration.hpp"
 #include "structure/structure_fit.hpp"
 
@@ -205,7 +205,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .version = DEMECAL_VERSION};
 }
 
-CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& make_fleet,
+CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerPool& make_pool,
                           const std::atomic<bool>& interrupt, const CalibrateOptions& options) {
   const Clock::time_point begin = Clock::now();
   if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
@@ -213,9 +213,9 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& 
   CalibrationObserver& observer = options.observer == nullptr ? nobody : *options.observer;
   if (job.method == Method::diagnose) return calibrate_without_evolution(data, job, interrupt, observer);
   CalibrateResult result;
-  IslandEvolver islands(job, make_fleet, interrupt,
+  IslandEvolver islands(job, make_pool, interrupt,
                         {options.patience, options.asynchronous, &observer, options.journal});
-  if (evolves_on_islands(job)) islands.start_fleet();
+  if (evolves_on_islands(job)) islands.start_workers();
   result.preparation = prepare(data, job);
   result.candidates = learn(data, job, islands, observer, result);
   result.end = islands.end();
@@ -225,7 +225,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& 
   if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0) {
     close_the_loop(data, job, islands, interrupt, observer, result);
   }
-  islands.dismiss_fleet();
+  islands.dismiss_workers();
   result.model = make_model(data, job, result.calibration);
   result.model.functions = result.functions;
   result.history = islands.take_history();

@@ -23,7 +23,7 @@
 #include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
-#include "kinematics/difference.hpp"
+#include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/make_report.hpp"

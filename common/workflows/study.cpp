@@ -21,9 +21,9 @@
 #include "report/evaluation.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
-#include "report/study.hpp"
-#include "scheduling/fleet.hpp"
 #include "scheduling/run_state.hpp"
+#include "scheduling/worker_pool.hpp"
+#include "studies/study.hpp"
 
 namespace demecal::inline workflows {
 
@@ -45,14 +45,14 @@ StudyRun figures_of(const DataSet& data, const CalibrateResult& result) {
 }
 
 StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span<const std::uint64_t> seeds,
-                       const MakeFleet& make_fleet, const std::atomic<bool>& interrupt, const CalibrateOptions& options,
-                       const std::function<void(const StudyOutcome&)>& on_run) {
+                       const MakeWorkerPool& make_pool, const std::atomic<bool>& interrupt,
+                       const CalibrateOptions& options, const std::function<void(const StudyOutcome&)>& on_run) {
   StudyOutcome outcome;
   for (const std::uint64_t seed : seeds) {
     for (std::size_t cell = 0; cell < jobs.size(); ++cell) {
       Job job = jobs[cell];
       job.seed = seed;
-      CalibrateResult result = calibrate(data, job, make_fleet, interrupt, options);
+      CalibrateResult result = calibrate(data, job, make_pool, interrupt, options);
       outcome.end = result.end;
       if (result.end != RunEnd::finished) return outcome;
       outcome.runs.push_back(figures_of(data, result));

@@ -30,14 +30,14 @@
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
 #include "report/make_report.hpp"
-#include "report/study.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "scheduling/evolution_run.hpp"
-#include "scheduling/fleet.hpp"
 #include "scheduling/island_evolver.hpp"
 #include "scheduling/run_journal.hpp"
 #include "scheduling/run_state.hpp"
+#include "scheduling/worker_pool.hpp"
 #include "structure/structure_fit.hpp"
+#include "studies/study.hpp"
 
 namespace demecal::inline workflows {
 /// Told what happens in a calibration, as it happens. The result does not depend on it.
@@ -81,12 +81,12 @@ struct CalibrateResult {
 /// The model of a calibration, and where it came from.
 CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration);
 
-/// Prepares, evolves on the fleet, concludes, and closes the loop unless the job allows it no effects. One fleet is
-/// asked for where joint corrections are evolved, and serves all evolutions; another takes its place after one that was
-/// stuck. The structural method evolves no corrections: it needs no fleet, and no loop follows. Nor does the method
-/// diagnose, which is diagnose() with what the job declares. Throws InputError for data that the job cannot be fitted
-/// to.
-CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeFleet& make_fleet,
+/// Prepares, evolves on the pool, concludes, and closes the loop unless the job allows it no effects. One pool of
+/// workers is asked for where joint corrections are evolved, and serves all evolutions; another takes its place after
+/// one that was stuck. The structural method evolves no corrections: it needs no pool, and no loop follows. Nor does
+/// the method diagnose, which is diagnose() with what the job declares. Throws InputError for data that the job cannot
+/// be fitted to.
+CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerPool& make_pool,
                           const std::atomic<bool>& interrupt, const CalibrateOptions& options);
 
 /// By transforms between the links: searched for in this process, without workers. Base, tool, offsets and geometry as
@@ -109,8 +109,8 @@ StudyRun figures_of(const DataSet& data, const CalibrateResult& result);
 /// leaves compares them alike. `on_run` is told of each run that came to its end, after it was added. Ends with the
 /// first that does not. Throws InputError for data that a job cannot be fitted to.
 StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span<const std::uint64_t> seeds,
-                       const MakeFleet& make_fleet, const std::atomic<bool>& interrupt, const CalibrateOptions& options,
-                       const std::function<void(const StudyOutcome&)>& on_run);
+                       const MakeWorkerPool& make_pool, const std::atomic<bool>& interrupt,
+                       const CalibrateOptions& options, const std::function<void(const StudyOutcome&)>& on_run);
 
 /// What is declared where the user says nothing: registration, tool, joint offsets and geometry, or as much of it as
 /// leaves twice as many measured numbers as parameters.

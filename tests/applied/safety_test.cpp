@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <span>
 
-#include "languages/orientation.hpp"
 #include "meant_program.hpp"
+#include "parsed_programs/orientation.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 

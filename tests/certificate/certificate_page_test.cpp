@@ -1,5 +1,5 @@
 // The certificate as a page: well-formed, of one piece, with every figure, and with a place for what nobody stated.
-#include "certificate/page.hpp"
+#include "certificate/documents.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

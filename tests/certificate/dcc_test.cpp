@@ -1,5 +1,5 @@
 // The certificate for machines is valid against PTB's schema, whatever the texts in it, and holds the page's figures.
-#include "certificate/dcc.hpp"
+#include "certificate/documents.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

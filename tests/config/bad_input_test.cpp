@@ -4,9 +4,10 @@
 
 #include <ostream>
 
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 

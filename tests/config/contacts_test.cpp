@@ -7,7 +7,7 @@
 #include <map>
 
 #include "../errors/complaint.hpp"
-#include "config/data_set_file.hpp"
+#include "data_files/data_set_file.hpp"
 #include "kinematics/forward.hpp"
 #include "prediction/measurement.hpp"
 #include "preparation/touched_places.hpp"

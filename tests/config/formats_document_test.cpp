@@ -10,13 +10,12 @@
 #include <regex>
 
 #include "config/cell_file.hpp"
-#include "config/data_set_file.hpp"
-#include "config/frames_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
-#include "config/joint_log_file.hpp"
 #include "config/model_file.hpp"
-#include "config/study_grid.hpp"
+#include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/preparation_file.hpp"
 #include "formats_document.hpp"
 #include "prediction/random_effects.hpp"
 #include "yaml/yaml_node.hpp"

@@ -2,9 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
+#include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "kinematics/units.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"

@@ -8,7 +8,8 @@
 #include <regex>
 #include <sstream>
 
-#include "config/input_files.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/templates.hpp"
 #include "kinematics/random_arm.hpp"
 #include "temporary_folder.hpp"
 #include "urdf/urdf_arm.hpp"
@@ -135,7 +136,7 @@ TEST(ExportedUrdf, IsANewOneOfArmsThatWereNotImported) {
 }
 
 /// Without returns and what is blank at its end.
-std::string trimmed(std::string text) {
+std::string bare(std::string text) {
   std::erase(text, '\r');
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   return text;
@@ -144,7 +145,7 @@ std::string trimmed(std::string text) {
 /// The URDF that a ROS 2 node finds in a parameter file.
 std::string described_in(const std::string& parameters) {
   const YamlNode file = parse_yaml(parameters, "parameters.yaml");
-  return trimmed(file.at("/**").at("ros__parameters").at("robot_description").text());
+  return bare(file.at("/**").at("ros__parameters").at("robot_description").text());
 }
 
 TEST(ExportedUrdf, OfEveryPublicFileIsThatFileAgainAndMovesAsItsModel) {
@@ -169,7 +170,7 @@ TEST(ExportedUrdf, OfEveryPublicFileIsThatFileAgainAndMovesAsItsModel) {
     disturb(model, stream, 1e-4);
     const std::string calibrated = calibrated_urdf(model, "").text;
     expect_same_motion(chain_in(calibrated, robot.urdf->tip), model.robot.chain, stream);
-    EXPECT_EQ(described_in(ros2_parameters(model, "").text), trimmed(calibrated));
+    EXPECT_EQ(described_in(ros2_parameters(model, "").text), bare(calibrated));
     ++files;
   }
   EXPECT_GE(files, 19);

@@ -5,15 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/cell_file.hpp"
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
 #include "data/csv.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/planned_files.hpp"
 #include "formats_document.hpp"
 #include "made_up_recording.hpp"
-#include "report/change_report.hpp"
-#include "report/plan_report.hpp"
+#include "studies/change_report.hpp"
+#include "studies/plan_report.hpp"
 #include "temporary_folder.hpp"
 
 namespace demecal {

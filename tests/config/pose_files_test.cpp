@@ -6,12 +6,14 @@
 #include <sstream>
 
 #include "../errors/complaint.hpp"
-#include "config/data_set_file.hpp"
-#include "config/draft_data_set.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
-#include "config/templates.hpp"
+#include "config/scenario_file.hpp"
 #include "data/text.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/draft_data_set.hpp"
+#include "drafting/preparation_file.hpp"
+#include "drafting/templates.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "random/random_stream.hpp"

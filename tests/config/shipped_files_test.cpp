@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
-#include "config/study_grid.hpp"
+#include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "temporary_folder.hpp"
 

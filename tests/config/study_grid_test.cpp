@@ -1,10 +1,9 @@
 // The cells of a study are the jobs that a user would have written by hand, and faults are named where they were made.
-#include "config/study_grid.hpp"
+#include "config/job_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/job_file.hpp"
 #include "sample_files.hpp"
 #include "temporary_folder.hpp"
 

@@ -9,9 +9,10 @@
 #include <sstream>
 
 #include "acceptance/certificate.hpp"
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
 #include "data/csv.hpp"
+#include "data_files/data_set_file.hpp"
+#include "drafting/planned_files.hpp"
+#include "drafting/preparation_file.hpp"
 #include "formats_document.hpp"
 #include "full_report.hpp"
 #include "languages/named_languages.hpp"
@@ -20,11 +21,10 @@
 #include "preparation/results.hpp"
 #include "programs/corrected_arm.hpp"
 #include "programs/summary.hpp"
-#include "report/check_history.hpp"
 #include "report/evaluation.hpp"
 #include "report/history.hpp"
-#include "report/pose_csv.hpp"
-#include "report/study.hpp"
+#include "studies/change_report.hpp"
+#include "studies/study.hpp"
 
 namespace demecal {
 namespace {

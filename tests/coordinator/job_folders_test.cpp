@@ -1,5 +1,5 @@
 // The folder of served jobs: what is put there comes back, and no symbolic link, pipe or other file leads out of it.
-#include "coordinator/job_folders.hpp"
+#include "coordinator/jobs/job_folders.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 #include "config/model_file.hpp"
 #include "coordinator/result_folder.hpp"
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "terminal/report_text.hpp"
 #include "workflows/lacking_puma.hpp"
 
@@ -28,14 +28,14 @@ DataSet structured_puma() {
   return data;
 }
 
-/// Asks for no fleet: none is there.
+/// Asks for no pool: none is there.
 CalibrateResult calibrated(const DataSet& data, const Job& job, bool interrupted = false) {
   const std::atomic<bool> interrupt{interrupted};
   CalibrateOptions options;
   return calibrate(
       data, job,
-      []() -> std::unique_ptr<Fleet> {
-        ADD_FAILURE() << "a fleet was asked for";
+      []() -> std::unique_ptr<WorkerPool> {
+        ADD_FAILURE() << "a pool was asked for";
         return nullptr;
       },
       interrupt, options);

@@ -1,5 +1,5 @@
 // A pose that touched another contact than it names is named, whichever it is; data without mistakes name nothing.
-#include "data_check/contacts.hpp"
+#include "data_check/searches.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

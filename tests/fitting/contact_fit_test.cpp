@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/known_relations.hpp"
 #include "fitting/observation.hpp"
 #include "prediction/measurement.hpp"
 #include "touching_arm.hpp"

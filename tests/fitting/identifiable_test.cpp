@@ -1,5 +1,5 @@
 // What poses cannot see is found, named and held.
-#include "fitting/identifiable.hpp"
+#include "fitting/parameter_space.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

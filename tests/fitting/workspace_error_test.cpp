@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/workspace_error.hpp"
+#include "fitting/posterior.hpp"
 #include "kinematics/random_arm.hpp"
 
 namespace demecal {

@@ -2,12 +2,13 @@
 
 #include "../config/sample_files.hpp"
 #include "../config/temporary_folder.hpp"
-#include "config/data_set_file.hpp"
-#include "config/frames_file.hpp"
-#include "config/input_files.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
-#include "config/study_grid.hpp"
+#include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/preparation_file.hpp"
+#include "drafting/templates.hpp"
 #include "errors/input_error.hpp"
 #include "targets.hpp"
 

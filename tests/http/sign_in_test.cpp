@@ -1,5 +1,5 @@
 // Who asks: by a token, by a cookie that a token was shown for, or nobody.
-#include "http/sign_in.hpp"
+#include "http/access.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Arms are alike whatever rounding leaves, and the first difference is named with both values.
-#include "kinematics/difference.hpp"
+#include "kinematics/chain.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinematics/controller_angles.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
 #include "random_arm.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
 #include "prediction/measurement.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "workflows/lacking_puma.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
+#include "data_files/data_set_file.hpp"
 #include "simulation/simulated_robot.hpp"
 
 namespace demecal {
@@ -23,7 +23,9 @@ TEST_P(ShippedData, IsWhatTheScenarioGives) {
     EXPECT_LT((shipped.poses[i].joints - made.poses[i].joints).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_EQ(shipped.poses[i].contact, made.poses[i].contact);
     ASSERT_EQ(shipped.poses[i].position_m.has_value(), made.poses[i].position_m.has_value());
-    if (made.poses[i].position_m) EXPECT_LT((*shipped.poses[i].position_m - *made.poses[i].position_m).norm(), 1e-12);
+    if (made.poses[i].position_m) {
+      EXPECT_LT((*shipped.poses[i].position_m - *made.poses[i].position_m).norm(), 1e-12);
+    }
     EXPECT_EQ(shipped.poses[i].set, made.poses[i].set);
   }
 }

@@ -5,8 +5,8 @@
 
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
-#include "languages/orientation.hpp"
 #include "languages/reading_checks.hpp"
+#include "parsed_programs/orientation.hpp"
 
 namespace demecal {
 namespace {

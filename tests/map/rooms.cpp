@@ -94,8 +94,8 @@ std::set<std::string> reachable_libraries(const Map& map, const Room& start) {
 }
 
 bool is_pure(const std::string& room) {
-  static const std::set<std::string> impure{"yaml",    "config",     "library",   "transport", "dds",
-                                            "hosting", "scheduling", "workflows", "http"};
+  static const std::set<std::string> impure{"yaml", "data_files", "drafting",   "config",    "library", "transport",
+                                            "dds",  "hosting",    "scheduling", "workflows", "http"};
   return !impure.contains(room);
 }
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinematics/random_arm.hpp"
-#include "planning/arm_shape.hpp"
+#include "planning/cell.hpp"
 
 namespace demecal {
 namespace {

@@ -1,5 +1,5 @@
 // Refined poses tell more than those they began with, stay feasible, and their covariance is that of their rows.
-#include "planning/refinement.hpp"
+#include "planning/exchange.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "config/draft_data_set.hpp"
-#include "config/input_files.hpp"
 #include "data/text.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/draft_data_set.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "program.hpp"

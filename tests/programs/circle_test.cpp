@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "corrected_arm.hpp"
-#include "languages/orientation.hpp"
 #include "languages/written_program.hpp"
+#include "parsed_programs/orientation.hpp"
 #include "programs/nominal_joints.hpp"
 
 namespace demecal {

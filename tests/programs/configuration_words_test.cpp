@@ -7,7 +7,6 @@
 #include "corrected_arm.hpp"
 #include "languages/written_program.hpp"
 #include "programs/configuration.hpp"
-#include "programs/posture.hpp"
 
 namespace demecal {
 namespace {

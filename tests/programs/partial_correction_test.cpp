@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "programs/partial_correction.hpp"
+#include "programs/target_correction.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {

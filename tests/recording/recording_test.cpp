@@ -11,7 +11,7 @@
 
 #include "errors/input_error.hpp"
 #include "made_up_run.hpp"
-#include "recording/mcap_reader.hpp"
+#include "recording/mcap.hpp"
 
 namespace demecal {
 namespace {

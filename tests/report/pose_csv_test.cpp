@@ -1,5 +1,5 @@
 // pose-errors.csv has every pose with what is known of it, and reads back.
-#include "report/pose_csv.hpp"
+#include "report/history.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Corrections are shown in short where the short form does as well.
-#include "report/short_forms.hpp"
+#include "report/make_report.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

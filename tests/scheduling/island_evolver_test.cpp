@@ -9,8 +9,8 @@
 #include "../config/temporary_folder.hpp"
 #include "faulty_transport.hpp"
 #include "forwarding_transport.hpp"
-#include "in_memory_fleet.hpp"
-#include "scheduling/fleet.hpp"
+#include "in_memory_pool.hpp"
+#include "scheduling/worker_pool.hpp"
 
 namespace demecal {
 namespace {
@@ -29,19 +29,19 @@ bool same_candidates(const std::vector<JointCandidates>& a, const std::vector<Jo
                             [](const JointCandidates& x, const JointCandidates& y) { return x.front == y.front; });
 }
 
-/// How often a fleet was asked for, and who made it.
-struct Fleets {
+/// How often a pool was asked for, and who made it.
+struct Pools {
   int made = 0;
-  MakeFleet sound = [this]() -> std::unique_ptr<Fleet> {
+  MakeWorkerPool sound = [this]() -> std::unique_ptr<WorkerPool> {
     ++made;
-    return std::make_unique<InMemoryFleet>(2);
+    return std::make_unique<InMemoryWorkerPool>(2);
   };
 };
 
-std::vector<JointCandidates> evolve(const EvolverOptions& options, const MakeFleet& make_fleet) {
+std::vector<JointCandidates> evolve(const EvolverOptions& options, const MakeWorkerPool& make_pool) {
   const std::atomic<bool> interrupt{false};
   const Job job = small_job();
-  IslandEvolver evolutions(job, make_fleet, interrupt, options);
+  IslandEvolver evolutions(job, make_pool, interrupt, options);
   auto candidates = evolutions.evolve(small_training(), {job.seed, job.gp.number_generations}).joints;
   EXPECT_EQ(evolutions.end(), RunEnd::finished);
   return candidates;
@@ -68,9 +68,9 @@ class Forgetful : public ForwardingTransport {
   std::function<void()> lose_worker_;
 };
 
-class ForgetfulFleet : public Fleet {
+class ForgetfulWorkerPool : public WorkerPool {
  public:
-  ForgetfulFleet()
+  ForgetfulWorkerPool()
       : transport_(join(exchange_, Role::coordinator, "coordinator"), [this] {
           first_.reset();
           second_.emplace(exchange_, "second");
@@ -85,24 +85,24 @@ class ForgetfulFleet : public Fleet {
 };
 
 TEST(IslandEvolver, BeginsARunAnewWhoseIslandsWaitForWhatNobodyKeeps) {
-  Fleets fleets;
-  const auto calm = evolve({}, fleets.sound);
+  Pools pools;
+  const auto calm = evolve({}, pools.sound);
   EvolverOptions options;
   options.patience.news = std::chrono::milliseconds(300);
   int made = 0;
-  const auto found = evolve(options, [&]() -> std::unique_ptr<Fleet> {
-    if (++made == 1) return std::make_unique<ForgetfulFleet>();
-    return fleets.sound();
+  const auto found = evolve(options, [&]() -> std::unique_ptr<WorkerPool> {
+    if (++made == 1) return std::make_unique<ForgetfulWorkerPool>();
+    return pools.sound();
   });
   EXPECT_EQ(made, 2);
   EXPECT_TRUE(same_candidates(calm, found));
 }
 
 TEST(IslandEvolver, FindsTheSameOnThreadsOfThisProcess) {
-  Fleets fleets;
-  const auto by_two_workers = evolve({}, fleets.sound);
+  Pools pools;
+  const auto by_two_workers = evolve({}, pools.sound);
   for (const std::uint32_t threads : {1U, 3U}) {
-    const auto found = evolve({}, [threads] { return std::make_unique<InProcessFleet>(threads); });
+    const auto found = evolve({}, [threads] { return std::make_unique<InProcessWorkerPool>(threads); });
     EXPECT_TRUE(same_candidates(by_two_workers, found)) << threads;
   }
 }
@@ -110,25 +110,25 @@ TEST(IslandEvolver, FindsTheSameOnThreadsOfThisProcess) {
 TEST(IslandEvolver, DoesNotRunAgainWhatTheJournalHolds) {
   const TemporaryFolder folder;
   const JobIdentity identity{.data_sha256 = "d", .job_sha256 = "j", .seed = 8, .version = "v"};
-  Fleets fleets;
+  Pools pools;
   EvolverOptions options;
   std::vector<JointCandidates> first;
   {
     RunJournal journal(folder.path().string(), identity, RunJournal::Start::anew);
     options.journal = &journal;
-    first = evolve(options, fleets.sound);
+    first = evolve(options, pools.sound);
   }
-  EXPECT_EQ(fleets.made, 1);
+  EXPECT_EQ(pools.made, 1);
   RunJournal journal(folder.path().string(), identity, RunJournal::Start::resume);
   options.journal = &journal;
-  EXPECT_TRUE(same_candidates(first, evolve(options, fleets.sound)));
-  EXPECT_EQ(fleets.made, 1);
+  EXPECT_TRUE(same_candidates(first, evolve(options, pools.sound)));
+  EXPECT_EQ(pools.made, 1);
 }
 
-/// A fleet in which another watches.
-class WatchedFleet : public Fleet {
+/// A pool in which another watches.
+class WatchedWorkerPool : public WorkerPool {
  public:
-  WatchedFleet(std::shared_ptr<Exchange> exchange, bool has_worker)
+  WatchedWorkerPool(std::shared_ptr<Exchange> exchange, bool has_worker)
       : exchange_(std::move(exchange)),
         has_worker_(has_worker),
         transport_(join(exchange_, Role::coordinator, "coordinator")) {}
@@ -166,8 +166,8 @@ TEST(IslandEvolver, EndsAllRunsFromBeforeWhereItResumes) {
     EvolverOptions options;
     options.journal = &journal;
     options.patience.worker = std::chrono::milliseconds(run < 2 ? 50 : 60'000);
-    const MakeFleet make_fleet = [&] { return std::make_unique<WatchedFleet>(exchange, run == 2); };
-    IslandEvolver evolutions(job, make_fleet, interrupt, options);
+    const MakeWorkerPool make_pool = [&] { return std::make_unique<WatchedWorkerPool>(exchange, run == 2); };
+    IslandEvolver evolutions(job, make_pool, interrupt, options);
     evolutions.evolve(small_training(), {job.seed, job.gp.number_generations});
     if (run < 2) before.merge(runs_told(*watcher, Control::State::running));
   }
@@ -177,10 +177,10 @@ TEST(IslandEvolver, EndsAllRunsFromBeforeWhereItResumes) {
 }
 
 TEST(IslandEvolver, EndsWhereIslandsDoNotWaitAsWell) {
-  Fleets fleets;
+  Pools pools;
   EvolverOptions options;
   options.asynchronous = true;
-  for (const JointCandidates& joint : evolve(options, fleets.sound)) EXPECT_FALSE(joint.front.empty());
+  for (const JointCandidates& joint : evolve(options, pools.sound)) EXPECT_FALSE(joint.front.empty());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Finished jobs beside each other, by what their reports state.
-#include "serving/comparison.hpp"
+#include "serving/job_files.hpp"
 
 #include <gtest/gtest.h>
 

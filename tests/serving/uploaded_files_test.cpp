@@ -1,5 +1,5 @@
 // Uploaded YAML names uploaded files only, however it is written.
-#include "serving/uploaded_files.hpp"
+#include "serving/job_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "structure/genome.hpp"
+#include "structure/structured_arm.hpp"
 
 namespace demecal {
 namespace {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../studies/made_up_study.hpp"
 #include "made_up_comparison.hpp"
-#include "made_up_study.hpp"
 #include "screen_reading.hpp"
 
 namespace demecal {

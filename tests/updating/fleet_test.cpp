@@ -12,7 +12,7 @@
 #include "lacking_numbers.hpp"
 #include "prediction/measurement.hpp"
 #include "updating/fleet_model.hpp"
-#include "updating/type_spread.hpp"
+#include "updating/fleet_numbers.hpp"
 #include "updating/update.hpp"
 
 namespace demecal {

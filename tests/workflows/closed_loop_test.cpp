@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "config/model_file.hpp"
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "workflows/lacking_puma.hpp"
 
 namespace demecal {

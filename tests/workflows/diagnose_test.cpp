@@ -108,11 +108,11 @@ TEST(CalibrateWithoutEvolution, IsTheDiagnosisOfWhatTheJobDeclaresAndAsksForNoWo
   job.closed_loop.candidates = {"backlash"};
   const std::atomic<bool> interrupt{false};
   bool asked = false;
-  const auto no_fleet = [&asked]() -> std::unique_ptr<Fleet> {
+  const auto no_pool = [&asked]() -> std::unique_ptr<WorkerPool> {
     asked = true;
     return nullptr;
   };
-  const CalibrateResult result = calibrate(data, job, no_fleet, interrupt, {});
+  const CalibrateResult result = calibrate(data, job, no_pool, interrupt, {});
   EXPECT_FALSE(asked);
   EXPECT_EQ(result.end, RunEnd::finished);
   EXPECT_EQ(result.facts.evaluations, 0U);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "config/model_file.hpp"
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "workflows/lacking_puma.hpp"
 
 namespace demecal {

@@ -5,7 +5,7 @@
 #include "../config/temporary_folder.hpp"
 #include "config/model_file.hpp"
 #include "expression/text.hpp"
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "workflows/lacking_puma.hpp"
 
 namespace demecal {
@@ -92,8 +92,8 @@ TEST(SharedFunctions, OfARunThatTheJournalHoldsAreFoundAgainWithoutWorkers) {
     RunJournal journal(folder.path().string(), identity, start);
     CalibrateOptions options;
     options.journal = &journal;
-    const auto make_fleet = [workers] { return std::make_unique<InMemoryFleet>(workers); };
-    return model_text(calibrate(data, sharing_job(), make_fleet, interrupt, options).model);
+    const auto make_pool = [workers] { return std::make_unique<InMemoryWorkerPool>(workers); };
+    return model_text(calibrate(data, sharing_job(), make_pool, interrupt, options).model);
   };
   const std::string first = calibrated(RunJournal::Start::anew, 2);
   EXPECT_EQ(calibrated(RunJournal::Start::resume, 0), first);

@@ -1,9 +1,9 @@
 // The demo's PUMA measured more often: smooth joint errors, and backlash that no job declares.
 #pragma once
 
-#include "config/input_files.hpp"
+#include "config/scenario_file.hpp"
 #include "prediction/measurement.hpp"
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "workflows/workflows.hpp"
 
@@ -40,7 +40,7 @@ inline CalibrateResult calibrate_in_memory(const DataSet& data, const Job& job, 
   const std::atomic<bool> interrupt{false};
   CalibrateOptions options;
   return calibrate(
-      data, job, [workers] { return std::make_unique<InMemoryFleet>(workers); }, interrupt, options);
+      data, job, [workers] { return std::make_unique<InMemoryWorkerPool>(workers); }, interrupt, options);
 }
 
 }  // namespace demecal

@@ -6,7 +6,7 @@
 #include "../config/temporary_folder.hpp"
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "workflows/lacking_puma.hpp"
 
 namespace demecal {

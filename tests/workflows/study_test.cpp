@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scheduling/in_memory_fleet.hpp"
+#include "scheduling/in_memory_pool.hpp"
 #include "workflows/lacking_puma.hpp"
 
 namespace demecal {
@@ -20,7 +20,7 @@ std::vector<Job> two_jobs() {
   return {job, other};
 }
 
-const auto kMakeFleet = [] { return std::make_unique<InMemoryFleet>(2); };
+const auto kMakeWorkerPool = [] { return std::make_unique<InMemoryWorkerPool>(2); };
 
 void expect_same_figures(const StudyRun& a, const StudyRun& b) {
   EXPECT_EQ(a.calibration_mm, b.calibration_mm);
@@ -37,7 +37,7 @@ TEST(Study, HasTheFiguresOfItsJobsAlone) {
   const std::vector<std::uint64_t> seeds{11, 12};
   const std::atomic<bool> interrupt{false};
   std::size_t told = 0;
-  const StudyOutcome outcome = run_study(data, jobs, seeds, kMakeFleet, interrupt, {},
+  const StudyOutcome outcome = run_study(data, jobs, seeds, kMakeWorkerPool, interrupt, {},
                                          [&](const StudyOutcome& reached) { EXPECT_EQ(reached.runs.size(), ++told); });
   EXPECT_EQ(outcome.end, RunEnd::finished);
   ASSERT_EQ(outcome.runs.size(), 4U);
@@ -62,7 +62,7 @@ TEST(Study, FindsExpressionsThatItsJointsShare) {
   const std::vector<std::uint64_t> seeds{11};
   const std::atomic<bool> interrupt{false};
   const StudyOutcome outcome =
-      run_study(data, two_jobs(), seeds, kMakeFleet, interrupt, {}, [](const StudyOutcome&) {});
+      run_study(data, two_jobs(), seeds, kMakeWorkerPool, interrupt, {}, [](const StudyOutcome&) {});
   const std::vector<BuildingBlock> blocks = building_blocks(outcome.fronts);
   ASSERT_FALSE(blocks.empty());
   EXPECT_GE(blocks.front().joints, 2U);
@@ -73,7 +73,7 @@ TEST(Study, KeepsWhatWasReachedWhenItIsInterrupted) {
   const DataSet data = simulate(lacking_puma(false));
   const std::vector<std::uint64_t> seeds{11, 12};
   std::atomic<bool> interrupt{false};
-  const StudyOutcome outcome = run_study(data, two_jobs(), seeds, kMakeFleet, interrupt, {},
+  const StudyOutcome outcome = run_study(data, two_jobs(), seeds, kMakeWorkerPool, interrupt, {},
                                          [&](const StudyOutcome& reached) { interrupt = reached.runs.size() == 3; });
   EXPECT_EQ(outcome.end, RunEnd::interrupted);
   EXPECT_EQ(outcome.runs.size(), 3U);

@@ -1,11 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <filesystem>
 #include <iostream>
-#include <mutex>
-#include <thread>
 
-#include "config/input_files.hpp"
+#include "../run_cases.hpp"
+#include "data_files/robot_file.hpp"
 #include "output.hpp"
 
 namespace {
@@ -37,8 +35,8 @@ class Bench {
       : planned_(std::move(planned)), options_(options), robots_(load_robots(planned_)), cases_(planned_.size()) {}
 
   void run() {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
+    run_cases(planned_.size(), options_.threads,
+              [this](std::size_t i) { cases_[i] = run_case(planned_[i], robots_, options_.kind == kClean); });
   }
   void write() const {
     if (options_.each) {
@@ -50,22 +48,10 @@ class Bench {
   }
 
  private:
-  void work() {
-    for (std::size_t i = next_++; i < planned_.size(); i = next_++) {
-      cases_[i] = run_case(planned_[i], robots_, options_.kind == kClean);
-      const std::lock_guard lock(progress_);
-      std::cerr << '\r' << ++done_ << " of " << planned_.size() << " cases" << std::flush;
-      if (done_ == planned_.size()) std::cerr << '\n';
-    }
-  }
-
   std::vector<CasePlan> planned_;
   Options options_;
   Robots robots_;
   std::vector<CaseFigures> cases_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex progress_;
-  std::size_t done_ = 0;
 };
 
 int default_cases(const std::string& kind) {

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <vector>
 
+#include "../run_cases.hpp"
 #include "contact_case.hpp"
 #include "kinematics/units.hpp"
 #include "mistaken_case.hpp"
@@ -117,29 +115,19 @@ int main(int argc, char** argv) {
   for (const Robot& robot : mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots"))
     arms.push_back(socket_arm(robot, metres(length_mm)));
   std::vector<ContactFigures> cases(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
-  std::mutex progress;
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < threads; ++i)
-      workers.emplace_back([&] {
-        for (int number = next++; number < count; number = next++) {
-          const ContactFigures one = run_contact_case(number, arms);
-          cases[static_cast<std::size_t>(number)] = one;
-          const std::lock_guard lock(progress);
-          if (each)
-            std::cerr << fmt::format(
-                "{} {}: {:.3f} mm, tracker {:.3f}, foretold {:.3f}; {} of {} within; {} false; "
-                "socket {}; {} {}{}\n",
-                number, one.arm, one.touched_mm, one.tracked_mm, one.predicted_mm, one.within, one.places,
-                one.false_effects, one.wrong_socket_named, one.injected.empty() ? "nothing" : one.injected,
-                one.named      ? "named"
-                : one.in_class ? "in class"
-                               : "missed",
-                one.failed ? " FAILED" : "");
-        }
-      });
-  }
+  const auto run = [&](std::size_t number) { cases[number] = run_contact_case(static_cast<int>(number), arms); };
+  run_cases(cases.size(), threads, run, [&](std::size_t number) {
+    if (!each) return;
+    const ContactFigures& one = cases[number];
+    std::cerr << fmt::format(
+        "{} {}: {:.3f} mm, tracker {:.3f}, foretold {:.3f}; {} of {} within; {} false; socket {}; {} {}{}\n", number,
+        one.arm, one.touched_mm, one.tracked_mm, one.predicted_mm, one.within, one.places, one.false_effects,
+        one.wrong_socket_named, one.injected.empty() ? "nothing" : one.injected,
+        one.named      ? "named"
+        : one.in_class ? "in class"
+                       : "missed",
+        one.failed ? " FAILED" : "");
+  });
   write(cases, json);
   return 0;
 }

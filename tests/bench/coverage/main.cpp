@@ -4,17 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "../run_cases.hpp"
 #include "acceptance/verdict.hpp"
 #include "errors/input_error.hpp"
 #include "mistaken_case.hpp"
@@ -218,23 +216,14 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const std::vector<Robot> arms = mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots");
   std::vector<CoverageCase> cases(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
-  std::mutex progress;
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < threads; ++i)
-      workers.emplace_back([&] {
-        for (int number = next++; number < count; number = next++) {
-          const CoverageCase one = run_case(number, arms);
-          cases[static_cast<std::size_t>(number)] = one;
-          const std::lock_guard lock(progress);
-          if (each)
-            std::cerr << fmt::format("{} {} {} {} poses{}: {} of {}, {:.4f} over {:.4f} mm{}\n", number, one.condition,
-                                     one.arm, one.poses, one.effects ? " backlash" : "", one.within, one.fresh,
-                                     one.mean_radius_mm, one.oracle_mm, one.failed ? " no interval" : "");
-        }
-      });
-  }
+  const auto run = [&](std::size_t number) { cases[number] = run_case(static_cast<int>(number), arms); };
+  run_cases(cases.size(), threads, run, [&](std::size_t number) {
+    if (!each) return;
+    const CoverageCase& one = cases[number];
+    std::cerr << fmt::format("{} {} {} {} poses{}: {} of {}, {:.4f} over {:.4f} mm{}\n", number, one.condition, one.arm,
+                             one.poses, one.effects ? " backlash" : "", one.within, one.fresh, one.mean_radius_mm,
+                             one.oracle_mm, one.failed ? " no interval" : "");
+  });
   write(cases, json);
   return 0;
 }

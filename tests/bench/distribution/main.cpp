@@ -48,8 +48,8 @@ void say(const std::string& text) {
 }
 
 SpeedUp pairs_of(const Options& options) {
-  const bench::Fleet one{beside_this_program("demecal-worker"), {}, 1, 1};
-  bench::Fleet two = one;
+  const bench::WorkerProcesses one{beside_this_program("demecal-worker"), {}, 1, 1};
+  bench::WorkerProcesses two = one;
   two.processes = 2;
   std::vector<DistributionFigures> ones, twos;
   for (int pair = 0; pair < options.pairs; ++pair) {
@@ -65,10 +65,10 @@ std::vector<Sleeping> sleepers(const Options& options) {
   std::vector<Sleeping> all;
   for (const int islands : {8, 32, 64, 128}) {
     say(std::to_string(islands) + " sleeping islands");
-    const bench::Fleet fleet{
+    const bench::WorkerProcesses workers{
         "/proc/self/exe", {"--serve", "--sleep-s", std::to_string(options.sleep_s)}, islands / kSlots, kSlots};
     const CalibrationData run = sleeping_run(static_cast<std::uint32_t>(islands), options.epochs, kSeed);
-    all.push_back({options.sleep_s, measure(options.dds, fleet, run)});
+    all.push_back({options.sleep_s, measure(options.dds, workers, run)});
   }
   return all;
 }

@@ -32,12 +32,12 @@ Split used(const Reading& before, const Reading& after) {
   return all;
 }
 
-LocalWorkers started(const DdsOptions& dds, const Fleet& fleet) {
-  std::vector<std::string> arguments = fleet.arguments;
+LocalWorkers started(const DdsOptions& dds, const WorkerProcesses& workers) {
+  std::vector<std::string> arguments = workers.arguments;
   for (const std::string& word :
-       {std::string("--domain"), std::to_string(dds.domain), std::string("--slots"), std::to_string(fleet.slots)})
+       {std::string("--domain"), std::to_string(dds.domain), std::string("--slots"), std::to_string(workers.slots)})
     arguments.push_back(word);
-  return {fleet.program, arguments, fleet.processes};
+  return {workers.program, arguments, workers.processes};
 }
 
 double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chrono::seconds idle) {
@@ -50,11 +50,11 @@ double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chron
 
 }  // namespace
 
-DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
+DistributionFigures measure(const DdsOptions& dds, const WorkerProcesses& processes, const CalibrationData& data,
                             std::chrono::seconds idle) {
   CountedTransport transport(join_dds(dds, Role::coordinator, ""));
-  const LocalWorkers workers = started(dds, fleet);
-  if (!transport.await_workers(static_cast<std::size_t>(fleet.processes), kPatience))
+  const LocalWorkers workers = started(dds, processes);
+  if (!transport.await_workers(static_cast<std::size_t>(processes.processes), kPatience))
     throw std::runtime_error("not all workers came within a minute");
   DistributionFigures figures;
   figures.idle_worker_share = idle_share(transport.workers(), idle);

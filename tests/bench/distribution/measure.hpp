@@ -10,7 +10,7 @@
 
 namespace demecal::bench {
 
-struct Fleet {
+struct WorkerProcesses {
   std::string program;                 ///< of the workers
   std::vector<std::string> arguments;  ///< beside domain and slots
   int processes = 1;
@@ -28,7 +28,7 @@ struct DistributionFigures {
 };
 
 /// Throws std::runtime_error where the workers do not come or the run does not finish.
-DistributionFigures measure(const DdsOptions& dds, const Fleet& fleet, const CalibrationData& data,
+DistributionFigures measure(const DdsOptions& dds, const WorkerProcesses& processes, const CalibrationData& data,
                             std::chrono::seconds idle = std::chrono::seconds(0));
 
 }  // namespace demecal::bench

@@ -2,16 +2,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <filesystem>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "../run_cases.hpp"
 #include "closed_loop/summary.hpp"
-#include "config/data_set_file.hpp"
-#include "config/input_files.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
 #include "evolution_case.hpp"
 
 namespace {
@@ -75,8 +73,7 @@ class Bench {
   }
 
   void run() {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
+    run_cases(tasks_.size(), options_.threads, [this](std::size_t i) { cases_[i] = tasks_[i](); });
   }
   void write() const;
 
@@ -95,14 +92,6 @@ class Bench {
                           declared, seed);
     });
   }
-  void work() {
-    for (std::size_t i = next_++; i < tasks_.size(); i = next_++) {
-      cases_[i] = tasks_[i]();
-      const std::lock_guard lock(progress_);
-      std::cerr << '\r' << ++done_ << " of " << tasks_.size() << " cases" << std::flush;
-      if (done_ == tasks_.size()) std::cerr << '\n';
-    }
-  }
   void write_json() const;
   void write_table() const;
   void write_totals() const;
@@ -110,9 +99,6 @@ class Bench {
   Options options_;
   std::vector<std::function<std::optional<EvolutionCase>()>> tasks_;
   std::vector<std::optional<EvolutionCase>> cases_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex progress_;
-  std::size_t done_ = 0;
 };
 
 void Bench::write_json() const {

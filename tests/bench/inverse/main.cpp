@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "config/input_files.hpp"
+#include "data_files/robot_file.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "random/random_stream.hpp"
 #include "symbolic/code.hpp"

@@ -1,20 +1,18 @@
 #include <sys/wait.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "config/data_set_file.hpp"
+#include "../run_cases.hpp"
+#include "data_files/data_set_file.hpp"
 #include "mistaken_case.hpp"
 
 namespace {
@@ -106,8 +104,11 @@ class Bench {
   ~Bench() { std::filesystem::remove_all(folder_); }
 
   void run() {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
+    run_cases(cases_.size(), options_.threads, [this](std::size_t i) {
+      const std::filesystem::path folder = folder_ / std::to_string(i);
+      outcomes_[i] = run_case(cases_[i], folder);
+      std::filesystem::remove_all(folder);
+    });
   }
 
   void write() const {
@@ -116,17 +117,6 @@ class Bench {
   }
 
  private:
-  void work() {
-    for (std::size_t i = next_++; i < cases_.size(); i = next_++) {
-      const std::filesystem::path folder = folder_ / std::to_string(i);
-      outcomes_[i] = run_case(cases_[i], folder);
-      std::filesystem::remove_all(folder);
-      const std::lock_guard lock(progress_);
-      std::cerr << '\r' << ++done_ << " of " << cases_.size() << " cases" << std::flush;
-      if (done_ == cases_.size()) std::cerr << '\n';
-    }
-  }
-
   void write_json(std::size_t i) const {
     const MistakenCase& one = cases_[i];
     const Outcome& outcome = outcomes_[i];
@@ -192,9 +182,6 @@ class Bench {
   std::vector<Outcome> outcomes_;
   Options options_;
   std::filesystem::path folder_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex progress_;
-  std::size_t done_ = 0;
 };
 
 /// Data sets of measured robots, where there are some: whole, and drawn from.

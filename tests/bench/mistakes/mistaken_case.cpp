@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "config/input_files.hpp"
+#include "data_files/robot_file.hpp"
 #include "kinematics/inverse.hpp"
 #include "mistakes.hpp"
 #include "simulation/simulated_robot.hpp"

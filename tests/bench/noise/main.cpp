@@ -1,9 +1,7 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <iostream>
-#include <mutex>
-#include <thread>
 
+#include "../run_cases.hpp"
 #include "mistaken_case.hpp"
 #include "noise_figures.hpp"
 
@@ -31,8 +29,8 @@ class Bench {
   }
 
   void run() {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
+    run_cases(planned_.size(), options_.threads,
+              [this](std::size_t i) { cases_[i] = run_noisy_case(planned_[i], arms_); });
   }
   void write() const {
     if (options_.each) {
@@ -46,22 +44,10 @@ class Bench {
   }
 
  private:
-  void work() {
-    for (std::size_t i = next_++; i < planned_.size(); i = next_++) {
-      cases_[i] = run_noisy_case(planned_[i], arms_);
-      const std::lock_guard lock(progress_);
-      std::cerr << '\r' << ++done_ << " of " << planned_.size() << " cases" << std::flush;
-      if (done_ == planned_.size()) std::cerr << '\n';
-    }
-  }
-
   Options options_;
   std::vector<Robot> arms_;
   std::vector<NoiseCase> planned_;
   std::vector<NoisyCaseFigures> cases_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex progress_;
-  std::size_t done_ = 0;
 };
 
 std::vector<std::string> all_conditions() {

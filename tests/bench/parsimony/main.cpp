@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/calibration.hpp"
-#include "config/data_set_file.hpp"
 #include "config/job_file.hpp"
+#include "data_files/data_set_file.hpp"
 #include "evolution/island.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"

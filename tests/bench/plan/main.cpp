@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "config/input_files.hpp"
 #include "fleets.hpp"
 #include "planning/candidates.hpp"
 #include "planning/plan.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "config/input_files.hpp"
+#include "data_files/robot_file.hpp"
 #include "fitting/fit.hpp"
 
 namespace demecal::bench {

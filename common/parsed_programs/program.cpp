@@ -1,0 +1,166 @@
+#include "parsed_programs/program.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "data/text.hpp"
+#include "errors/check.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal::inline parsed_programs {
+namespace {
+
+/// The last setting before `offset`; null where there is none.
+const KnownFrame* last_before(const std::map<std::size_t, KnownFrame>& settings, std::size_t offset) {
+  const auto after = settings.lower_bound(offset);
+  return after == settings.begin() ? nullptr : &std::prev(after)->second;
+}
+
+bool same_tool(const StatedFrames& one, const StatedFrames& other) {
+  if (one.unknown_tool != other.unknown_tool || one.tool.has_value() != other.tool.has_value()) return false;
+  return !one.tool || one.tool->isApprox(*other.tool, 1e-9);
+}
+
+bool same_frame(const StatedFrames& one, const StatedFrames& other) {
+  return one.unknown_frame == other.unknown_frame && one.base_from_frame.isApprox(other.base_from_frame, 1e-9);
+}
+
+}  // namespace
+
+std::vector<double> inside(const std::vector<Cell>& cells) {
+  std::vector<double> values;
+  for (const Cell& cell : cells) values.push_back(cell.inside());
+  return values;
+}
+
+Eigen::Matrix3d tool_axes(const Target& target) {
+  if (!target.frames.tool) return Eigen::Matrix3d::Identity();
+  return target.frames.tool->linear();
+}
+
+std::size_t Program::file_at(std::size_t offset) const {
+  const auto begins_by = [&](const FurtherFile& other) { return other.begin <= offset; };
+  return static_cast<std::size_t>(std::count_if(further.begin(), further.end(), begins_by));
+}
+
+bool keeps_orientation(const Target& target) {
+  return target.form == OrientationForm::columns || target.form == OrientationForm::unknown;
+}
+
+Eigen::Vector3d stated_point(const Target& target) {
+  return target.frames.base_from_frame *
+         Eigen::Vector3d(target.position[0].inside(), target.position[1].inside(), target.position[2].inside());
+}
+
+Eigen::Isometry3d stated_tool_pose(const Target& target) {
+  Eigen::Isometry3d tool(target.frames.base_from_frame.linear() *
+                         rotation_from(target.form, inside(target.orientation)) * tool_axes(target).transpose());
+  tool.translation() = stated_point(target);
+  return tool;
+}
+
+std::vector<CellUnit> joint_units(const Chain& arm) {
+  std::vector<CellUnit> units;
+  for (const Joint& joint : arm.joints) {
+    units.push_back(!is_revolute(joint) ? kMillimetres : CellUnit{std::numbers::pi / 180.0, kDecimalsDeg});
+  }
+  return units;
+}
+
+KnownFrame KnownFrame::computed(const std::string& what) {
+  return {what, Eigen::Isometry3d::Identity(), what + " is computed when the program runs"};
+}
+
+void set_tool(StatedFrames& frames, const KnownFrame& tool) {
+  frames.tool_name = tool.name;
+  frames.unknown_tool = tool.unknown;
+  frames.tool.reset();
+  if (tool.unknown.empty()) frames.tool = tool.pose;
+}
+
+void set_frame(StatedFrames& frames, const KnownFrame& frame) {
+  frames.frame = frame.name;
+  frames.unknown_frame = frame.unknown;
+  frames.base_from_frame = frame.pose;
+}
+
+StatedFrames FrameSettings::at(std::size_t offset) const {
+  StatedFrames frames;
+  if (const KnownFrame* tool = last_before(tools_, offset)) set_tool(frames, *tool);
+  if (const KnownFrame* frame = last_before(frames_, offset)) set_frame(frames, *frame);
+  return frames;
+}
+
+void take_uses(const std::vector<TargetUse>& uses, Target& target) {
+  const auto first = std::min_element(
+      uses.begin(), uses.end(), [](const TargetUse& one, const TargetUse& other) { return one.begin < other.begin; });
+  target.order = first->begin;
+  target.frames = first->frames;
+  target.motion = Motion::line;
+  for (const TargetUse& use : uses) {
+    if (use.motion == Motion::joints) target.motion = Motion::joints;
+    if (!same_tool(use.frames, first->frames)) target.frames.unknown_tool = "it is moved to with different tools";
+    if (!same_frame(use.frames, first->frames)) target.frames.unknown_frame = "it is moved to in different frames";
+  }
+}
+
+void skip_target(Program& program, const Target& target, const std::string& why) {
+  program.uncorrected.push_back({target.place, target.name, why + "; it is left as it is"});
+}
+
+std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<const BracketItem> items,
+                                          std::span<const CellUnit> units, Numbers numbers, Program& program,
+                                          const Target& target) {
+  DEMECAL_CHECK(items.size() == units.size(), items.size() << " items, " << units.size() << " units");
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string_view word = text.code().substr(items[i].begin, items[i].size);
+    if (numbers == Numbers::or_expressions && is_expression(word)) {
+      skip_target(program, target, "'" + std::string(word) + "' is no number");
+      return std::nullopt;
+    }
+    cells.push_back(text.number(items[i].begin, items[i].size, units[i]));
+  }
+  return cells;
+}
+
+void require_quaternion(const ProgramText& text, std::span<const Cell> cells) {
+  constexpr double kRounding = 0.01;
+  double square = 0.0;
+  for (const Cell& cell : cells) square += cell.value * cell.value;
+  if (std::abs(std::sqrt(square) - 1.0) < kRounding) return;
+  const Cell &first = cells.front(), &last = cells.back();
+  text.fail(first.begin, last.begin + last.size - first.begin, "must be a unit quaternion");
+}
+
+void require_six_joints(const Chain& arm, const std::string& file, const std::string& language) {
+  if (arm.size() == 6) return;
+  throw InputError(
+      {file, 0}, "",
+      "is a program in " + language + ", whose arms have 6 joints; the model's has " + std::to_string(arm.size()));
+}
+
+namespace {
+
+KnownFrame kept(const std::map<std::string, Eigen::Isometry3d>& frames, std::string_view key, const std::string& name) {
+  const auto found = frames.find(lower_case(key));
+  if (found != frames.end()) return {name, found->second, ""};
+  return {name, Eigen::Isometry3d::Identity(), name + " is given neither in this program nor by --frames"};
+}
+
+}  // namespace
+
+KnownFrame ControllerData::frame(std::string_view key, const std::string& name) const {
+  return kept(frames, key, name);
+}
+
+KnownFrame ControllerData::tool(std::string_view key, const std::string& name) const {
+  return kept(tools, key, name);
+}
+
+}  // namespace demecal::inline parsed_programs

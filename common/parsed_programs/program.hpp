@@ -1,0 +1,194 @@
+// A robot program as correction sees it: the targets that stand in its text, number by number, and the frames it
+// states; and what a controller keeps outside of programs, which name it only: frames and tools, and what a pulse is.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "parsed_programs/program_text.hpp"
+
+namespace demecal::inline parsed_programs {
+
+/// What a target says of the joints that its pose is to be reached with.
+struct ArmHint {
+  JointVector near{};                           ///< joints close by; empty: unknown
+  std::vector<std::optional<int>> quadrants{};  ///< of each joint: 0 from 0 to 90 degrees, -1 from -90 to 0, ...
+  std::vector<std::optional<bool>> negative{};  ///< of each joint: whether its angle is below 0
+  /// The words that state it, where makers do not say the same by them: all that is known is that targets with the same
+  /// words are reached in the same configuration. Empty: none.
+  std::string configuration{};
+  bool empty() const { return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty(); }
+};
+
+/// How a program comes to a target.
+enum class Motion {
+  joints,  ///< every joint on its own; also where the program does not say
+  line     ///< the tool along a straight line, so that the arm keeps its configuration
+};
+
+/// In what a target's pose is written, as the program states it.
+struct StatedFrames {
+  Eigen::Isometry3d base_from_frame = Eigen::Isometry3d::Identity();
+  std::string frame{};                      ///< as the program names it; empty: the base frame
+  std::optional<Eigen::Isometry3d> tool{};  ///< flange from tool; nothing where the program states none
+  std::string tool_name{};                  ///< as the program names it
+  std::string unknown_frame{};              ///< why the frame cannot be known; empty: it is known
+  std::string unknown_tool{};               ///< the same of the tool
+};
+
+/// A target of joints or of a pose.
+struct Target {
+  std::string name{};  ///< as the file has it; empty: it has none
+  TextPlace place{};
+  std::vector<Cell> joints{};    ///< one per joint (rad or m inside), or none
+  std::vector<Cell> position{};  ///< x, y, z of the tool point in the frame stated, or none
+  OrientationForm form = OrientationForm::unknown;
+  std::vector<Cell> orientation{};
+  ArmHint hint{};
+  Motion motion = Motion::joints;
+  std::size_t order = 0;  ///< targets are visited by this, then in the order of the text
+  StatedFrames frames{};
+  std::optional<ApproachSigns> approach{};  ///< where the file says it
+  std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
+
+  bool is_pose() const { return joints.empty(); }
+  /// The first byte of its numbers.
+  std::size_t begin() const { return (is_pose() ? position : joints).front().begin; }
+};
+
+/// The place of remarks about a program as a whole.
+inline constexpr TextPlace kWholeProgram{0, 0, 0};
+
+/// A sentence about a place in the program.
+struct Remark {
+  TextPlace place;
+  std::string name;  ///< of the target it is about; may be empty
+  std::string sentence;
+};
+
+/// A file that a program has besides its first.
+struct FurtherFile {
+  std::string name{};     ///< as named to the user
+  std::size_t begin = 0;  ///< where it begins in the text of the whole program
+};
+
+struct Program {
+  std::string language{};              ///< the name of its row in all_languages()
+  std::string file{};                  ///< the first, as named to the user
+  std::vector<FurtherFile> further{};  ///< in the order of the text
+  std::vector<Target> targets;         ///< in the order of the text
+  std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
+
+  /// The name of a file by its number (TextPlace::file).
+  const std::string& file_name(std::size_t number) const { return number == 0 ? file : further[number - 1].name; }
+  /// The number of the file that a byte of the text is of.
+  std::size_t file_at(std::size_t offset) const;
+};
+
+/// Whether the file's orientation is kept as it is.
+bool keeps_orientation(const Target& target);
+/// Where a pose target, as written, has the tool point: base frame, axes of the flange. Its orientation must be known.
+Eigen::Isometry3d stated_tool_pose(const Target& target);
+/// Its tool point alone, base frame.
+Eigen::Vector3d stated_point(const Target& target);
+/// The tool's axes on the flange, as the program has them.
+Eigen::Matrix3d tool_axes(const Target& target);
+/// The values of the cells, in SI units or rad.
+std::vector<double> inside(const std::vector<Cell>& cells);
+
+// What readers are made of
+
+inline constexpr CellUnit kMillimetres{1e-3, kDecimalsMm};
+/// The units of the arm's joints in files that count in degrees and mm.
+std::vector<CellUnit> joint_units(const Chain& arm);
+
+/// A frame in a program: its pose, or why it has none that can be known.
+struct KnownFrame {
+  std::string name{};  ///< as the program has it
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  std::string unknown{};  ///< empty: `pose` is known
+
+  static KnownFrame computed(const std::string& what);  ///< "WHAT is computed when the program runs"
+};
+
+/// Takes a declaration of a frame; one that is declared with different numbers is unknown from then on.
+template <typename Key>
+void declare(std::map<Key, KnownFrame>& declared, const Key& key, const KnownFrame& frame) {
+  const auto [before, fresh] = declared.try_emplace(key, frame);
+  if (!fresh && before->second.unknown.empty() && !(frame.unknown.empty() && frame.pose.isApprox(before->second.pose)))
+    before->second.unknown = frame.name + " is given more than once";
+}
+
+void set_tool(StatedFrames& frames, const KnownFrame& tool);
+void set_frame(StatedFrames& frames, const KnownFrame& frame);
+
+/// Settings that hold from where they stand to the next.
+class FrameSettings {
+ public:
+  void tool_from(std::size_t begin, const KnownFrame& tool) { tools_.insert_or_assign(begin, tool); }
+  void frame_from(std::size_t begin, const KnownFrame& frame) { frames_.insert_or_assign(begin, frame); }
+  StatedFrames at(std::size_t offset) const;
+
+ private:
+  std::map<std::size_t, KnownFrame> tools_, frames_;
+};
+
+/// One motion to a target.
+struct TargetUse {
+  std::size_t begin = 0;  ///< of the motion in the text
+  Motion motion = Motion::joints;
+  StatedFrames frames{};
+};
+
+/// Gives the target what its uses (at least one) say: the place of the first, a line only where all are lines, and
+/// their frames, unknown where they differ.
+void take_uses(const std::vector<TargetUse>& uses, Target& target);
+
+/// Whether a target's numbers must be numbers: those that declare it as data; elsewhere they may be expressions.
+enum class Numbers { required, or_expressions };
+
+/// The cells of the items, each with the unit beside it. Nothing, and a remark in `program`, where one is an expression
+/// and may be one; throws InputError where one is neither.
+std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<const BracketItem> items,
+                                          std::span<const CellUnit> units, Numbers numbers, Program& program,
+                                          const Target& target);
+
+/// Says in `program` why this target cannot be corrected.
+void skip_target(Program& program, const Target& target, const std::string& why);
+
+/// Throws InputError at the place unless w, x, y, z are a unit quaternion, to the digits that files keep.
+void require_quaternion(const ProgramText& text, std::span<const Cell> cells);
+
+/// Throws InputError unless the arm has the six joints that this language's targets have.
+void require_six_joints(const Chain& arm, const std::string& file, const std::string& language);
+
+struct ControllerData {
+  std::map<std::string, Eigen::Isometry3d> frames{};  ///< base from frame, by number or name in small letters
+  std::map<std::string, Eigen::Isometry3d> tools{};   ///< flange from tool, likewise
+  std::vector<double> pulses_per_deg{};               ///< of each joint (per mm where it slides); empty: unknown
+
+  /// The frame of this key or, where it is not here, one that is unknown since it "is not given in this file". `name`
+  /// is how people call it.
+  KnownFrame frame(std::string_view key, const std::string& name) const;
+  KnownFrame tool(std::string_view key, const std::string& name) const;
+};
+
+/// What a reader is given.
+struct ReaderInput {
+  const ProgramSource& source;
+  const Chain& arm;
+  const ControllerData& controller;
+};
+
+}  // namespace demecal::inline parsed_programs

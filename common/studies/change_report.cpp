@@ -1,0 +1,198 @@
+#include "studies/change_report.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+
+#include "data/columns.hpp"
+#include "data/csv.hpp"
+#include "data/text.hpp"
+#include "effects/effect.hpp"
+#include "kinematics/units.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "report/history.hpp"
+
+namespace demecal::inline studies {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMilliPerUnit = 1e3;
+
+/// The unit that people use, and how many of it one inside is.
+std::pair<std::string, double> shown_unit(const std::string& unit) {
+  if (unit == "rad") return {"mrad", kMilliPerUnit};
+  if (unit == "m") return {"mm", kMilliPerUnit};
+  return {unit, 1.0};
+}
+
+std::string what_to_do_about(const ChangeCause& cause, const std::string& model_file) {
+  const std::string update = "or bring the model up to date: demecal diagnose DATASET.yaml --prior " + model_file;
+  switch (law_of(cause.effect).subject()) {
+    case Subject::instrument:
+      return "The robot itself is as it was: find the base's frame again where programs rely on it, " + update + ".";
+    case Subject::tool:
+      return "Look at the tool and its target: straighten or exchange it, or measure its tool point again, " + update +
+             ".";
+    case Subject::joint:
+      break;
+  }
+  return fmt::format(
+      "Look at joint {}: master it again where its zero has moved, have its gear looked at where its lost "
+      "motion has grown, {}.",
+      cause.effect.joint + 1, update);
+}
+
+std::string what_to_do(const ChangeReport& change, const std::string& model_file) {
+  if (change.unnamed)
+    return "The errors are larger than the model expects and none of the causes tried explains them: measure 30 poses "
+           "or more and run demecal diagnose DATASET.yaml --prior " +
+           model_file + ".";
+  if (change.found.empty())
+    return change.set_up_anew ? "The robot itself is as it was; its base was found again in the instrument's new frame."
+                              : "Nothing needs to be done.";
+  return what_to_do_about(change.found.back(), model_file);
+}
+
+Json cause_json(const ChangeCause& cause, const Robot& robot) {
+  const auto [unit, per_inside] = shown_unit(cause.unit);
+  return {{"kind", cause.effect.kind},
+          {"joint", cause.effect.joint < 0 ? Json() : Json(cause.effect.joint + 1)},
+          {"p_value", cause.p_value},
+          {"p_family", cause.p_family},
+          {"size", cause.size * per_inside},
+          {"standard_error", cause.standard_error * per_inside},
+          {"unit", unit},
+          {"smallest_detectable", std::isfinite(cause.detectable) ? Json(cause.detectable * per_inside) : Json()},
+          {"power", cause.power},
+          {"rivals", cause.rivals},
+          {"sentence", law_of(cause.effect).diagnosis(cause.effect, robot)}};
+}
+
+std::string answer(const ChangeReport& change) {
+  if (change.verdict == ChangeVerdict::unchanged) return "The robot is as it was.";
+  if (change.verdict == ChangeVerdict::registration)
+    return change.set_up_anew ? "The robot is as it was; the instrument was set up anew."
+                              : "The robot is as it was, but its base stands elsewhere in the instrument's frame.";
+  return change.unnamed ? "The robot has changed, by something that cannot be named." : "The robot has changed.";
+}
+
+}  // namespace
+
+std::string to_json(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
+  Json json{{"demecal_check", 1},
+            {"model", model_file},
+            {"data", data.name},
+            {"verdict", std::string(to_string(change.verdict))},
+            {"answer", answer(change)},
+            {"poses", change.poses},
+            {"set_up_anew", change.set_up_anew},
+            {"p_any", change.p_any},
+            {"strain", change.strain},
+            {"strain_limit", change.strain_limit},
+            {"noise_mm", millimetres(change.noise_m)},
+            {"error_mm", {{"by_model", millimetres(change.error_m)}, {"explained", millimetres(change.left_m)}}},
+            {"cause", Json()},
+            {"causes", Json::array()},
+            {"tried", Json::array()},
+            {"outliers", Json::array()},
+            {"not_testable", change.not_testable},
+            {"advice", what_to_do(change, model_file)}};
+  for (const ChangeCause& cause : change.found) json["causes"].push_back(cause_json(cause, data.robot));
+  if (!change.found.empty()) json["cause"] = cause_json(change.found.front(), data.robot);
+  for (const ChangeCause& cause : change.found)
+    if (!cause.is_registration) {
+      json["cause"] = cause_json(cause, data.robot);
+      break;
+    }
+  for (const ChangeCause& cause : change.tried) json["tried"].push_back(cause_json(cause, data.robot));
+  for (const std::size_t pose : change.outliers) json["outliers"].push_back(data.poses[pose].pose_id);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
+  std::string text = answer(change) + '\n';
+  for (const ChangeCause& cause : change.found) {
+    text += "  " + law_of(cause.effect).diagnosis(cause.effect, data.robot) + '\n';
+    text += fmt::format("    p = {:.2g} (all causes tried: {:.2g})\n", cause.p_value, cause.p_family);
+    if (!cause.rivals.empty())
+      text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));
+  }
+  text += "  " + what_to_do(change, model_file) + '\n';
+  text += fmt::format("  errors of the tool: rms {:.3g} mm by the model", millimetres(change.error_m));
+  if (!change.found.empty()) text += fmt::format(", {:.3g} mm once this is taken in", millimetres(change.left_m));
+  text += fmt::format("; {} poses, noise {:.3g} mm per axis\n", change.poses, millimetres(change.noise_m));
+  if (!change.outliers.empty())
+    text += fmt::format("  {} poses were left out as gross errors\n", change.outliers.size());
+  text += "  what these poses find nine times in ten:\n";
+  for (const ChangeCause& cause : change.tried) {
+    const auto [unit, per_inside] = shown_unit(cause.unit);
+    text += fmt::format("    {}: {:.2g} {}\n", to_string(cause.effect), cause.detectable * per_inside, unit);
+  }
+  for (const std::string& sentence : change.not_testable) text += "  " + sentence + '\n';
+  return text;
+}
+
+namespace {
+
+const std::vector<std::string>& columns() {
+  static const std::vector<std::string> all{"date",  "verdict", "strain", "strain_limit", "error_mm",
+                                            "poses", "cause",   "data",   "model"};
+  return all;
+}
+
+}  // namespace
+
+CheckRecord check_record(const ChangeReport& change, const DataSet& data, const std::string& model_file,
+                         const std::string& date) {
+  std::string causes;
+  for (const ChangeCause& cause : change.found) causes += (causes.empty() ? "" : " and ") + to_string(cause.effect);
+  if (change.unnamed) causes = "cannot be named";
+  return {.date = date,
+          .model = model_file,
+          .data = data.name,
+          .poses = change.poses,
+          .verdict = std::string(to_string(change.verdict)),
+          .strain = change.strain,
+          .strain_limit = change.strain_limit,
+          .error_mm = millimetres(change.error_m),
+          .cause = causes};
+}
+
+std::string check_history_csv(const std::vector<CheckRecord>& records) {
+  CsvTable table;
+  table.columns = columns();
+  for (const CheckRecord& one : records)
+    table.rows.push_back({0,
+                          {on_one_line(one.date), one.verdict, number_text(one.strain), number_text(one.strain_limit),
+                           number_text(one.error_mm), std::to_string(one.poses), on_one_line(one.cause),
+                           on_one_line(one.data), on_one_line(one.model)}});
+  std::ostringstream text;
+  write_csv(text, table);
+  return text.str();
+}
+
+std::vector<CheckRecord> read_check_history(const std::string& text, const std::string& file) {
+  std::vector<CheckRecord> records;
+  if (text.empty()) return records;
+  std::istringstream in(text);
+  const CsvTable table = read_csv(in, file);
+  std::vector<TableColumn> read;
+  for (const std::string& column : columns()) read.emplace_back(table, ColumnName{column, {file, table.header_line}});
+  for (const CsvRow& row : table.rows)
+    records.push_back({.date = read[0].text(row),
+                       .model = read[8].text(row),
+                       .data = read[7].text(row),
+                       .poses = static_cast<std::uint64_t>(std::max(0.0, read[5].number(row))),
+                       .verdict = read[1].text(row),
+                       .strain = read[2].number(row),
+                       .strain_limit = read[3].number(row),
+                       .error_mm = read[4].number(row),
+                       .cause = read[6].text(row)});
+  return records;
+}
+
+}  // namespace demecal::inline studies

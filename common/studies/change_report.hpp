@@ -1,0 +1,38 @@
+// What `check` says of a robot, as JSON and for a terminal; and the record of its checks: one line a check, of how far
+// the robot strayed from its model and from what is usual.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "updating/change.hpp"
+
+namespace demecal::inline studies {
+
+/// One JSON object on one line.
+std::string to_json(const ChangeReport& change, const DataSet& data, const std::string& model_file);
+
+/// The answer first, then what was found and what to do, then how sure it is.
+std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file);
+
+struct CheckRecord {
+  std::string date;  ///< YYYY-MM-DD
+  std::string model, data;
+  std::uint64_t poses = 0;
+  std::string verdict;
+  double strain = 0.0, strain_limit = 0.0;  ///< as of ChangeReport
+  double error_mm = 0.0;                    ///< rms of the tool by the model
+  std::string cause;                        ///< what was found, in words; empty: nothing
+};
+
+CheckRecord check_record(const ChangeReport& change, const DataSet& data, const std::string& model_file,
+                         const std::string& date);
+
+/// A table that read_check_history() reads back.
+std::string check_history_csv(const std::vector<CheckRecord>& records);
+/// Throws InputError at the first fault; an empty text is a history without checks.
+std::vector<CheckRecord> read_check_history(const std::string& text, const std::string& file);
+
+}  // namespace demecal::inline studies

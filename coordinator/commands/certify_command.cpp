@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acceptance/certificate.hpp"
+#include "acceptance/iso9283.hpp"
+#include "certificate/documents.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "config/model_file.hpp"
+#include "coordinator/child_process.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data/certificate_fields.hpp"
+#include "data/data_set.hpp"
+#include "data_check/check_data.hpp"
+#include "data_files/data_set_file.hpp"
+#include "kinematics/units.hpp"
+#include "report/evaluation.hpp"
+#include "terminal/report_text.hpp"
+#include "updating/fleet_model.hpp"
+#include "workflows/workflows.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+struct CertifyRequest {
+  std::string model_file, data_file, out;
+  double tolerance_mm = 0.0;
+  bool json = false, refit_base = false, force = false;
+};
+
+std::string figures_line(const char* words, const SetErrors& errors) {
+  const auto mm = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.3f}", *value) : std::string("–");
+  };
+  return fmt::format("  {:<34}{:>10}{:>10}{:>10}{:>10}\n", words, mm(errors.mean_mm), mm(errors.rms_mm),
+                     mm(errors.p95_mm), mm(errors.max_mm));
+}
+
+std::string summary(const Certificate& certificate) {
+  std::string text = verdict_sentence(certificate) + '\n';
+  if (const std::string remedy = remedy_sentence(certificate); !remedy.empty()) text += remedy + '\n';
+  text += fmt::format("\n  {:<34}{:>10}{:>10}{:>10}{:>10}\n",
+                      fmt::format("{} {} measurements, mm", certificate.judged_rows, certificate.judged_set), "mean",
+                      "rms", "P95", "largest");
+  text += figures_line("before", certificate.before) + figures_line("after", certificate.after);
+  if (certificate.uncertainty && certificate.uncertainty->expanded_mm)
+    text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
+                        *certificate.uncertainty->expanded_mm);
+  text += '\n';
+  for (const Characteristic& one : certificate.characteristics) {
+    const std::string value = one.value_mm ? fmt::format("{:.3f} mm", *one.value_mm) : "not measured";
+    text += fmt::format("  {:<5}{:>14}  {}: {}\n", one.symbol, value, one.title, one.basis);
+  }
+  for (const std::string& remark : certificate.remarks) text += "  - " + remark + '\n';
+  if (!certificate.missing.empty())
+    text += fmt::format("  not stated, and blank on the certificate (`certificate:` in the job or data set): {}\n",
+                        fmt::join(certificate.missing, "; "));
+  return text;
+}
+
+/// What was written besides the two files that always are, or why nothing was.
+std::string print_page(const CertifyRequest& request) {
+  const std::optional<std::string> printer = find_printer();
+  const std::string pdf = request.out + "/certificate.pdf";
+  std::string why = "no printer of pages is installed (weasyprint or chromium)";
+  if (printer) {
+    if (const std::optional<std::string> bytes = printed(*printer, request.out + "/certificate.html")) {
+      write_result(request.out, "certificate.pdf", *bytes);
+      return pdf;
+    }
+    why = *printer + " could not print the page";
+  }
+  std::filesystem::remove(pdf);  // one of an earlier run would state other figures
+  return "no certificate.pdf: " + why;
+}
+
+ExitCode run(const CertifyRequest& request) {
+  if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
+  CalibratedModel model = load_model(request.model_file);
+  require_one_robot(model, request.model_file, "certify");
+  CheckedData checked = load_checked(request.data_file);
+  const DataSet& data = checked.data;
+  model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
+  require_same_arm(model.robot, data);
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
+  check_fitted(data, model.robot, checked.check);
+  const Certificate certificate =
+      make_certificate(model, data,
+                       {.fields = merged(load_certificate(request.data_file), model.certificate),
+                        .tolerance_m = metres(request.tolerance_mm),
+                        .today = today(),
+                        .model_sha256 = sha256(read_file(request.model_file)),
+                        .refit_base = request.refit_base});
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  write_result(request.out, "certificate.html", certificate_html(certificate));
+  write_result(request.out, "certificate.xml", dcc_xml(certificate));
+  const std::string pdf = print_page(request);
+  if (request.json) {
+    fmt::print("{}", to_json(certificate));
+  } else {
+    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml\n{}\n", summary(certificate), request.out, request.out,
+               pdf);
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_certify(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<CertifyRequest>();
+  CLI::App* command = app.add_subcommand("certify", "whether a calibrated robot keeps a tolerance, as a certificate");
+  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("data", request->data_file, "DATASET.yaml; its accept poses are judged, where it has some")
+      ->required();
+  command
+      ->add_option("--tolerance", request->tolerance_mm,
+                   "mm that 95 % of position errors are to stay within; of errors of known lengths where poses only "
+                   "touch something")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", request->out, "folder of certificate.html, .xml and .pdf")->required();
+  command->add_flag("--json", request->json, "one line of JSON");
+  command->add_flag("--refit-base", request->refit_base,
+                    "fit base and tool to the poses that are not judged first, where the instrument was moved");
+  add_force(*command, request->force);
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

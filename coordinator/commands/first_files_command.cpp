@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/draft_data_set.hpp"
+#include "drafting/templates.hpp"
+#include "errors/input_error.hpp"
+#include "report/evaluation.hpp"
+#include "tables/layout.hpp"
+#include "terminal/report_text.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+struct TemplateRequest {
+  std::string kind, out;
+  std::vector<std::string> given;
+  bool force = false;
+};
+
+TemplateKind kind_of(const std::string& word) {
+  if (word == "robot") return TemplateKind::robot;
+  if (word == "dataset") return TemplateKind::dataset;
+  if (word == "job") return TemplateKind::job;
+  return word == "scenario" ? TemplateKind::scenario : TemplateKind::preparation;
+}
+
+ExitCode run(const TemplateRequest& request) {
+  const std::filesystem::path out = request.out;
+  const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
+  const std::vector<std::filesystem::path> given(request.given.begin(), request.given.end());
+  const std::string text = template_text(kind_of(request.kind), given, folder);
+  if (request.out.empty()) {
+    fmt::print("{}", text);
+    return ExitCode::done;
+  }
+  if (std::filesystem::exists(out) && !request.force)
+    throw ArgumentError(request.out + " is there already: name another file, or overwrite it with --force");
+  write_file(out, text);
+  fmt::print("{} written\n", request.out);
+  return ExitCode::done;
+}
+
+struct NewRequest {
+  std::string folder, robot, urdf, base, tip, delimiter, decimal;
+  std::vector<std::string> poses;
+  bool force = false;
+};
+
+const std::vector<std::string> kNewFiles{"robot.yaml", "dataset.yaml", "job.yaml"};
+
+ToldLayout told_layout(const NewRequest& request) {
+  ToldLayout told;
+  for (const Delimiter delimiter : {Delimiter::comma, Delimiter::semicolon, Delimiter::tab, Delimiter::blanks}) {
+    if (request.delimiter == to_string(delimiter)) told.delimiter = delimiter;
+  }
+  if (!request.decimal.empty()) told.decimal = request.decimal == "comma" ? ',' : '.';
+  return told;
+}
+
+/// The first draft whose rows fit together, written; throws what is wrong with the likeliest where none does.
+DataSetDraft write_fitting_draft(const std::filesystem::path& file, const std::vector<DataSetDraft>& drafts) {
+  std::optional<InputError> first_fault;
+  for (const DataSetDraft& draft : drafts) {
+    write_file(file, draft.text);
+    try {
+      load_data_set(file);
+      return draft;
+    } catch (const InputError& fault) {
+      if (!first_fault) first_fault = fault;
+    }
+  }
+  throw InputError(*first_fault);
+}
+
+/// The arm's file as it will stand in the new folder, and what was assumed of it.
+ImportedRobot robot_file(const NewRequest& request) {
+  if (request.urdf.empty()) return {read_file(request.robot), {}};
+  ImportRequest urdf{request.urdf, {}, {}, request.folder + "/robot.yaml"};
+  if (!request.base.empty()) urdf.base = request.base;
+  if (!request.tip.empty()) urdf.tip = request.tip;
+  return import_urdf(urdf);
+}
+
+ExitCode run(const NewRequest& request) {
+  const ImportedRobot arm = robot_file(request);
+  const std::string named = request.urdf.empty() ? request.robot : request.folder + "/robot.yaml";
+  const Robot robot = read_robot(parse_yaml(arm.text, named).with_version("robot", 1));
+  const auto joints = static_cast<std::size_t>(robot.chain.size());
+  const ToldLayout told = told_layout(request);
+  const std::vector<std::filesystem::path> files(request.poses.begin(), request.poses.end());
+  const std::vector<GivenTable> tables = read_given_tables(files, joints, told, joint_names(robot));
+  const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told);
+  make_writable(request.folder, kNewFiles, request.force);
+  const FilesBeingWritten written(request.folder, kNewFiles);
+  write_file(request.folder + "/robot.yaml", arm.text);
+  write_file(request.folder + "/job.yaml", first_job_text("dataset.yaml"));
+  const DataSetDraft draft = write_fitting_draft(request.folder + "/dataset.yaml", drafts);
+  const CheckedData checked = load_checked(request.folder + "/dataset.yaml");
+  fmt::print("{}: {} poses of {}; {} written\n", request.folder, checked.data.poses.size(), robot.name,
+             fmt::join(kNewFiles, ", "));
+  fmt::print("Assumed; check it in dataset.yaml:\n");
+  for (const std::string& sentence : draft.assumed) fmt::print("  {}\n", sentence);
+  for (const std::string& note : arm.notes) fmt::print("Check in robot.yaml: {}\n", note);
+  fmt::print("Check in robot.yaml: dimensions, signs and offsets of joints, tool_mm.\n");
+  if (refuses(checked, false)) return ExitCode::contradiction;
+  fmt::print("{}", to_terminal(data_check_entry(checked.check)));
+  fmt::print("Next: demecal calibrate {}/job.yaml --out {}/result\n", request.folder, request.folder);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_template(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<TemplateRequest>();
+  CLI::App* command =
+      app.add_subcommand("template", "a commented file to begin with, filled in as far as given files tell");
+  command->add_option("kind", request->kind, "robot, dataset, job, scenario or preparation")
+      ->required()
+      ->check(CLI::IsMember({"robot", "dataset", "job", "scenario", "preparation"}));
+  command->add_option("--for", request->given, "tables of poses or readings, robot programs, ROBOT.yaml, DATASET.yaml");
+  command->add_option("--out", request->out, "file to write; without it, standard output");
+  command->add_flag("--force", request->force, "overwrite the file");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+void add_new(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<NewRequest>();
+  CLI::App* command =
+      app.add_subcommand("new", "robot, data set and job from an arm's file and the files of a measurement");
+  command->add_option("folder", request->folder, "folder to write")->required();
+  CLI::Option_group* arm = command->add_option_group("arm", "one of");
+  arm->add_option("--robot", request->robot, "ROBOT.yaml");
+  CLI::Option* urdf = arm->add_option("--urdf", request->urdf, "URDF of the arm");
+  arm->require_option(1);
+  command->add_option("--base", request->base, "LINK of the URDF that the arm stands on")->needs(urdf);
+  command->add_option("--tip", request->tip, "LINK of the URDF at the arm's flange")->needs(urdf);
+  command->add_option("--poses", request->poses, "tables with joints and measured points; several are joined")
+      ->required();
+  command->add_option("--delimiter", request->delimiter, "between columns, where it cannot be told")
+      ->check(CLI::IsMember({"comma", "semicolon", "tab", "blanks"}));
+  command->add_option("--decimal", request->decimal, "sign of decimals, where it cannot be told")
+      ->check(CLI::IsMember({"point", "comma"}));
+  command->add_flag("--force", request->force,
+                    "overwrite files that demecal did not write, or that were changed since");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

@@ -1,0 +1,269 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "acceptance/certificate.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "config/model_export.hpp"
+#include "config/model_file.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "data_check/check_data.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "errors/input_error.hpp"
+#include "fitting/declared_model.hpp"
+#include "fitting/fit.hpp"
+#include "html/page.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/corrected_arm.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "report/evaluation.hpp"
+#include "report/report.hpp"
+#include "studies/change_report.hpp"
+#include "symbolic/algebra.hpp"
+#include "symbolic/code.hpp"
+#include "symbolic/printing.hpp"
+#include "terminal/report_text.hpp"
+#include "updating/change.hpp"
+#include "updating/fleet_model.hpp"
+#include "workflows/workflows.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
+
+namespace demecal {
+namespace {
+
+struct ExportRequest {
+  std::string file, out, target, urdf, format = "text";
+  int derivative = 0;  ///< by this joint, from 1; 0: none
+};
+
+const std::map<std::string, CodeLanguage>& code_languages() {
+  static const std::map<std::string, CodeLanguage> all{{"text", CodeLanguage::text},
+                                                       {"c", CodeLanguage::c},
+                                                       {"python", CodeLanguage::python},
+                                                       {"matlab", CodeLanguage::matlab}};
+  return all;
+}
+
+void require_target(const ExportRequest& request, const CorrectedRobot& robot) {
+  if (robot.tools.contains(request.target)) return;
+  std::string known;
+  for (const auto& [target, tool] : robot.tools) {
+    if (!target.empty()) known += (known.empty() ? "'" : ", '") + target + '\'';
+  }
+  throw InputError({request.file, 0}, request.target,
+                   known.empty() ? "is no target of this model, which has but one tool point"
+                                 : "is no target of this model; it has " + known);
+}
+
+/// A robot as its maker describes it.
+CorrectedRobot as_drawn(const Robot& robot) {
+  DataSet none;
+  none.robot = robot;
+  return nominal_robot(none);
+}
+
+/// What is exported: the listing, and what of its inverse follows in C.
+struct ExportedListing {
+  Listing listing;
+  std::string inverse_in_c{};
+};
+
+ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
+                                 const std::string& title) {
+  require_target(request, robot);
+  const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
+  for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
+  return {listing_of(arm, robot, title), inverse_in_c(described_listing(algebra, robot, request.target))};
+}
+
+/// By what the file says that it is: a model, a robot, or matrices.
+ExportedListing listing_asked(Algebra& algebra, const ExportRequest& request) {
+  const YamlNode file = read_yaml(request.file);
+  if (file.find("demecal_matrices") != nullptr) return {load_matrices(algebra, request.file)};
+  if (file.find("demecal_robot") != nullptr) {
+    const Robot robot = load_robot(request.file);
+    return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it");
+  }
+  const CalibratedModel model = load_model(request.file);
+  say_if_fleet(model, request.file);
+  const std::string title =
+      fmt::format("{} as calibrated by the job {} (demecal {})", model.nominal.name, model.job, model.version);
+  return listing_of_robot(algebra, request, model.robot, title);
+}
+
+void write_or_print(const ExportRequest& request, const std::string& text) {
+  if (request.out.empty()) {
+    fmt::print("{}", text);
+  } else {
+    write_file(request.out, text);
+  }
+}
+
+/// A robot file is taken as a model of which nothing was identified.
+CalibratedModel model_asked(const ExportRequest& request) {
+  if (read_yaml(request.file).find("demecal_robot") == nullptr) return load_model(request.file);
+  CalibratedModel model;
+  model.nominal = load_robot(request.file);
+  model.robot = as_drawn(model.nominal);
+  return model;
+}
+
+ExitCode run_links(const ExportRequest& request) {
+  const CalibratedModel model = model_asked(request);
+  say_if_fleet(model, request.file);
+  const ExportedArm exported = request.format == "urdf"          ? calibrated_urdf(model, request.urdf)
+                               : request.format == "ros2-params" ? ros2_parameters(model, request.urdf)
+                                                                 : ur_calibration(model);
+  for (const std::string& note : exported.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
+  write_or_print(request, exported.text);
+  return ExitCode::done;
+}
+
+ExitCode run(const ExportRequest& request) {
+  if (!code_languages().contains(request.format)) return run_links(request);
+  Algebra algebra;
+  auto [listing, inverse] = listing_asked(algebra, request);
+  if (request.derivative > static_cast<int>(listing.actual.size())) {
+    throw InputError({request.file, 0}, std::to_string(request.derivative),
+                     "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
+  }
+  if (request.derivative > 0) listing = derivative(listing, request.derivative);
+  const bool with_inverse = request.format == "c" && request.derivative == 0;
+  write_or_print(request, code_of(listing, code_languages().at(request.format)) + (with_inverse ? inverse : ""));
+  return ExitCode::done;
+}
+
+struct EvaluateRequest {
+  std::string model_file;
+  std::vector<std::string> data_files;
+  bool json = false, refit_base = false, force = false;
+};
+
+/// The model in the data's own frame: base and tool fitted on the calibration poses, everything else as it is.
+CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
+  const DeclaredModel base_and_tool{.registration = true, .tool = true};
+  CorrectedRobot start = model.robot;
+  if (model.fleet) start.tools = nominal_robot(data).tools;
+  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), base_and_tool, start);
+  if (fit.status != FitStatus::converged) throw InputError({data.file, 0}, "", fit.sentence);
+  return fit.robot;
+}
+
+ExitCode run(const EvaluateRequest& request) {
+  const CalibratedModel model = load_model(request.model_file);
+  say_if_fleet(model, request.model_file);
+  CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
+  const DataSet& data = checked.data;
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  // A fleet stands nowhere: base and tool are those of the data.
+  const CorrectedRobot robot = request.refit_base || model.fleet
+                                   ? registered(model, data)
+                                   : seen_from_stations(model.robot, model.stations, data);
+  require_same_arm(robot, data);
+  check_fitted(data, robot, checked.check);
+  Evaluation evaluation{errors_by_set(robot, data),
+                        pose_errors(data, model, robot, nullptr),
+                        data_check_entry(checked.check),
+                        unapplied_effects(robot, data),
+                        {},
+                        uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
+  evaluation.touches = has_contacts(data);
+  evaluation.length_errors = length_error_entries(data, robot, nullptr);
+  if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
+  fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
+  for (const UnappliedEffect& one : evaluation.effects_not_applied)
+    fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
+  fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<ExportRequest>();
+  CLI::App* command =
+      app.add_subcommand("export", "the corrected forward model as formulas or code, or the arm for ROS");
+  command->add_option("model", request->file, "MODEL.yaml; or a ROBOT.yaml, or matrices of text")->required();
+  command->add_option("--format", request->format, "text, c, python, matlab, urdf, ros2-params or ur-calibration")
+      ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf", "ros2-params", "ur-calibration"}))
+      ->capture_default_str();
+  command->add_option("--out", request->out, "file to write; without it, standard output");
+  command->add_option("--target", request->target, "the tool point, where the model has several");
+  command->add_option("--urdf", request->urdf, "the URDF that the robot was imported from, where it has moved");
+  command->add_option("--derivative", request->derivative, "the pose's derivative by this joint, instead of the pose")
+      ->check(CLI::Range(1, kMaxJoints));
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+void add_evaluate(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<EvaluateRequest>();
+  CLI::App* command = app.add_subcommand("evaluate", "position error of a model on a data set");
+  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("data", request->data_files, "DATASET.yaml; several: one of each station")->required();
+  command->add_flag("--json", request->json, "one line of JSON");
+  add_force(*command, request->force);
+  command->add_flag("--refit-base", request->refit_base,
+                    "fit base and tool to the data first, where the instrument or the tool was moved");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+namespace {
+
+struct CheckRequest {
+  std::string model_file, data_file, history;
+  bool json = false, force = false;
+};
+
+/// Adds the check to the folder's record, and draws it.
+void keep(const CheckRequest& request, const ChangeReport& change, const DataSet& data) {
+  constexpr const char *kTable = "check-history.csv", *kPage = "check-history.html";
+  make_writable(request.history, {kTable, kPage}, request.force);
+  const std::string path = request.history + '/' + kTable;
+  std::vector<CheckRecord> records;
+  if (std::filesystem::exists(path)) records = read_check_history(read_file(path), path);
+  records.push_back(check_record(change, data, request.model_file, today()));
+  write_result(request.history, kTable, check_history_csv(records));
+  write_result(request.history, kPage, check_history_html(records));
+  fmt::print(stderr, "{}/{}: {} checks\n", request.history, kPage, records.size());
+}
+
+ExitCode run(const CheckRequest& request) {
+  const CalibratedModel model = load_model(request.model_file);
+  require_one_robot(model, request.model_file, "check");
+  const DataSet data = load_data_set(request.data_file);
+  require_positions(data, "check");
+  require_same_nominal_arm(model, data);
+  const ChangeReport change = find_change(model, data);
+  if (!request.history.empty()) keep(request, change, data);
+  fmt::print("{}",
+             request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));
+  return change.verdict == ChangeVerdict::changed ? ExitCode::changed : ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<CheckRequest>();
+  CLI::App* command = app.add_subcommand("check", "whether the robot has changed since it was calibrated, and how");
+  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("data", request->data_file, "DATASET.yaml of a few new poses, 12 or more")->required();
+  command->add_flag("--json", request->json, "the answer as one line of JSON");
+  command->add_option("--history", request->history,
+                      "folder that keeps the record of checks: a line is added, and its control chart drawn");
+  command->add_flag("--force", request->force, "overwrite a record that was changed since demecal wrote it");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/cell_file.hpp"
+#include "config/job_file.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data_files/data_set_file.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/planned_files.hpp"
+#include "effects/catalogue.hpp"
+#include "fitting/declared_model.hpp"
+#include "html/page.hpp"
+#include "languages/languages.hpp"
+#include "planning/plan.hpp"
+#include "studies/plan_report.hpp"
+#include "terminal/report_text.hpp"
+#include "yaml/yaml_text.hpp"
+
+namespace demecal {
+namespace {
+
+struct PlanCommand {
+  std::string robot_file, out, cell_file, after;
+  std::vector<std::string> declared, detect;
+  std::optional<int> poses, validation, accept, contacts;
+  std::optional<double> accuracy_mm;
+  std::uint64_t seed = 1;
+  bool json = false, force = false;
+};
+
+struct NamedText {
+  std::string name, text;
+};
+
+/// A single target that the cell states is the ball.
+void take_ball(const PlanCommand& command, PlanRequest& request) {
+  if (request.tools_m.size() > 1)
+    throw InputError({command.cell_file, 0}, "tools_mm", "states several targets: a single ball touches the sockets");
+  if (request.tools_m.empty()) return;
+  request.robot.chain.tool_m = request.tools_m.begin()->second;
+  request.tools_m.clear();
+}
+
+PlanRequest request_of(const PlanCommand& command) {
+  PlanRequest request;
+  request.robot = load_robot(command.robot_file);
+  if (!command.declared.empty()) request.declared = declared_model(command.declared);
+  request.declared.registration = true;
+  request.detect = command.detect;
+  request.poses = command.poses;
+  if (command.accuracy_mm) request.accuracy_m = 1e-3 * *command.accuracy_mm;
+  request.validation = command.validation;
+  request.accept = command.accept;
+  request.places = command.contacts;
+  request.seed = command.seed;
+  if (!command.cell_file.empty()) {
+    CellFile file = load_cell(command.cell_file, request.robot);
+    request.cell = std::move(file.cell);
+    request.tools_m = std::move(file.tools_m);
+  }
+  if (request.places) take_ball(command, request);
+  if (request.places && !command.after.empty())
+    throw ArgumentError("--contacts and --after exclude each other: a plan goes on from measured points alone");
+  if (!command.after.empty()) {
+    request.measured = load_data_set(command.after);
+    require_positions(*request.measured, "plan --after");
+    if (request.measured->robot.chain.size() != request.robot.chain.size())
+      throw InputError({command.after, 0}, request.measured->robot.name, "is not of the arm that is planned for");
+  }
+  return request;
+}
+
+/// The plan's way as stops of a program: P1 is measured, A1 comes before it, W1 is on the way.
+std::vector<ProgrammedStop> programmed(const Plan& plan) {
+  std::vector<ProgrammedStop> stops;
+  int next = 1;
+  for (std::size_t i = 0; i < plan.way.stops.size(); ++i) {
+    const WayStop& stop = plan.way.stops[i];
+    const bool before = stop.pose < 0 && i + 1 < plan.way.stops.size() && plan.way.stops[i + 1].pose >= 0;
+    const std::string number = std::to_string(next);
+    if (stop.pose >= 0) ++next;
+    stops.push_back({(stop.pose >= 0 ? "P" : before ? "A" : "W") + number, stop.joints, stop.pose >= 0});
+  }
+  return stops;
+}
+
+std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request) {
+  std::vector<NamedText> files{{"poses.csv", planned_poses_csv(plan, request)},
+                               {"DATASET.yaml", planned_data_set_text(plan, request)},
+                               {"JOB.yaml", planned_job_text(request)},
+                               {"robot.yaml", yaml_comment("the robot that was planned for, nominal") +
+                                                  "demecal_robot: 1\n" + robot_text(request.robot)},
+                               {"plan.html", plan_html(plan, request)}};
+  const std::vector<ProgrammedStop> stops = programmed(plan);
+  for (const Language& language : all_languages()) {
+    if (language.write == nullptr || stops.empty()) continue;
+    std::string text = language.write(stops, request.robot.chain);
+    if (!text.empty()) files.push_back({"program." + std::string(written_ending(language)), std::move(text)});
+  }
+  return files;
+}
+
+ExitCode run(const PlanCommand& command) {
+  if (command.poses && command.accuracy_mm)
+    throw ArgumentError("--poses and --accuracy exclude each other: state one of them");
+  const PlanRequest request = request_of(command);
+  const Plan plan = make_plan(request);
+  std::vector<NamedText> files = files_of(plan, request);
+  std::vector<std::string> names;
+  for (const NamedText& file : files) names.push_back(file.name);
+  names.emplace_back("plan.json");
+  files.push_back({"plan.json", to_json(plan, request, names)});
+  make_writable(command.out, names, command.force);
+  for (const NamedText& file : files) write_result(command.out, file.name, file.text);
+  if (command.json) {
+    fmt::print("{}", files.back().text);
+  } else {
+    fmt::print("{}  {}: {}\n", to_terminal(plan, request), command.out, fmt::join(names, ", "));
+  }
+  return ExitCode::done;
+}
+
+CLI::Validator words_of(std::vector<std::string> words) {
+  return {[words = std::move(words)](const std::string& word) -> std::string {
+            if (std::find(words.begin(), words.end(), word) != words.end()) return {};
+            return fmt::format("'{}' is none of: {}", word, fmt::join(words, " "));
+          },
+          ""};
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, ExitCode& exit_code) {
+  constexpr int kMost = 1000, kMostPlaces = 12;
+  const auto request = std::make_shared<PlanCommand>();
+  CLI::App* command = app.add_subcommand("plan", "which poses to measure, before the first one is");
+  command->add_option("robot", request->robot_file, "ROBOT.yaml")->required();
+  command->add_option("--out", request->out, "folder for poses, data set, job, robot programs and page")->required();
+  command
+      ->add_option("--poses", request->poses,
+                   "N poses for calibration; those for validation and acceptance come on top")
+      ->check(CLI::Range(1, kMost));
+  command->add_option("--accuracy", request->accuracy_mm, "MM: the fewest poses predicted to leave so much (rms)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--declare", request->declared,
+                   "LIST of what the model will contain, registration always (default: "
+                   "registration,tool,joint_offset,geometry)")
+      ->delimiter(',')
+      ->check(words_of(declared_words()));
+  const auto kinds = effect_kinds();
+  command->add_option("--detect", request->detect, "LIST of kinds of effects that the poses shall tell apart besides")
+      ->delimiter(',')
+      ->check(words_of({kinds.begin(), kinds.end()}));
+  command->add_option("--cell", request->cell_file, "CELL.yaml: room for the arm, instrument, targets, noise");
+  command
+      ->add_option("--contacts", request->contacts,
+                   "N places of sockets that a ball on the tool touches, where no instrument measures; one more is for "
+                   "accept poses")
+      ->check(CLI::Range(1, kMostPlaces));
+  command->add_option("--after", request->after, "DATASET.yaml of a measurement that the plan goes on from");
+  command->add_option("--validation", request->validation, "poses for validation (default: 3 for 10, 10 at least)")
+      ->check(CLI::Range(0, kMost));
+  command->add_option("--accept", request->accept, "poses for acceptance (default: the same)")
+      ->check(CLI::Range(0, kMost));
+  command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
+  command->add_flag("--json", request->json, "print plan.json in place of the summary");
+  command->add_flag("--force", request->force,
+                    "overwrite files that demecal did not write, or that were changed since");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace demecal

@@ -1,0 +1,54 @@
+#include "coordinator/commands/prior_runs.hpp"
+
+#include <fmt/format.h>
+#include <atomic>
+#include <utility>
+
+#include "config/model_file.hpp"
+#include "coordinator/displays.hpp"
+#include "coordinator/result_folder.hpp"
+#include "report/report.hpp"
+#include "terminal/report_text.hpp"
+#include "terminal/text.hpp"
+#include "workflows/workflows.hpp"
+
+namespace demecal {
+
+ExitCode run_with_prior(PriorRun run) {
+  const CalibratedModel prior = load_model(run.prior_file);
+  const CheckedData checked = load_checked(run.job.data_files, run.job.station_tools, run.force);
+  const DataSet& data = checked.data;
+  if (!run.declared_stated) run.job.declared = prior.declared;
+  run.job.declared.registration = run.job.declared.tool = true;
+  run.job.method = Method::diagnose;
+  make_writable(run.out, result_files(Method::diagnose), run.force);
+  if (refuses(checked, run.force)) {
+    write_refusal(run.out, run.job.name, checked);
+    return ExitCode::contradiction;
+  }
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
+  LoopDisplay display(stderr, data.robot, run.quiet);
+  const std::string beginning = prior.fleet
+                                    ? fmt::format("the mean of {} robots of its type", prior.fleet->robots.size())
+                                    : fmt::format("the model of {} ({})", prior.job, prior.data_name);
+  display.say(fmt::format("{} on {}: {} poses, beginning with {}, declared: {}", data.robot.name, data.name,
+                          data.poses.size(), beginning, fmt::join(run.job.declared.words(), ", ")));
+  CalibrateResult result = fit_or_report(run.out, run.job.name, checked, [&] {
+    return update_model(data, run.job, prior, [&](const Round& round) {
+      display.on_round(round);
+      return !interrupt;
+    });
+  });
+  result.check = checked.check;
+  const Report report = write_results(run.out, data, result);
+  if (run.json) {
+    fmt::print("{}", to_json(report));
+    return ExitCode::done;
+  }
+  fmt::print("{}\n", to_terminal(report));
+  for (const std::string& remark : result.remarks) fmt::print("{}\n", wrapped("  ", remark, 4));
+  fmt::print("  {:.1f} s; results: {}/model.yaml, report.json, report.html\n", result.facts.wall_s, run.out);
+  return ExitCode::done;
+}
+
+}  // namespace demecal

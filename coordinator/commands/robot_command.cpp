@@ -1,0 +1,292 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "data/text.hpp"
+#include "data_check/pendant.hpp"
+#include "data_files/robot_file.hpp"
+#include "drafting/draft_data_set.hpp"
+#include "drafting/templates.hpp"
+#include "errors/input_error.hpp"
+#include "html/arm_picture.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/drawn_arm.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/units.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+struct ImportOptions {
+  ImportRequest urdf;
+  std::string base, tip;
+  bool force = false;
+};
+
+ExitCode run(ImportOptions options) {
+  if (!options.base.empty()) options.urdf.base = options.base;
+  if (!options.tip.empty()) options.urdf.tip = options.tip;
+  const ImportedRobot imported = import_urdf(options.urdf);
+  for (const std::string& note : imported.notes) fmt::print(stderr, "{}: {}\n", options.urdf.file, note);
+  const std::filesystem::path out = options.urdf.beside;
+  const std::string folder = out.has_parent_path() ? out.parent_path().string() : ".";
+  make_writable(folder, {out.filename().string()}, options.force);
+  write_result(folder, out.filename().string(), imported.text);
+  const Robot robot = load_robot(options.urdf.beside);
+  fmt::print("{}: {}, {} joints, from link {} to link {}\n", options.urdf.beside, robot.name, robot.chain.size(),
+             robot.urdf->base, robot.urdf->tip);
+  return ExitCode::done;
+}
+
+struct ShowOptions {
+  std::string file, at, compare, picture;
+  bool json = false;
+};
+
+/// The joints that --at gives, deg (mm of prismatic joints); all 0 where it is not given.
+JointVector joints_asked(const std::string& at, const Chain& chain) {
+  std::vector<double> values;
+  if (at.empty()) return JointVector::Zero(chain.size());
+  for (std::size_t begin = 0; begin <= at.size();) {
+    const std::size_t end = std::min(at.find(',', begin), at.size());
+    std::string field = at.substr(begin, end - begin);
+    std::erase_if(field, [](char c) { return c == ' ' || c == '[' || c == ']'; });
+    const auto value = parse_number(field);
+    if (!value)
+      throw ArgumentError(
+          fmt::format("--at {}: '{}' is no number; give one per joint, separated by commas", at, field));
+    values.push_back(*value);
+    begin = end + 1;
+  }
+  if (std::ssize(values) != chain.size())
+    throw ArgumentError(fmt::format("--at {}: {} numbers, but the arm has {} joints", at, values.size(), chain.size()));
+  return joints_from_deg_or_mm(chain, values);
+}
+
+double border(const Joint& joint, double value) {
+  return is_revolute(joint) ? degrees(value) : millimetres(value);
+}
+
+const char* unit_of(const Joint& joint) {
+  return is_revolute(joint) ? "deg" : "mm";
+}
+
+std::vector<std::string> beyond_limits_sentences(const Chain& chain, const JointVector& q) {
+  constexpr double kRounding = 1e-9;
+  std::vector<std::string> sentences;
+  for (int i = 0; i < chain.size(); ++i) {
+    const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
+    if (joint.endless || (q[i] >= joint.lower - kRounding && q[i] <= joint.upper + kRounding)) continue;
+    sentences.push_back(fmt::format("joint {} at {:.6g} {} is beyond its limits, {:.6g} to {:.6g} {}", i + 1,
+                                    border(joint, q[i]), unit_of(joint), border(joint, joint.lower),
+                                    border(joint, joint.upper), unit_of(joint)));
+  }
+  return sentences;
+}
+
+/// 0 in place of what a computer leaves of it.
+double shown(double value) {
+  return std::abs(value) < 5e-10 ? 0.0 : value;
+}
+
+std::string shown(const std::vector<double>& values, int decimals) {
+  std::string text;
+  for (const double value : values) text += fmt::format("{}{:.{}f}", text.empty() ? "" : "  ", shown(value), decimals);
+  return text;
+}
+
+std::vector<double> in_mm(const Eigen::Vector3d& point_m) {
+  return {millimetres(point_m.x()), millimetres(point_m.y()), millimetres(point_m.z())};
+}
+
+std::string name_of(const Robot& robot, std::size_t joint) {
+  return robot.drawing ? robot.drawing->joints[joint].name : std::string();
+}
+
+std::string limits_text(const Joint& joint) {
+  if (joint.endless) return "turns on and on";
+  return fmt::format("{:9.6g} .. {:.6g} {}", border(joint, joint.lower), border(joint, joint.upper), unit_of(joint));
+}
+
+void print_table(const Robot& robot) {
+  const Chain& chain = robot.chain;
+  const bool standard = chain.convention == Convention::standard_dh;
+  const bool same = !robot.drawing || (!robot.drawing->by_axes &&
+                                       std::ranges::none_of(robot.drawing->joints, [](const DrawnJoint& joint) {
+                                         return joint.direction < 0 || joint.offset != 0.0;
+                                       }));
+  fmt::print("\n{} Denavit-Hartenberg table, {}:\n", standard ? "Standard" : "Modified",
+             same ? "as in the file" : "equivalent to the file; axes point as the joints count");
+  fmt::print("  {:5} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "joint", "theta deg", "d mm", "a mm", "alpha deg",
+             "beta deg");
+  for (int i = 0; i < chain.size(); ++i) {
+    const Joint& row = chain.joints[static_cast<std::size_t>(i)];
+    fmt::print("  {:5} {:12.6f} {:12.4f} {:12.4f} {:12.6f} {:12.6f}\n", i + 1, shown(degrees(row.theta_rad)),
+               shown(millimetres(row.d_m)), shown(millimetres(row.a_m)), shown(degrees(row.alpha_rad)),
+               shown(degrees(row.beta_rad)));
+  }
+}
+
+void print_joints(const Robot& robot) {
+  const Chain& chain = robot.chain;
+  fmt::print("{}: {} joints\n\n", robot.name, chain.size());
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const bool reversed = robot.drawing && robot.drawing->joints[i].direction < 0;
+    fmt::print("  joint {}  {:24} {:9}  {}{}\n", i + 1, name_of(robot, i),
+               is_revolute(chain.joints[i]) ? "revolute" : "prismatic", limits_text(chain.joints[i]),
+               reversed ? "  (counts the other way)" : "");
+  }
+  for (const CommandCoupling& coupling : chain.couplings) {
+    fmt::print("  joint {} is also turned by {:g} times the command of joint {}\n", coupling.joint + 1, coupling.factor,
+               coupling.from + 1);
+  }
+}
+
+void print_pose(const Robot& robot, const JointVector& q, const Eigen::Isometry3d& flange) {
+  std::string at;
+  for (int i = 0; i < robot.chain.size(); ++i) {
+    const Joint& joint = robot.chain.joints[static_cast<std::size_t>(i)];
+    at += fmt::format("{}{:.6g} {}", i == 0 ? "" : ", ", border(joint, q[i]), unit_of(joint));
+  }
+  fmt::print("\nAt {}:\n  {:32} {}\n", at, "flange in the base frame, mm", shown(in_mm(flange.translation()), 4));
+  fmt::print("  {:32} {}\n", "tool point in the base frame, mm", shown(in_mm(flange * robot.chain.tool_m), 4));
+  fmt::print("  orientation of the flange\n");
+  for (const ControllerAngles& angles : controller_angles(flange.linear())) {
+    const int decimals = angles.values.size() == 4 || angles.names.ends_with("rad") ? 6 : 4;
+    fmt::print("    {:30} {}\n", angles.controller + ", " + angles.names, shown(angles.values, decimals));
+  }
+}
+
+std::string pose_json(const Robot& robot, const JointVector& q, const Eigen::Isometry3d& flange,
+                      const std::vector<std::string>& warnings) {
+  const Eigen::Quaterniond turn(flange.linear());
+  nlohmann::ordered_json json;
+  json["position_mm"] = in_mm(flange.translation());
+  json["quaternion_wxyz"] = {turn.w(), turn.x(), turn.y(), turn.z()};
+  json["tool_position_mm"] = in_mm(flange * robot.chain.tool_m);
+  json["robot"] = robot.name;
+  json["joints"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
+    const Joint& joint = robot.chain.joints[i];
+    nlohmann::ordered_json one{
+        {"joint", i + 1}, {"name", name_of(robot, i)}, {"type", is_revolute(joint) ? "revolute" : "prismatic"}};
+    const std::string unit = unit_of(joint);
+    one["at_" + unit] = border(joint, q[static_cast<Eigen::Index>(i)]);
+    if (!joint.endless) one["limits_" + unit] = {border(joint, joint.lower), border(joint, joint.upper)};
+    json["joints"].push_back(one);
+  }
+  for (const ControllerAngles& angles : controller_angles(flange.linear()))
+    json["orientation"][angles.key] = angles.values;
+  json["warnings"] = warnings;
+  return json.dump();
+}
+
+void print_comparison(const DataSet& data, const PendantComparison& comparison) {
+  fmt::print("{}: {} poses read off the controller; the description is off by {:.3f} mm at most.\n", data.file,
+             data.poses.size(), millimetres(*std::ranges::max_element(comparison.errors_m)));
+  if (comparison.agrees) {
+    fmt::print("It agrees with the controller.\n");
+    return;
+  }
+  for (const std::string& finding : comparison.findings) fmt::print("  {}\n", finding);
+  fmt::print("\n  {:12} {:>10}\n", "pose", "off by, mm");
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    fmt::print("  {:12} {:10.3f}\n", data.poses[i].pose_id, millimetres(comparison.errors_m[i]));
+}
+
+std::string comparison_json(const DataSet& data, const PendantComparison& comparison) {
+  nlohmann::ordered_json json{{"agrees", comparison.agrees},
+                              {"explained", comparison.explained},
+                              {"findings", comparison.findings},
+                              {"poses", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    json["poses"].push_back({{"id", data.poses[i].pose_id}, {"off_by_mm", millimetres(comparison.errors_m[i])}});
+  return json.dump();
+}
+
+ExitCode compare(const ShowOptions& options, const Robot& robot) {
+  const DataSet data = read_pendant_poses(options.compare, robot);
+  if (data.poses.empty()) throw InputError({options.compare, 0}, "", "holds no poses");
+  const PendantComparison comparison = compare_with_pendant(data);
+  if (options.json) {
+    fmt::print("{}\n", comparison_json(data, comparison));
+  } else {
+    print_comparison(data, comparison);
+  }
+  return comparison.agrees ? ExitCode::done : ExitCode::contradiction;
+}
+
+ExitCode run(const ShowOptions& options) {
+  const Robot robot = load_robot(options.file);
+  if (!options.compare.empty()) return compare(options, robot);
+  const JointVector q =
+      options.at.empty() && robot.home.size() > 0 ? robot.home : joints_asked(options.at, robot.chain);
+  const Eigen::Isometry3d flange = forward(robot.chain, q);
+  const std::vector<std::string> warnings =
+      options.at.empty() ? std::vector<std::string>() : beyond_limits_sentences(robot.chain, q);
+  for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", options.file, warning);
+  if (!options.picture.empty()) write_file(options.picture, arm_picture(robot, q));
+  if (options.json) {
+    fmt::print("{}\n", pose_json(robot, q, flange, warnings));
+    return ExitCode::done;
+  }
+  print_joints(robot);
+  print_table(robot);
+  print_pose(robot, q, flange);
+  if (!options.picture.empty()) fmt::print("\nDrawn in {}\n", options.picture);
+  return ExitCode::done;
+}
+
+void add_import(CLI::App& robot, ExitCode& exit_code) {
+  const auto options = std::make_shared<ImportOptions>();
+  CLI::App* command = robot.add_subcommand("import", "a ROBOT.yaml from a URDF");
+  command->add_option("urdf", options->urdf.file, "FILE.urdf; xacro must be expanded before")->required();
+  command->add_option("--out", options->urdf.beside, "ROBOT.yaml to write")->required();
+  command->add_option("--base", options->base, "link that the arm begins at (default: the root link)");
+  command->add_option("--tip", options->tip, "link that the arm ends at: the flange (default: the only one it can be)");
+  command->add_flag("--force", options->force,
+                    "overwrite a file that demecal did not write, or that was changed since");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+void add_show(CLI::App& robot, ExitCode& exit_code) {
+  const auto options = std::make_shared<ShowOptions>();
+  CLI::App* command = robot.add_subcommand("show", "an arm's joints, limits, table, and its pose at given joints");
+  command->add_option("robot", options->file, "ROBOT.yaml")->required();
+  command->add_option("--at", options->at,
+                      "joints q1,q2,... in deg, mm where one slides (default: home_deg of the file, or all 0)");
+  command
+      ->add_option("--compare", options->compare,
+                   "POSES.csv: joints and the positions that the controller shows for them; what of the description "
+                   "does not fit is named, and the exit code is 12")
+      ->excludes("--at");
+  command->add_option("--picture", options->picture, "FILE.svg: the arm there, from four sides and to scale")
+      ->excludes("--compare");
+  command->add_flag("--json", options->json, "one line of JSON: the pose, or the comparison");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace
+
+void add_robot(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand("robot", "arms: import from a URDF, show, compare with a controller");
+  command->require_subcommand(1);
+  add_import(*command, exit_code);
+  add_show(*command, exit_code);
+}
+
+}  // namespace demecal

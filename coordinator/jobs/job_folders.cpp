@@ -1,0 +1,235 @@
+#include "coordinator/jobs/job_folders.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "errors/check.hpp"
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+constexpr int kToRead = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;  // a pipe would keep us waiting
+constexpr int kToWrite = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC;
+constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600;
+constexpr const char* kInput = "input";
+constexpr const char* kResults = "results";
+constexpr const char* kTerminal = "terminal.log";
+constexpr const char* kRecord = "job.json";
+constexpr const char* kBeingWritten = ".being-written";
+constexpr std::uint64_t kMostOfRecord = 4096;
+
+constexpr std::array<const char*, 12> kOffered{
+    "report.html",     "report.json", "model.yaml", "model-best.yaml", "certificate.html", "certificate.pdf",
+    "certificate.xml", "history.csv", "fronts.csv", "distal.csv",      "pose-errors.csv",  "events.jsonl"};
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+OwnedDescriptor open_below(int folder, const std::string& name, int flags) {
+  return OwnedDescriptor(::openat(folder, name.c_str(), flags, kOwnFile));
+}
+
+OwnedDescriptor made_below(int folder, const std::string& name) {
+  if (::mkdirat(folder, name.c_str(), kOwnFolder) != 0 && errno != EEXIST) fail("a folder cannot be made");
+  OwnedDescriptor made = open_below(folder, name, kFolder);
+  if (made.get() < 0) fail("a folder cannot be opened");
+  return made;
+}
+
+/// The size of a regular file; nothing of anything else.
+std::optional<std::uint64_t> size_of(int descriptor) {
+  struct stat found {};
+  if (descriptor < 0 || ::fstat(descriptor, &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(found.st_size);
+}
+
+/// The entries of a folder that are called by plain names.
+std::vector<std::string> names_in(const OwnedDescriptor& folder) {
+  std::vector<std::string> names;
+  const int again = folder.get() < 0 ? -1 : ::openat(folder.get(), ".", kFolder);
+  DIR* const listing = again < 0 ? nullptr : ::fdopendir(again);
+  if (listing == nullptr) return names;
+  while (const dirent* const entry = ::readdir(listing)) {  // NOLINT(concurrency-mt-unsafe): each has its own listing
+    if (is_plain_name(entry->d_name)) names.emplace_back(entry->d_name);
+  }
+  ::closedir(listing);
+  std::ranges::sort(names);
+  return names;
+}
+
+std::vector<ListedFile> files_in(const OwnedDescriptor& folder) {
+  std::vector<ListedFile> files;
+  for (const std::string& name : names_in(folder)) {
+    const OwnedDescriptor file = open_below(folder.get(), name, kToRead);
+    if (const auto bytes = size_of(file.get())) files.push_back({name, *bytes});
+  }
+  return files;
+}
+
+/// Bytes of the file from `begin` on.
+std::string bytes_of(int descriptor, std::uint64_t begin, std::uint64_t count) {
+  std::string bytes(count, '\0');
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t got = ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(begin + done));
+    if (got <= 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+/// The file appears whole or not at all.
+void write_whole(int folder, const std::string& name, std::string_view bytes) {
+  const OwnedDescriptor file = open_below(folder, kBeingWritten, kToWrite | O_TRUNC);
+  if (file.get() < 0) fail("a file cannot be written");
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t put = ::write(file.get(), bytes.data() + done, bytes.size() - done);
+    if (put <= 0) fail("a file cannot be written");
+    done += static_cast<std::size_t>(put);
+  }
+  if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail("a file cannot be written");
+}
+
+}  // namespace
+
+OwnedDescriptor::~OwnedDescriptor() {
+  if (number_ >= 0) ::close(number_);
+}
+
+OwnedDescriptor& OwnedDescriptor::operator=(OwnedDescriptor&& other) noexcept {
+  std::swap(number_, other.number_);
+  return *this;
+}
+
+int OwnedDescriptor::release() {
+  return std::exchange(number_, -1);
+}
+
+JobFolders::JobFolders(const std::string& root) : root_(std::filesystem::absolute(root).lexically_normal().string()) {
+  std::error_code fault;
+  std::filesystem::create_directories(root_, fault);
+  descriptor_ = OwnedDescriptor(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (fault || descriptor_.get() < 0 || ::faccessat(descriptor_.get(), ".", W_OK | X_OK, AT_EACCESS) != 0)
+    throw InputError({root_, 0}, "", "must be a folder that can be written to: name another with --dir");
+}
+
+std::vector<JobId> JobFolders::jobs() const {
+  std::vector<JobId> found;
+  for (const std::string& user : names_in(descriptor_)) {
+    const OwnedDescriptor folder = open_below(descriptor_.get(), user, kFolder);
+    for (const std::string& job : names_in(folder)) {
+      if (open_below(folder.get(), job, kFolder).get() >= 0) found.push_back({user, job});
+    }
+  }
+  return found;
+}
+
+OwnedDescriptor JobFolders::folder(const JobId& id) const {
+  DEMECAL_CHECK(is_plain_name(id.user) && is_plain_name(id.job), "user=" << id.user << " job=" << id.job);
+  const OwnedDescriptor user = open_below(descriptor_.get(), id.user, kFolder);
+  OwnedDescriptor job = open_below(user.get(), id.job, kFolder);
+  if (user.get() < 0 || job.get() < 0) fail("the job's folder cannot be opened");
+  return job;
+}
+
+void JobFolders::make(const JobId& id) const {
+  DEMECAL_CHECK(is_plain_name(id.user) && is_plain_name(id.job), "user=" << id.user << " job=" << id.job);
+  const OwnedDescriptor user = made_below(descriptor_.get(), id.user);
+  const OwnedDescriptor job = made_below(user.get(), id.job);
+  made_below(job.get(), kInput);
+}
+
+void JobFolders::remove(const JobId& id) const {
+  const OwnedDescriptor is_there = folder(id);
+  std::filesystem::remove_all(path_of(id));  // of a link it removes the link
+}
+
+std::string JobFolders::path_of(const JobId& id) const {
+  return root_ + '/' + id.user + '/' + id.job;
+}
+
+std::vector<ListedFile> JobFolders::inputs(const JobId& id) const {
+  return files_in(open_below(folder(id).get(), kInput, kFolder));
+}
+
+std::string JobFolders::input(const JobId& id, const std::string& name) const {
+  DEMECAL_CHECK(is_plain_name(name), "name=" << name);
+  const OwnedDescriptor inputs = open_below(folder(id).get(), kInput, kFolder);
+  const OwnedDescriptor file = open_below(inputs.get(), name, kToRead);
+  const auto size = size_of(file.get());
+  if (!size) fail("an uploaded file cannot be read");
+  return bytes_of(file.get(), 0, *size);
+}
+
+void JobFolders::put_input(const JobId& id, const std::string& name, std::string_view bytes) const {
+  DEMECAL_CHECK(is_plain_name(name), "name=" << name);
+  write_whole(made_below(folder(id).get(), kInput).get(), name, bytes);
+}
+
+std::vector<ListedFile> JobFolders::results(const JobId& id) const {
+  std::vector<ListedFile> files = files_in(open_below(folder(id).get(), kResults, kFolder));
+  std::erase_if(files, [](const ListedFile& file) { return !is_offered(file.name); });
+  const auto rank = [](const ListedFile& file) { return std::ranges::find(kOffered, file.name); };
+  std::ranges::sort(files, {}, rank);
+  return files;
+}
+
+bool JobFolders::is_offered(const std::string& name) {
+  return std::ranges::find(kOffered, name) != kOffered.end();
+}
+
+std::shared_ptr<AnsweredFile> JobFolders::open_result(const JobId& id, const std::string& name) const {
+  if (!is_offered(name)) return nullptr;
+  const OwnedDescriptor results = open_below(folder(id).get(), kResults, kFolder);
+  OwnedDescriptor file = open_below(results.get(), name, kToRead);
+  const auto size = size_of(file.get());
+  if (!size) return nullptr;
+  return std::make_shared<AnsweredFile>(file.release(), *size);
+}
+
+std::optional<std::string> JobFolders::result(const JobId& id, const std::string& name, std::uint64_t most) const {
+  const std::shared_ptr<AnsweredFile> file = open_result(id, name);
+  if (!file || file->bytes() > most) return std::nullopt;
+  return bytes_of(file->descriptor(), 0, file->bytes());
+}
+
+bool JobFolders::can_go_on(const JobId& id) const {
+  const OwnedDescriptor results = open_below(folder(id).get(), kResults, kFolder);
+  return size_of(open_below(results.get(), "run.journal", kToRead).get()).has_value();
+}
+
+OwnedDescriptor JobFolders::open_terminal(const JobId& id, bool keep) const {
+  OwnedDescriptor file = open_below(folder(id).get(), kTerminal, kToWrite | O_APPEND | (keep ? 0 : O_TRUNC));
+  if (file.get() < 0) fail("what a run says cannot be written");
+  return file;
+}
+
+std::string JobFolders::terminal(const JobId& id, std::uint64_t most) const {
+  const OwnedDescriptor file = open_below(folder(id).get(), kTerminal, kToRead);
+  const std::uint64_t size = size_of(file.get()).value_or(0), count = std::min(size, most);
+  return count == 0 ? "" : bytes_of(file.get(), size - count, count);
+}
+
+JobRecord JobFolders::record(const JobId& id) const {
+  const OwnedDescriptor file = open_below(folder(id).get(), kRecord, kToRead);
+  const auto size = size_of(file.get());
+  return size && *size <= kMostOfRecord ? parse_record(bytes_of(file.get(), 0, *size)) : JobRecord{};
+}
+
+void JobFolders::save(const JobId& id, const JobRecord& record) const {
+  write_whole(folder(id).get(), kRecord, record_text(record));
+}
+
+}  // namespace demecal

@@ -1,0 +1,36 @@
+// The record of checks comes back as it was written, whatever names hold.
+#include "studies/change_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include "errors/input_error.hpp"
+
+namespace demecal {
+namespace {
+
+TEST(CheckHistory, ComesBackAsItWasWritten) {
+  const std::vector<CheckRecord> records{
+      {"2026-03-01", "out/model.yaml", "march, \"north\"", 12, "unchanged", 0.93, 1.41, 0.051, ""},
+      {"2026-07-01", "out/model.yaml", "july", 14, "changed", 3.7, 1.4, 0.31, "joint_offset, joint 3 and tool"}};
+  const std::vector<CheckRecord> read = read_check_history(check_history_csv(records), "check-history.csv");
+  ASSERT_EQ(read.size(), records.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].date, records[i].date);
+    EXPECT_EQ(read[i].model, records[i].model);
+    EXPECT_EQ(read[i].data, records[i].data);
+    EXPECT_EQ(read[i].poses, records[i].poses);
+    EXPECT_EQ(read[i].verdict, records[i].verdict);
+    EXPECT_EQ(read[i].strain, records[i].strain);
+    EXPECT_EQ(read[i].strain_limit, records[i].strain_limit);
+    EXPECT_EQ(read[i].error_mm, records[i].error_mm);
+    EXPECT_EQ(read[i].cause, records[i].cause);
+  }
+}
+
+TEST(CheckHistory, OfNothingIsEmptyAndOfAnotherTableRefused) {
+  EXPECT_TRUE(read_check_history("", "check-history.csv").empty());
+  EXPECT_THROW(read_check_history("a,b\n1,2\n", "check-history.csv"), InputError);
+}
+
+}  // namespace
+}  // namespace demecal
