@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <ctime>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "coordinator/result_folder.hpp"
+#include "data/text.hpp"
 #include "data_check/check_data.hpp"
 #include "data_files/data_set_file.hpp"
 #include "errors/input_error.hpp"
@@ -30,8 +32,18 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 
+/// Says on standard error, by what a signal's handler may call.
+template <std::size_t N>
+void say(const char (&text)[N]) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, N - 1);
+}
+
 void on_signal(int) {
-  if (interrupted.exchange(true)) ::_exit(static_cast<int>(ExitCode::interrupted));
+  if (interrupted.exchange(true)) {
+    say("\nended at once; what was not written yet is lost\n");
+    ::_exit(static_cast<int>(ExitCode::interrupted));
+  }
+  say("\ninterrupted: what was reached is saved as soon as this step ends; once more ends at once and loses it\n");
 }
 
 }  // namespace
@@ -52,6 +64,11 @@ CheckedData load_checked(std::span<const std::string> paths, StationTools tools,
     if (paths.size() > 1)
       for (Finding& finding : own.findings) finding.sentence = described.data.name + ": " + finding.sentence;
     std::ranges::move(own.findings, std::back_inserter(check.findings));
+    for (const DataSet& other : sets) {
+      if (other.sha256 == described.data.sha256)
+        throw InputError({path, 0}, described.data.name,
+                         "has the very poses of " + other.name + ": a station is given once");
+    }
     sets.push_back(std::move(described.data));
     if (check.verdict() == DataVerdict::contradiction && !force) return {std::move(sets.back()), std::move(check)};
   }
@@ -105,6 +122,24 @@ void require_positions(const DataSet& data, const std::string& what) {
                    what +
                        " needs measured positions: poses that touch something tell how well they agree with one "
                        "another, not where the tool is (`demecal evaluate` says how well)");
+}
+
+CLI::Validator above_zero() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::optional<double> value = parse_number(text);
+        return value && *value > 0.0 ? std::string() : '\'' + text + "' must be a number above 0, without a unit";
+      },
+      "");
+}
+
+CLI::Validator not_negative() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return whole ? std::string() : '\'' + text + "' must be a whole number, 0 or more";
+      },
+      "");
 }
 
 void add_force(CLI::App& command, bool& force) {

@@ -86,6 +86,10 @@ void require_instrument(const DataSet& data, const std::string& what);
 /// Throws InputError where poses touch something and `what` would take their agreement for accuracy.
 void require_positions(const DataSet& data, const std::string& what);
 
+/// Of options that hold a number: above 0; a whole number of 0 or more.
+CLI::Validator above_zero();
+CLI::Validator not_negative();
+
 /// The option --force of a command that fits or judges data.
 void add_force(CLI::App& command, bool& force);
 

@@ -1,10 +1,13 @@
 // demecal: finds out why a robot misses its coordinates, from measured poses, and corrects it.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "coordinator/commands.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "manual/manual.hpp"
 #include "pieces/pieces.hpp"
@@ -19,6 +22,16 @@ constexpr const char* kExitStatus =
     "`check` finds that the robot has changed. 20: no "
     "worker "
     "came. 21: the run failed. 130: interrupted; what was reached is saved and named.";
+
+/// CLI11 would only say that a command is missing.
+void require_known_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::count(names, argv[1]) == 0)
+    throw demecal::ArgumentError('\'' + std::string(argv[1]) + "' is no command; the nearest is '" +
+                                 demecal::nearest_name(argv[1], names) + "' (demecal --help lists them)");
+}
 
 }  // namespace
 
@@ -52,6 +65,7 @@ int main(int argc, char** argv) {
   demecal::PieceThreads threads(0);
   const demecal::RunPiecesBy by_threads(threads);
   try {
+    require_known_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_arguments;

@@ -114,6 +114,16 @@ void write_result(const std::string& folder, const std::string& name, const std:
   WrittenFiles(folder).write(name, bytes);
 }
 
+void write_named(const std::string& path, const std::string& bytes, const std::string& input, bool force) {
+  const std::filesystem::path file(path);
+  std::error_code none;
+  if (std::filesystem::equivalent(file, input, none))
+    throw ArgumentError(path + " is the file that was read, which is never overwritten; name another");
+  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+  make_writable(folder, {file.filename().string()}, force);
+  write_result(folder, file.filename().string(), bytes);
+}
+
 FilesBeingWritten::FilesBeingWritten(std::string folder, std::vector<std::string> files)
     : folder_(std::move(folder)), files_(std::move(files)) {
   WrittenFiles written(folder_);

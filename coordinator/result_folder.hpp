@@ -50,6 +50,10 @@ void make_writable(const std::string& folder, const std::vector<std::string>& fi
 /// Writes a file of the folder, whole or not at all, and notes in the folder that it is demecal's.
 void write_result(const std::string& folder, const std::string& name, const std::string& bytes);
 
+/// Writes the one file that an option names, by the rule of make_writable() for its folder; never over `input`, which
+/// it is made of.
+void write_named(const std::string& path, const std::string& bytes, const std::string& input, bool force);
+
 /// Files of a folder that others write while this lives: they are demecal's whatever stands in them, and then what they
 /// end as.
 class FilesBeingWritten {

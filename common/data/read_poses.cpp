@@ -171,9 +171,30 @@ std::vector<double> read_distances(const TableColumns& columns, const PoseRows& 
 }
 
 double read_payload(const TableColumn& column, const PoseRows& rows) {
+  constexpr double kMost_kg = 1e5;  ///< no robot carries it; a slip of the keyboard would rule every judgement
   const double payload_kg = rows.number(column);
   if (payload_kg < 0.0) rows.fail(column, "must not be negative: it is a mass");
+  if (payload_kg > kMost_kg) rows.fail(column, "is more than any robot carries (100 t): is it in kg?");
   return payload_kg;
+}
+
+double read_temperature(const TableColumn& column, const PoseRows& rows) {
+  constexpr double kLowest_celsius = -273.15, kHighest_celsius = 1000.0;
+  const double celsius = rows.number(column);
+  if (celsius < kLowest_celsius || celsius > kHighest_celsius)
+    rows.fail(column, "is no temperature of an arm: is it in deg C?");
+  return celsius;
+}
+
+Eigen::Vector3d read_position(const TableColumns& columns, const PoseRows& rows) {
+  constexpr double kFarthest_m = 1e5;
+  const auto position_m = read_vector<Eigen::Vector3d>(columns, rows);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (std::abs(position_m[axis]) > kFarthest_m)
+      rows.fail(columns[static_cast<std::size_t>(axis)],
+                "is farther than any instrument measures (100 km): correct it, or leave the row out");
+  }
+  return position_m;
 }
 
 PoseSet read_set(const TableColumn& column, const PoseRows& rows) {
@@ -197,7 +218,7 @@ void read_measured(const PoseColumns& columns, const PoseRows& rows, MeasuredPos
   const auto given = [&](const TableColumns& some) {
     return !some.empty() && (pose.contact.empty() || !all_empty(some, rows));
   };
-  if (given(columns.position)) pose.position_m = read_vector<Eigen::Vector3d>(columns.position, rows);
+  if (given(columns.position)) pose.position_m = read_position(columns.position, rows);
   if (pose.position_m && !columns.sigma.empty())
     pose.position_covariance_m2 = read_covariance(columns, rows, *pose.position_m);
   if (given(columns.orientation)) pose.orientation = read_orientation(columns.orientation, rows);
@@ -213,7 +234,7 @@ MeasuredPose read_pose(const PoseColumns& columns, const PoseRows& rows) {
   if (!columns.approach.empty()) pose.approach = read_approach(columns.approach, rows);
   if (!columns.torque.empty()) pose.torque = read_vector<JointVector>(columns.torque, rows);
   if (columns.payload) pose.payload_kg = read_payload(*columns.payload, rows);
-  if (columns.temperature) pose.temperature_celsius = rows.number(*columns.temperature);
+  if (columns.temperature) pose.temperature_celsius = read_temperature(*columns.temperature, rows);
   if (columns.time) pose.time_s = rows.number(*columns.time);
   if (columns.set) pose.set = read_set(*columns.set, rows);
   pose.pose_id = columns.pose ? read_pose_id(*columns.pose, rows) : "line " + std::to_string(rows.line());

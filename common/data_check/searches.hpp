@@ -43,6 +43,10 @@ std::vector<Finding> find_other_base(const DataSet& data, const TrialFit& fit);
 std::vector<Finding> find_other_tools(const Trial& trial, const std::map<std::string, int>& target_of,
                                       const TrialFit& fit);
 
+/// Measured orientations that scatter by 5 degrees or more (median) about one turn of the tool on the flange, by a fit
+/// of positions: another order or direction of quaternions, the sign of a joint, or nothing that is known.
+std::vector<Finding> find_wrong_orientations(const DataSet& data, const Trial& trial, const TrialFit& fit);
+
 /// What is known of the rows of a data set by a fit.
 struct PointPrediction {
   std::function<Eigen::Vector3d(const TrialRow&)> point;  ///< tool point at the row's joints, m, instrument's frame

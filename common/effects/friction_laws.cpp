@@ -107,7 +107,8 @@ std::string BacklashLaw::diagnosis(const Effect& effect, const Robot& robot) con
   }
   if (width < 0.0) {
     return joint_name(effect.joint) + " stops " + half +
-           " beyond where it is sent, on either side: too much for its lost motion is made up for.";
+           " beyond where it is sent, on either side: too much for its lost motion is made up for, or the signs of "
+           "approach are stated the wrong way round.";
   }
   return joint_name(effect.joint) + " stops " + half +
          " short on either side of where it is sent: lost motion in its gear.";

@@ -95,6 +95,7 @@ thead th.set i { display: inline-block; width: 9px; height: 9px; border-radius: 
 .long thead th { position: sticky; top: 0; background: var(--card); padding-top: 12px; }
 td.words .why { display: block; color: var(--soft); font-size: 13px; } td.words.wide { min-width: 19em; }
 td.numbers { text-align: left; font-size: 13px; line-height: 1.45; } td.numbers span { display: block; }
+#causes :is(th:first-child, th:last-child, td:last-child) { text-align: left; } #causes :is(thead th, td:last-child) { white-space: normal; } #causes td:last-child { min-width: 16em; }
 #evidence thead th { white-space: normal; } #evidence td.wide { min-width: 13em; }
 td code.law { font-size: 12.5px; overflow-wrap: anywhere; }
 table.compact { width: auto; min-width: 50%; }
@@ -134,7 +135,7 @@ svg.bars { min-width: 620px; }
 .chart .stage, .chart .value { font-size: 13px; font-variant-numeric: tabular-nums; }
 .chart .bar.calibration { fill: var(--calibration); } .chart .bar.validation { fill: var(--validation); } .chart .bar.accept { fill: var(--accept); }
 .chart .whisker { stroke: var(--soft); fill: none; stroke-width: 1.3; } .chart .cut { stroke: var(--card); fill: none; stroke-width: 3; }
-.chart .noise { stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 4 3; }
+.chart .noise { fill: none; stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 4 3; }
 .chart .zero { stroke: var(--soft); stroke-width: 1; } .chart .jump { stroke: var(--jump); stroke-width: 1.2; stroke-dasharray: 3 3; }
 .chart .fall { fill: none; stroke: var(--validation); stroke-width: 2; }
 .chart circle.added { fill: var(--validation); } .chart circle.refused { fill: var(--card); stroke: var(--soft); stroke-width: 1.4; }

@@ -206,6 +206,16 @@ std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vect
   return members;
 }
 
+/// What to do about it. A joint that stops beyond where it is sent has no lost motion, whatever its effects are called.
+std::string advice_for(const ErrorCause& cause, const CorrectedRobot& robot) {
+  const auto goes_beyond = [&](std::size_t effect) { return robot.effects[effect].value(0) < 0.0; };
+  if (cause.group != CauseGroup::lost_motion || !std::ranges::all_of(cause.effects, goes_beyond))
+    return advice_on(cause);
+  return "The joint stops beyond where it is sent: see whether the signs of approach in the data are the right way "
+         "round, and whether the controller makes up for too much lost motion. Do not correct programs before that is "
+         "known.";
+}
+
 void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Robot& described, Report& report) {
   for (const CauseCost& cost : budget.causes) {
     CauseEntry entry{.cause = std::string(to_string(cost.cause.group)),
@@ -216,7 +226,7 @@ void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Ro
                      .with_mm = if_finite(cost.with_mm),
                      .share_of_error = if_finite(cost.share),
                      .interval_mm = {cost.interval_mm.begin(), cost.interval_mm.end()},
-                     .advice = advice_on(cost.cause)};
+                     .advice = advice_for(cost.cause, robot)};
     if (cost.cause.joint >= 0) entry.joint = count_of(cost.cause.joint) + 1;
     for (const std::size_t effect : cost.cause.effects)
       entry.effects.push_back(effect_entry(robot.effects[effect], described).name());

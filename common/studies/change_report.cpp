@@ -18,6 +18,12 @@
 namespace demecal::inline studies {
 namespace {
 
+/// "= 0.03"; "below 1e-12" where rounding is all that is left of it.
+std::string chance_text(double p) {
+  constexpr double kRounding = 1e-12;
+  return p < kRounding ? "below 1e-12" : fmt::format("= {:.2g}", p);
+}
+
 using Json = nlohmann::ordered_json;
 
 constexpr double kMilliPerUnit = 1e3;
@@ -117,7 +123,7 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
   std::string text = answer(change) + '\n';
   for (const ChangeCause& cause : change.found) {
     text += "  " + law_of(cause.effect).diagnosis(cause.effect, data.robot) + '\n';
-    text += fmt::format("    p = {:.2g} (all causes tried: {:.2g})\n", cause.p_value, cause.p_family);
+    text += fmt::format("    p {} (all causes tried: p {})\n", chance_text(cause.p_value), chance_text(cause.p_family));
     if (!cause.rivals.empty())
       text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));
   }

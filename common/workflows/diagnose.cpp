@@ -64,6 +64,23 @@ void require_same_arm(const CorrectedRobot& robot, const DataSet& data) {
   }
 }
 
+void require_alike_arm(const CalibratedModel& model, const DataSet& data) {
+  constexpr double kAnother_m = 0.02;
+  require_same_arm(model.robot, data);
+  double farthest_m = 0.0;
+  for (const MeasuredPose& pose : data.poses) {
+    const Eigen::Vector3d apart_m =
+        forward(model.nominal.chain, pose.joints).translation() - forward(data.robot.chain, pose.joints).translation();
+    farthest_m = std::max(farthest_m, apart_m.norm());
+  }
+  if (farthest_m < kAnother_m) return;
+  throw InputError(
+      {data.file, 0}, data.robot.name,
+      fmt::format("is not the arm that the model corrects ({}): described as it is it stands up to {:.0f} mm "
+                  "from there at these poses; give the model of this arm, or --force to go on",
+                  model.nominal.name, 1e3 * farthest_m));
+}
+
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data) {
   require_same_arm(model.robot, data);
   const std::string difference = first_difference(model.nominal.chain, data.robot.chain);

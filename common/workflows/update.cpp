@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/loop.hpp"
@@ -74,7 +75,12 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
   preparation.registered = placed_in(data, calibration, preparation.nominal);
   preparation.declared = placed_in(data, calibration, old);
   result.before = preparation.declared.robot;
-  Update update = updated(prior, result.before, data, calibration, job.declared);
+  const auto updated_by = [&](const std::vector<std::size_t>& poses) {
+    Update update = updated(prior, result.before, data, poses, job.declared);
+    update.robot = without_negligible_corrections(data, std::move(update.robot));
+    return update;
+  };
+  Update update = updated_by(calibration);
   const std::optional<double> unseen = unseen_rms_mm(data, update.robot);
   const PredictionInterval interval = prediction_interval(data, update.fitted, update.robot);
   const std::vector<std::size_t> last = poses_of_last_fit(data);
@@ -83,7 +89,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
     const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
     seen_last = UnseenValidation{error_figures(result.before, data, validation).rms_mm,
                                  error_figures(update.robot, data, validation).rms_mm, interval};
-    update = updated(prior, result.before, data, last, job.declared);
+    update = updated_by(last);
   }
   result.calibration = calibration_of_update(data, preparation, update);
   result.calibration.unseen = seen_last;

@@ -134,7 +134,11 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
 /// Throws InputError where the model has another number of joints than the data set's arm, or no tool for a target.
 void require_same_arm(const CorrectedRobot& robot, const DataSet& data);
 
-/// The same, and where its maker's figures are not those that the model was made from.
+/// Throws InputError where the data set's arm, as described, stands elsewhere at its poses than the one that the model
+/// corrects: 2 cm or more at its flange.
+void require_alike_arm(const CalibratedModel& model, const DataSet& data);
+
+/// As require_same_arm(), and where its maker's figures are not those that the model was made from.
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data);
 
 }  // namespace demecal::inline workflows

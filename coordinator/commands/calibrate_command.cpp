@@ -133,8 +133,8 @@ std::string effort(const Job& job, const RunFacts& facts) {
   if (job.method == Method::structural)
     return fmt::format("{} structures fitted in {:.1f} s", facts.evaluations, facts.wall_s);
   if (job.method == Method::diagnose) return fmt::format("nothing was evolved, {:.1f} s", facts.wall_s);
-  return fmt::format("{} islands on {} workers, {} evaluations in {:.1f} s", facts.islands, facts.workers,
-                     facts.evaluations, facts.wall_s);
+  return fmt::format("{} islands on {} worker{}, {} evaluations in {:.1f} s", facts.islands, facts.workers,
+                     facts.workers == 1 ? "" : "s", facts.evaluations, facts.wall_s);
 }
 
 /// For those who watch: the figures that the calibration is judged by.
@@ -199,12 +199,12 @@ ExitCode run(CalibrateRequest request) {
                            .quiet = request.quiet,
                            .force = request.force});
   }
+  if (!request.resume.empty() && !std::filesystem::is_directory(request.resume))
+    throw ArgumentError("--resume: there is no folder " + request.resume + "; a new run's is named by --out");
   if (request.out.empty()) request.out = request.resume;
-  if (request.out.empty() || (!request.resume.empty() && !same_folder(request.out, request.resume))) {
-    fmt::print(stderr,
-               "--out is missing, or names another folder than --resume: a resumed run leaves its results there\n");
-    return ExitCode::wrong_arguments;
-  }
+  if (request.out.empty()) throw ArgumentError("--out is missing: name the folder for the results");
+  if (!request.resume.empty() && !same_folder(request.out, request.resume))
+    throw ArgumentError("--out names another folder than --resume: a resumed run leaves its results where it was");
   const Job job = job_of(request);
   const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
   const DataSet& data = checked.data;
@@ -266,7 +266,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", request->out, "folder for the results (needed, unless --resume names it)");
   command->add_option("--resume", request->resume,
                       "folder of a run that was broken off: goes on from its journal, and leaves the results there");
-  command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
+  command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)")->check(not_negative());
   command->add_option("--method", request->method, "learning method (default: the job's)")
       ->check(CLI::IsMember({"direct", "distal", "diagnose", "structural"}));
   command
@@ -274,7 +274,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
                  "evolve nothing, as --method diagnose: what evolution earns is the difference")
       ->excludes("--method");
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->add_option("--data", request->data_file, "data set in place of the job's");
   command->add_option("--prior", request->prior_file,
                       "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free; "
@@ -288,7 +288,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--worker-timeout-s", request->worker_timeout_s,
                    "how long to be without any worker before giving up")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_flag("--asynchronous", request->asynchronous,
                     "islands wait for no neighbour: never idle, but another run gives another result");

@@ -91,6 +91,7 @@ ExitCode run(const CertifyRequest& request) {
   model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
   require_same_arm(model.robot, data);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
+  if (!request.force) require_alike_arm(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
   check_fitted(data, model.robot, checked.check);
   const Certificate certificate =
@@ -126,7 +127,7 @@ void add_certify(CLI::App& app, ExitCode& exit_code) {
                    "mm that 95 % of position errors are to stay within; of errors of known lengths where poses only "
                    "touch something")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--out", request->out, "folder of certificate.html, .xml and .pdf")->required();
   command->add_flag("--json", request->json, "one line of JSON");
   command->add_flag("--refit-base", request->refit_base,

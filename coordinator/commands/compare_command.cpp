@@ -172,9 +172,9 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   add_force(*command, request->force);
   command->add_flag("--baselines-only", request->baselines_only, "leave out the job itself, which takes longest");
   add_worker_arguments(*command, request->workers);
-  command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)");
+  command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)")->check(not_negative());
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -165,7 +165,7 @@ void add_loop_options(CLI::App& command, DiagnoseRequest& request) {
       ->capture_default_str();
   command.add_option("--ratios", request.loop.ratios, "gear ratios beyond the scan, LIST")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--propose", request->proposed, "poses worth measuring next, to proposed.csv")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
+  command->add_option("--seed", request->seed, "seed of all randomness")->check(not_negative())->capture_default_str();
   command->add_flag("--no-evolution", request->no_evolution,
                     "only leave causes out of what was added one effect after another, search for no better sets");
   command->add_flag("--json", request->json, "print report.json in place of the report for people");

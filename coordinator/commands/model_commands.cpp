@@ -46,6 +46,7 @@ namespace {
 struct ExportRequest {
   std::string file, out, target, urdf, format = "text";
   int derivative = 0;  ///< by this joint, from 1; 0: none
+  bool force = false;
 };
 
 const std::map<std::string, CodeLanguage>& code_languages() {
@@ -107,7 +108,7 @@ void write_or_print(const ExportRequest& request, const std::string& text) {
   if (request.out.empty()) {
     fmt::print("{}", text);
   } else {
-    write_file(request.out, text);
+    write_named(request.out, text, request.file, request.force);
   }
 }
 
@@ -172,6 +173,7 @@ ExitCode run(const EvaluateRequest& request) {
                                    ? registered(model, data)
                                    : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
+  if (!request.force) require_alike_arm(model, data);
   check_fitted(data, robot, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),
                         pose_errors(data, model, robot, nullptr),
@@ -200,6 +202,7 @@ void add_export(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::IsMember({"text", "c", "python", "matlab", "urdf", "ros2-params", "ur-calibration"}))
       ->capture_default_str();
   command->add_option("--out", request->out, "file to write; without it, standard output");
+  add_force(*command, request->force);
   command->add_option("--target", request->target, "the tool point, where the model has several");
   command->add_option("--urdf", request->urdf, "the URDF that the robot was imported from, where it has moved");
   command->add_option("--derivative", request->derivative, "the pose's derivative by this joint, instead of the pose")
@@ -236,7 +239,7 @@ void keep(const CheckRequest& request, const ChangeReport& change, const DataSet
   records.push_back(check_record(change, data, request.model_file, today()));
   write_result(request.history, kTable, check_history_csv(records));
   write_result(request.history, kPage, check_history_html(records));
-  fmt::print(stderr, "{}/{}: {} checks\n", request.history, kPage, records.size());
+  fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kPage, records.size(), records.size() == 1 ? "" : "s");
 }
 
 ExitCode run(const CheckRequest& request) {

@@ -149,7 +149,7 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
                    "N poses for calibration; those for validation and acceptance come on top")
       ->check(CLI::Range(1, kMost));
   command->add_option("--accuracy", request->accuracy_mm, "MM: the fewest poses predicted to leave so much (rms)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--declare", request->declared,
                    "LIST of what the model will contain, registration always (default: "
@@ -171,7 +171,7 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, kMost));
   command->add_option("--accept", request->accept, "poses for acceptance (default: the same)")
       ->check(CLI::Range(0, kMost));
-  command->add_option("--seed", request->seed, "seed of all randomness")->capture_default_str();
+  command->add_option("--seed", request->seed, "seed of all randomness")->check(not_negative())->capture_default_str();
   command->add_flag("--json", request->json, "print plan.json in place of the summary");
   command->add_flag("--force", request->force,
                     "overwrite files that demecal did not write, or that were changed since");

@@ -54,7 +54,7 @@ ExitCode run(ImportOptions options) {
 
 struct ShowOptions {
   std::string file, at, compare, picture;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 /// The joints that --at gives, deg (mm of prismatic joints); all 0 where it is not given.
@@ -239,7 +239,7 @@ ExitCode run(const ShowOptions& options) {
   const std::vector<std::string> warnings =
       options.at.empty() ? std::vector<std::string>() : beyond_limits_sentences(robot.chain, q);
   for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", options.file, warning);
-  if (!options.picture.empty()) write_file(options.picture, arm_picture(robot, q));
+  if (!options.picture.empty()) write_named(options.picture, arm_picture(robot, q), options.file, options.force);
   if (options.json) {
     fmt::print("{}\n", pose_json(robot, q, flange, warnings));
     return ExitCode::done;
@@ -276,6 +276,7 @@ void add_show(CLI::App& robot, ExitCode& exit_code) {
       ->excludes("--at");
   command->add_option("--picture", options->picture, "FILE.svg: the arm there, from four sides and to scale")
       ->excludes("--compare");
+  add_force(*command, options->force);
   command->add_flag("--json", options->json, "one line of JSON: the pose, or the comparison");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -163,7 +163,7 @@ void add_study(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--seeds", request->seeds, "seeds for every cell, from the job's on")
       ->check(CLI::Range(1, kMostSeeds))
       ->capture_default_str();
-  command->add_option("--seed", request->seed, "the first seed (default: the job's)");
+  command->add_option("--seed", request->seed, "the first seed (default: the job's)")->check(not_negative());
   command->add_flag("--closed-loop", request->closed_loop, "close each job's loop too, which takes much longer");
   command->add_option("--data", request->data_file, "data set in place of the job's");
   command->add_option("--blocks", request->blocks, "how many shared building blocks to print; 0: none")

@@ -142,6 +142,15 @@ TEST(ReadPoses, RefusesBrokenCircumstances) {
             "set.yaml:5: 't1_n': ends in a unit of a force; it is expected to hold a torque and end in _nm");
   EXPECT_EQ(with("payload_kg", "-1", payload),
             "poses.csv:2: '-1': column payload_kg must not be negative: it is a mass");
+  EXPECT_EQ(with("payload_kg", "1e9", payload),
+            "poses.csv:2: '1e9': column payload_kg is more than any robot carries (100 t): is it in kg?");
+  const auto temperature = [](ColumnMap& map) { map.temperature = column("temperature"); };
+  EXPECT_EQ(with("temperature", "-300", temperature),
+            "poses.csv:2: '-300': column temperature is no temperature of an arm: is it in deg C?");
+  EXPECT_EQ(
+      refusal(kHeading + "\n40,0,0,1,2,1e300\n"),
+      "poses.csv:2: '1e300': column z_mm is farther than any instrument measures (100 km): correct it, or leave the "
+      "row out");
   EXPECT_EQ(with("set", "training", set),
             "poses.csv:2: 'training': column set must be calibration, validation or accept");
   EXPECT_EQ(with("pose", "", pose), "poses.csv:2: column pose is empty where the name of a pose is expected");

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "data_check/searches.hpp"
+#include "data_check/trial_fit.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/units.hpp"
+
+namespace demecal::inline data_check {
+namespace {
+
+/// How joints and orientations might be meant, and what to do if they are.
+struct Reading {
+  FindingKind kind = FindingKind::convention;
+  int joint = -1;
+  std::string remedy;
+  std::function<JointVector(JointVector)> joints;
+  std::function<Eigen::Quaterniond(const Eigen::Quaterniond&)> orientation;
+};
+
+JointVector as_given(JointVector joints) {
+  return joints;
+}
+
+std::vector<Reading> other_readings(const Chain& chain) {
+  const auto inverse = [](const Eigen::Quaterniond& q) { return q.conjugate(); };
+  // What was read as w, x, y, z.
+  const auto scalar_last = [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()); };
+  std::vector<Reading> readings{
+      {FindingKind::convention, -1, "read the columns of orientation as x, y, z, w", as_given, scalar_last},
+      {FindingKind::convention, -1, "take the measured orientations the other way round (the base seen from the tool)",
+       as_given, inverse},
+      {FindingKind::convention, -1,
+       "read the columns of orientation as x, y, z, w, and take them the other way round (the base seen from the tool)",
+       as_given, [=](const Eigen::Quaterniond& q) { return scalar_last(q).conjugate(); }}};
+  for (int joint = 0; joint < chain.size(); ++joint) {
+    if (!is_revolute(chain, joint)) continue;
+    readings.push_back({FindingKind::joint_sign, joint, fmt::format("turn the sign of joint {}", joint + 1),
+                        [joint](JointVector joints) {
+                          joints[joint] = -joints[joint];
+                          return joints;
+                        },
+                        [](const Eigen::Quaterniond& q) { return q; }});
+  }
+  return readings;
+}
+
+/// The angle, rad, by which orientations scatter about one turn of each tool on its flange: the median over the rows,
+/// about the row that most agree with.
+double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit, const Reading& reading) {
+  constexpr std::size_t kMostTried = 30;
+  std::map<int, std::vector<Eigen::Quaterniond>> turns;
+  for (const TrialRow& row : trial.rows) {
+    const MeasuredPose& pose = data.poses[row.pose];
+    if (!pose.orientation) continue;
+    const Eigen::Isometry3d flange =
+        fit.sensor_from_base[static_cast<std::size_t>(row.station)] * forward(fit.chain, reading.joints(row.joints));
+    turns[row.target].push_back(Eigen::Quaterniond(flange.linear()).conjugate() *
+                                reading.orientation(*pose.orientation));
+  }
+  std::vector<double> angles;
+  for (const auto& [target, all] : turns) {
+    std::vector<double> least;
+    double least_median = 0.0;
+    for (const std::size_t centre : spread_indices(all.size(), kMostTried)) {
+      std::vector<double> about;
+      for (const Eigen::Quaterniond& turn : all) about.push_back(all[centre].angularDistance(turn));
+      std::ranges::nth_element(about, about.begin() + std::ssize(about) / 2);
+      const double median = about[about.size() / 2];
+      if (!least.empty() && median >= least_median) continue;
+      least_median = median;
+      least = std::move(about);
+    }
+    angles.insert(angles.end(), least.begin(), least.end());
+  }
+  if (angles.empty()) return 0.0;
+  std::ranges::nth_element(angles, angles.begin() + std::ssize(angles) / 2);
+  return angles[angles.size() / 2];
+}
+
+}  // namespace
+
+std::vector<Finding> find_wrong_orientations(const DataSet& data, const Trial& trial, const TrialFit& fit) {
+  constexpr std::size_t kFewest = 8;
+  const double implausible = radians(5.0), explained = radians(2.0);
+  const auto with = std::ranges::count_if(
+      trial.rows, [&](const TrialRow& row) { return data.poses[row.pose].orientation.has_value(); });
+  if (static_cast<std::size_t>(with) < kFewest) return {};
+  const Reading given{FindingKind::other_robot, -1, "", as_given, [](const Eigen::Quaterniond& q) { return q; }};
+  const double given_rad = scatter_rad(data, trial, fit, given);
+  if (given_rad < implausible) return {};
+  const std::string observed = fmt::format(
+      "The measured orientations contradict the joints, though the positions fit: they are {:.0f} deg "
+      "(median) from where the arm turns the tool.",
+      degrees(given_rad));
+  for (const Reading& reading : other_readings(fit.chain)) {
+    const double changed_rad = scatter_rad(data, trial, fit, reading);
+    if (changed_rad > explained) continue;
+    Finding finding{.kind = reading.kind, .joint = reading.joint};
+    finding.sentence = fmt::format("{} To agree to {:.2g} deg, {}.", observed, degrees(changed_rad), reading.remedy);
+    return {finding};
+  }
+  Finding finding{.kind = FindingKind::other_robot};
+  finding.sentence = observed +
+                     " No sign of a joint and no order or direction of the quaternions explains it: check the columns "
+                     "of orientation and that of the last joint, or leave `orientation` out.";
+  return {finding};
+}
+
+}  // namespace demecal::inline data_check
