@@ -10,6 +10,7 @@
 
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
+#include "pieces/pieces.hpp"
 #include "primitives/primitive.hpp"
 #include "residuals/noise.hpp"
 
@@ -39,11 +40,11 @@ Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs
       naming_costs_nats_(naming_costs_nats),
       rows_(static_cast<double>(field.rows())),
       poses_(static_cast<double>(distinct_poses(field))) {
-  whole_.reserve(spans_.size());
-  for (std::size_t i = 0; i < spans_.size(); ++i) {
+  whole_.resize(spans_.size());
+  in_pieces(spans_.size(), [&](std::size_t i) {
     const RowMatrix dense = columns.dense(field, i);
-    whole_.emplace_back(dense.transpose() * dense);
-  }
+    whole_[i] = dense.transpose() * dense;
+  });
   along_.resize(columns.size(), 0);
   follow(columns, field, model);
 }
@@ -63,7 +64,7 @@ void Scan::follow(const EffectColumns& columns, const ResidualField& field, cons
 
 void Scan::invert(const std::vector<ColumnSpan>& spans) {
   grams_.assign(spans.size(), {});
-  for (std::size_t i = 0; i < spans.size(); ++i) {
+  in_pieces(spans.size(), [&](std::size_t i) {
     const auto along = along_.middleRows(spans[i].first, spans[i].count);
     const Eigen::MatrixXd left = whole_[i] - along * along.transpose();
     Eigen::VectorXd scale = whole_[i].diagonal().cwiseSqrt();
@@ -78,7 +79,7 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
     grams_[i].inverse = turned * inverse.asDiagonal() * turned.transpose();
     grams_[i].visible = left.diagonal().cwiseMax(0.0);
     if (grams_[i].rank == 0) grams_[i].visible.setZero();
-  }
+  });
 }
 
 double Scan::gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {

@@ -13,6 +13,7 @@
 #include "errors/check.hpp"
 #include "fitting/least_squares.hpp"
 #include "kinematics/chain.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
@@ -236,28 +237,38 @@ void EffectColumns::pack() {
   loose_.clear();
 }
 
-Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
-  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns_, rows.cols());
-  for (const Block& block : blocks_) {
-    const Eigen::MatrixXd part = block.features.transpose() * along_motion(field, block.motion, rows);
-    for (std::size_t i = 0; i < block.columns.size(); ++i) {
-      product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
+namespace {
+
+/// The sum of what each block gives for its columns, of `columns` in all.
+template <typename Blocks, typename Matrix>
+Matrix summed(const Blocks& blocks, const std::vector<Matrix>& parts, Eigen::Index columns, Eigen::Index count) {
+  Matrix sum = Matrix::Zero(columns, count);
+  for (std::size_t block = 0; block < parts.size(); ++block) {
+    for (std::size_t i = 0; i < blocks[block].columns.size(); ++i) {
+      sum.row(blocks[block].columns[i]) += parts[block].row(static_cast<Eigen::Index>(i));
     }
   }
-  return product;
+  return sum;
+}
+
+}  // namespace
+
+Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
+  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  std::vector<Eigen::MatrixXd> parts(blocks_.size());
+  in_pieces(parts.size(), [&](std::size_t i) {
+    parts[i] = blocks_[i].features.transpose() * along_motion(field, blocks_[i].motion, rows);
+  });
+  return summed(blocks_, parts, columns_, rows.cols());
 }
 
 Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, const RowMatrixF& rows) const {
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  Eigen::MatrixXf product = Eigen::MatrixXf::Zero(columns_, rows.cols());
-  for (const Block& block : blocks_) {
-    const Eigen::MatrixXf part = block.features.cast<float>().transpose() * along_motion(field, block.motion, rows);
-    for (std::size_t i = 0; i < block.columns.size(); ++i) {
-      product.row(block.columns[i]) += part.row(static_cast<Eigen::Index>(i));
-    }
-  }
-  return product;
+  std::vector<Eigen::MatrixXf> parts(blocks_.size());
+  in_pieces(parts.size(), [&](std::size_t i) {
+    parts[i] = blocks_[i].features.cast<float>().transpose() * along_motion(field, blocks_[i].motion, rows);
+  });
+  return summed(blocks_, parts, columns_, rows.cols());
 }
 
 RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) const {

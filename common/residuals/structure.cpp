@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "effects/arm_state.hpp"
+#include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 
@@ -115,6 +116,7 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
     add_circumstance(all, joints.back());
     add_circumstance(all, take([&](const ArmState& state) { return state.approach(i); }));
     add_circumstance(all, take([&](const ArmState& state) { return state.torque(chain, i); }));
+    add_circumstance(all, take([&](const ArmState& state) { return state.drive_torque(i); }));
   }
   add_circumstance(all, take([](const ArmState& state) { return state.stop.payload_kg; }));
   add_circumstance(all, take([](const ArmState& state) { return state.stop.temperature_celsius.value_or(0.0); }));
@@ -177,8 +179,10 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   Eigen::MatrixXd null(seen.size(), draws);
   for (Eigen::Index done = 0; done < draws; done += kDrawsAtATime) {
     const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), random);
-    for (Eigen::Index i = 0; i < drawn.cols(); ++i)
+    in_pieces(static_cast<std::size_t>(drawn.cols()), [&](std::size_t piece) {
+      const auto i = static_cast<Eigen::Index>(piece);
       null.col(done + i) = agreements(joint_errors(field, poses, drawn.col(i), chain), all);
+    });
   }
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =
