@@ -59,6 +59,8 @@ struct Target {
   Motion motion = Motion::joints;
   std::size_t order = 0;  ///< targets are visited by this, then in the order of the text
   StatedFrames frames{};
+  /// Why the robot may be sent elsewhere than to these numbers, which are then left as they are; empty: it is not.
+  std::string not_sent_to{};
   std::optional<ApproachSigns> approach{};  ///< where the file says it
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 
@@ -89,6 +91,7 @@ struct Program {
   std::vector<FurtherFile> further{};  ///< in the order of the text
   std::vector<Target> targets;         ///< in the order of the text
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
+  std::vector<Remark> remarks{};       ///< what else should be known before it runs
 
   /// The name of a file by its number (TextPlace::file).
   const std::string& file_name(std::size_t number) const { return number == 0 ? file : further[number - 1].name; }

@@ -55,6 +55,10 @@ class Corrector {
   }
 
   CorrectedTarget correct(const Target& target) {
+    if (!target.not_sent_to.empty()) {
+      forget_where_it_is();
+      return left(target.not_sent_to + "; it is left as it is");
+    }
     const CommandModel& model = model_for(target);
     CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
     if (!corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined) {
@@ -88,13 +92,16 @@ class Corrector {
     return circumstances_.tool_given ? "" : target.frames.unknown_tool;
   }
 
-  CorrectedTarget refused(const Target& target) const {
+  static CorrectedTarget left(std::string sentence) {
     CorrectedTarget corrected;
     corrected.outcome = CorrectionOutcome::uncorrected;
-    const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
-    corrected.remarks.push_back(unknown(target) + "; this line was not corrected" +
-                                (frame ? "" : "; --tool-mm states the tool"));
+    corrected.remarks.push_back(std::move(sentence));
     return corrected;
+  }
+
+  CorrectedTarget refused(const Target& target) const {
+    const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
+    return left(unknown(target) + "; this line was not corrected" + (frame ? "" : "; --tool-mm states the tool"));
   }
 
   /// The model with the tool that the target states.
@@ -203,7 +210,8 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (std::string& sentence : warnings_of(result.program, model, circumstances)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
-  result.warnings.insert(result.warnings.end(), result.program.uncorrected.begin(), result.program.uncorrected.end());
+  for (const std::vector<Remark>* remarks : {&result.program.uncorrected, &result.program.remarks})
+    result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
   std::size_t last_file = 0;
   for (const std::size_t i : visits(result.program)) {
