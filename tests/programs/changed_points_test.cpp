@@ -120,5 +120,57 @@ TEST(Rapid, LeavesPointsThatNoMotionNamesOrThatATrackMayCarry) {
               AllOf(StartsWith("left:"), HasSubstr("eax_a, may carry the arm")));
 }
 
+// KRL
+
+std::string krl_point(int number) {
+  return pose_line(WrittenIn::krl, flange_pose(), usual_joints(), number, 4) + '\n';
+}
+
+std::string of_krl(const std::string& statements, const std::string& name = "XP1") {
+  const std::string points = krl_point(1) + krl_point(2) + "DECL E6AXIS XHOME={A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n";
+  const std::string code = "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nPTP XHOME\nPTP XP1\nPTP XP2\n" + statements + "END\n";
+  const std::string alone = judged(WrittenIn::krl, "DEF t()\n" + points + code, name);
+  const std::string beside =
+      judged(WrittenIn::krl, {{"t.src", "DEF t()\n" + code}, {"t.dat", "DEFDAT t\n" + points + "ENDDAT\n"}}, name);
+  EXPECT_EQ(alone.substr(0, 5), beside.substr(0, 5)) << statements;
+  return alone;
+}
+
+TEST(Krl, LeavesPointsThatTheProgramChanges) {
+  EXPECT_THAT(of_krl("FDAT_ACT=FP1\nXP9=XP1\n"), StartsWith("corrected:"));
+  EXPECT_THAT(of_krl("", "XHOME"), StartsWith("corrected:"));
+  for (const char* change : {"XP1.X=300\n", "XP1=XP2\n", "xp1 = $POS_ACT\n", "XP1=XP2:XP3\n", "XP1=XAR[2]\n",
+                             "XP1=INVERSE(XP2)\n", "IF $IN[1] THEN\n  XP1.Z=XP1.Z+100\nENDIF\n"})
+    EXPECT_THAT(of_krl(change), AllOf(StartsWith("left: line "), HasSubstr(kChanged))) << change;
+  EXPECT_THAT(of_krl("XHOME.A2=-60\n", "XHOME"), AllOf(StartsWith("left:"), HasSubstr(kChanged)));
+}
+
+TEST(Krl, LeavesPointsThatAreHandedOn) {
+  for (const char* use : {"SUB(XP1)\n", "XP9=XP2:XP1\n", "LIN XP1:XP2\n", "F1=FRAME_OF(XP1)\n"})
+    EXPECT_THAT(of_krl(use), AllOf(StartsWith("left:"), HasSubstr(kUsed))) << use;
+}
+
+TEST(Krl, ReadsEveryPointOfAMotionInItsPlace) {
+  const std::string text = "DEF t()\n" + krl_point(3) +
+                           "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nPTP {A1 10,A2 -60,A3 70,A4 "
+                           "20,A5 50,A6 5}\n";
+  for (const char* motion : {"CIRC XP8,XP3,CA 90\n", "SPLINE\nSPL XP3\nENDSPLINE\n", "SCIRC XP8, XP3\n"}) {
+    EXPECT_THAT(judged(WrittenIn::krl, {{"t.src", text + motion + "END\n"}, {"t.dat", "DEFDAT t\nENDDAT\n"}}, "XP3"),
+                StartsWith("corrected:"))
+        << motion;
+    const std::string points = "DEFDAT t\n" + krl_point(3) + "ENDDAT\n";
+    const std::string code = text.substr(0, 8) + text.substr(text.find("$BASE")) + motion + "END\n";
+    EXPECT_THAT(judged(WrittenIn::krl, {{"t.src", code}, {"t.dat", points}}, "XP3"), StartsWith("corrected:"))
+        << motion;
+  }
+}
+
+TEST(Krl, LeavesPointsThatATrackMayCarry) {
+  std::string point = krl_point(1);
+  point.replace(point.find("E1 0.0"), 6, "E1 200");
+  EXPECT_THAT(judged(WrittenIn::krl, "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n" + point + "PTP XP1\n", "XP1"),
+              AllOf(StartsWith("left:"), HasSubstr("E1, may carry the arm")));
+}
+
 }  // namespace
 }  // namespace demecal
