@@ -172,5 +172,34 @@ TEST(Krl, LeavesPointsThatATrackMayCarry) {
               AllOf(StartsWith("left:"), HasSubstr("E1, may carry the arm")));
 }
 
+// URScript
+
+std::string of_urscript(const std::string& statements, const std::string& name) {
+  return judged(
+      WrittenIn::urscript,
+      "qa = [0.2,-1.0,1.2,0.35,0.9,0.1]\nqb = [0.2,-1.0,1.2,0.35,0.9,0.1]\nmovej(qa)\nmovej(qb)\n" + statements, name);
+}
+
+TEST(UrScript, LeavesVariablesThatTheProgramChanges) {
+  EXPECT_THAT(of_urscript("qc = qa\n", "qb"), StartsWith("corrected:"));
+  EXPECT_THAT(of_urscript("movej(qa, a=1.2)\nqc = qb\n", "qa"), StartsWith("corrected:"));
+  for (const char* change : {"qa[1] = -0.6\n", "qa = get_actual_joint_positions()\n", "qa = qb\n"})
+    EXPECT_THAT(of_urscript(change + std::string("movej(qa)\n"), "qa"), AllOf(StartsWith("left:"), HasSubstr(kChanged)))
+        << change;
+  EXPECT_THAT(of_urscript("qc = qb\nqc[1] = -0.4\nmovej(qc)\n", "qc"),
+              AllOf(StartsWith("left:"), HasSubstr("computed when the program runs")));
+  for (const char* use : {"go(qa)\n", "qc = bent(qa, 0.1)\n"})
+    EXPECT_THAT(of_urscript(use, "qa"), AllOf(StartsWith("left:"), HasSubstr(kUsed))) << use;
+}
+
+TEST(UrScript, LeavesRotationVectorsLongerThanATurn) {
+  const auto first = [](const std::string& vector) {
+    return judged(WrittenIn::urscript, "movej([0.2,-1.0,1.2,0.35,0.9,0.1])\nmovel(p[0.5,0.3,0.4," + vector + "])\n",
+                  "");
+  };
+  EXPECT_THAT(first("27.687,61.358,127.069"), HasSubstr("143.8 rad long"));
+  EXPECT_THAT(first("0.5,1.5,2.5"), ::testing::Not(HasSubstr("rad long")));
+}
+
 }  // namespace
 }  // namespace demecal
