@@ -17,6 +17,7 @@
 #include "kinematics/chain.hpp"
 #include "languages/kawasaki_as_program.hpp"
 #include "languages/languages.hpp"
+#include "languages/location_names.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "data/text.hpp"
+#include "languages/location_names.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -20,16 +21,6 @@ bool is_motion(const std::string& word) {
   return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
 }
 
-/// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.
-std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end) {
-  int depth = 0;
-  for (std::size_t at = begin; at < end; ++at) {
-    if (code[at] == ',' && depth == 0) return at;
-    depth += code[at] == '(' || code[at] == '[' ? 1 : code[at] == ')' || code[at] == ']' ? -1 : 0;
-  }
-  return end;
-}
-
 /// Whether + or - stand outside of parentheses.
 bool is_sum(std::string_view argument) {
   int depth = 0;
@@ -41,23 +32,6 @@ bool is_sum(std::string_view argument) {
 }
 
 }  // namespace
-
-std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end) {
-  const std::string_view code = text.code();
-  std::size_t at = begin;
-  if (at < end && code[at] == '#') ++at;
-  const std::size_t first = at;
-  while (at < end && (is_word_letter(code[at]) || code[at] == '.')) ++at;
-  if (at == first || is_digit(code[first])) return "";
-  if (at < end && code[at] == '[') at = std::min(code.find(']', at), end - 1) + 1;
-  return std::string(code.substr(begin, at - begin));
-}
-
-std::string location_key(std::string_view name) {
-  std::string key = lower_case(name);
-  std::erase_if(key, [](char letter) { return letter == ' ' || letter == '\t'; });
-  return key;
-}
 
 void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
   begin = text.skip_spaces(begin);

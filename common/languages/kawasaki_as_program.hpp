@@ -72,10 +72,4 @@ class AsStatements {
   std::string sets_configuration_{};
 };
 
-/// The name that begins at `begin` of the code, as written: a # before it and indices behind it belong to it; empty
-/// where none does.
-std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end);
-/// By which names are one: in small letters, without blanks.
-std::string location_key(std::string_view name);
-
 }  // namespace demecal::inline languages

@@ -10,8 +10,6 @@
 namespace demecal::inline languages {
 namespace {
 
-constexpr double kFarOffset_mm = 100.0;  ///< over which corrections of one place may not be those of the other
-
 /// The name with indices behind it, as far as they go.
 std::size_t after_indices(const ProgramText& text, std::size_t end) {
   const std::string_view code = text.code();
@@ -171,12 +169,8 @@ void RapidStatements::judge_offset(std::size_t begin, std::size_t end, std::stri
     square += cell ? cell->value * cell->value : 0.0;
     at = stop + 1;
   }
-  if (!computed && std::sqrt(square) <= kFarOffset_mm) return;
-  const std::string point(name), far = std::to_string(std::lround(std::sqrt(square)));
-  program_.remarks.push_back(
-      {text_.place(begin), point,
-       (computed ? "a place at a distance from it that is not known" : "a place " + far + " mm away from it") +
-           std::string(" is given the correction of this point, which need not be right there")});
+  note_offset(program_, text_.place(begin), std::string(name),
+              computed ? std::nullopt : std::optional(std::sqrt(square)));
 }
 
 }  // namespace demecal::inline languages

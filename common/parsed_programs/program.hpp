@@ -92,6 +92,9 @@ struct Program {
   std::vector<Target> targets;         ///< in the order of the text
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
   std::vector<Remark> remarks{};       ///< what else should be known before it runs
+  /// Bytes at which a motion goes to a place that is none of the targets: the joints before it say nothing of those
+  /// after it.
+  std::vector<std::size_t> unknown_motions{};
 
   /// The name of a file by its number (TextPlace::file).
   const std::string& file_name(std::size_t number) const { return number == 0 ? file : further[number - 1].name; }
@@ -169,6 +172,10 @@ std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<con
 
 /// Says in `program` why this target cannot be corrected.
 void skip_target(Program& program, const Target& target, const std::string& why);
+
+/// Says in `program` that a place so far from the target of this name (nothing: it is not known how far) is given the
+/// target's correction; not where it is close by.
+void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm);
 
 /// Throws InputError at the place unless w, x, y, z are a unit quaternion, to the digits that files keep.
 void require_quaternion(const ProgramText& text, std::span<const Cell> cells);

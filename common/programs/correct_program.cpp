@@ -157,7 +157,7 @@ class Corrector {
         " is not known (" + difference_of(arm, corrected.nominal, alternatives[other].nominal) +
         "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
         " mm: " + moved_text(corrected) + " or " + moved_text(alternatives[other]) + "; this line was not corrected; " +
-        (words.empty() ? "a joint move before it or --near tells"
+        (words.empty() ? "a joint move to joints near its own before it, or --near, tells"
                        : "joints within 0.5 rad of its own tell, before it or by --near")};
     corrected.outcome = CorrectionOutcome::uncorrected;
   }
@@ -203,6 +203,15 @@ std::vector<std::size_t> visits(const Program& program) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a motion between these bytes goes to a place that is not told.
+bool goes_elsewhere(const Program& program, std::size_t from, std::size_t to) {
+  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) { return at >= from && at < to; });
+}
+
+}  // namespace
+
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
@@ -213,12 +222,13 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (const std::vector<Remark>* remarks : {&result.program.uncorrected, &result.program.remarks})
     result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
-  std::size_t last_file = 0;
+  std::size_t last_file = 0, last_order = 0;
   for (const std::size_t i : visits(result.program)) {
     const Target& target = result.program.targets[i];
     const std::size_t file = result.program.file_at(target.order);
-    if (file != last_file) corrector.forget_where_it_is();
+    if (file != last_file || goes_elsewhere(result.program, last_order, target.order)) corrector.forget_where_it_is();
     last_file = file;
+    last_order = target.order;
     result.targets[i] = corrector.correct(target);
     for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});

@@ -201,5 +201,35 @@ TEST(UrScript, LeavesRotationVectorsLongerThanATurn) {
   EXPECT_THAT(first("0.5,1.5,2.5"), ::testing::Not(HasSubstr("rad long")));
 }
 
+// VAL II
+
+std::string of_val2(const std::string& statements, const std::string& name = "mcp[1]") {
+  const std::string points = pose_line(WrittenIn::val2, tool_pose(), usual_joints(), 1, 5) + '\n' +
+                             pose_line(WrittenIn::val2, tool_pose(), usual_joints(), 2, 5) + '\n' +
+                             joints_line(WrittenIn::val2, usual_joints(), 1, 4) + '\n' +
+                             joints_line(WrittenIn::val2, usual_joints(), 2, 4) + '\n';
+  return judged(WrittenIn::val2,
+                ".PROGRAM t\n  MOVE #cp[1]\n  MOVES mcp[1]\n" + statements + ".END\n.LOCATIONS\n" + points + ".END\n",
+                name);
+}
+
+TEST(Val2, LeavesLocationsThatTheProgramChanges) {
+  EXPECT_THAT(of_val2("  MOVES mcp[2]\n  SET x = mcp[1]\n"), StartsWith("corrected:"));
+  for (const char* change : {"  SET mcp[1] = SHIFT(mcp[1] BY 0,0,100)\n", " 10 SET mcp[1]=TRANS(1,2,3,0,0,0)\n",
+                             "  HERE mcp[1]\n", "  HERE mcp[i]\n", "  SET mcp[n+1] = x\n"})
+    EXPECT_THAT(of_val2(change), AllOf(StartsWith("left:"), HasSubstr(kChanged))) << change;
+  EXPECT_THAT(of_val2("  HERE mcp[2]\n"), StartsWith("corrected:"));
+  EXPECT_THAT(of_val2("  SET #cp[1] = #PPOINT(1,2,3,4,5,6)\n", "#cp[1]"),
+              AllOf(StartsWith("left:"), HasSubstr(kChanged)));
+  for (const char* name : {"mcp[1]", "mcp[2]"})
+    EXPECT_THAT(of_val2("  MOVES mcp[2]:mcp[1]\n", name), AllOf(StartsWith("left:"), HasSubstr(kUsed)));
+}
+
+TEST(Val2, KnowsTheJointsBeforeALineThatItsMotionsName) {
+  EXPECT_EQ(of_val2("").find("is not known"), std::string::npos) << of_val2("");
+  EXPECT_THAT(of_val2(""), StartsWith("corrected:"));
+  EXPECT_THAT(of_val2("  APPROS mcp[1], 300\n"), HasSubstr("300 mm away from it"));
+}
+
 }  // namespace
 }  // namespace demecal
