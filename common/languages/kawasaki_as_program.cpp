@@ -44,6 +44,9 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
     sets_configuration_ = word;
   if (is_motion(word)) return read_motion(text, word, begin, end);
   if (word == "point" && argument < end) return read_point(text, argument, end);
+  if (word == "call") return use_all(text, std::min(text.code().find('(', argument), end), end);
+  const std::string name = location_name(text, begin, end);
+  if (text.next(begin + name.size()) == '=') changes_.changed(name, begin);
   if (word == "here" && argument < end) {
     not_sent_to_[location_key(location_name(text, argument, end))] = "it is taught anew when the program runs (HERE)";
   }
@@ -84,6 +87,11 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   const std::string name = location_name(text, first, last);
   if (name.size() == argument.size()) {
     uses_[location_key(name)].push_back(use);
+    if (!word.ends_with("appro")) return;
+    std::size_t distance = std::min(last + 1, end);
+    const std::string_view number = text.trimmed(distance, end_of_argument(code, distance, end));
+    const auto cell = cell_at(code, distance, number.size(), {});
+    approaches_.push_back({begin, name, cell ? std::optional(cell->value) : std::nullopt});
     return;
   }
   computed_.emplace_back(first, std::string(argument));
@@ -96,17 +104,32 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   }
 }
 
-/// "p = TRANS(...)", or anything else that p is given.
+void AsStatements::use_all(const ProgramText& text, std::size_t begin, std::size_t end) {
+  for (const std::string& name : location_names(text, begin, end)) changes_.used(name, begin);
+}
+
+void AsStatements::note_approaches(const ProgramText& text, Program& program) const {
+  for (const Approach& approach : approaches_)
+    note_offset(program, text.place(approach.begin), approach.name, approach.distance_mm);
+}
+
+/// "p = TRANS(...)", or anything else that p is given; "/Z p = 200" gives it a part.
 void AsStatements::read_point(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const bool part = text.code()[begin] == '/';
+  if (part) begin = std::min(text.skip_spaces(std::min(text.code().find_first_of(" \t", begin), end)), end);
   const std::string name = location_name(text, begin, end);
   const std::size_t sign = std::min(text.code().find('=', begin), end);
   if (name.empty() || sign >= end) return;
-  if (auto literal = literal_at(text, text.skip_spaces(sign + 1), end)) {
+  if (auto literal = literal_at(text, text.skip_spaces(sign + 1), end); literal && !part) {
     literal->name = name;
     literals_.push_back(*literal);
     return;
   }
   not_sent_to_[location_key(name)] = "it is computed when the program runs (POINT)";
+  std::size_t first = sign + 1;
+  const std::string_view value = text.trimmed(first, end);
+  const bool copied = location_name(text, first, end).size() == value.size();
+  if (!copied && (text.word_at(first) != "shift" || is_sum(value))) use_all(text, first, end);
 }
 
 /// TRANS(...) or #PPOINT(...) that is all of [begin, end).
@@ -132,7 +155,7 @@ std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text,
 
 std::string AsStatements::not_sent_to(const std::string& name) const {
   const auto found = not_sent_to_.find(name);
-  return found == not_sent_to_.end() ? "" : found->second;
+  return found == not_sent_to_.end() ? changes_.why(name) : found->second;
 }
 
 std::vector<TargetUse> AsStatements::uses(const std::string& name) const {

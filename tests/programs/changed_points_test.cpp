@@ -201,7 +201,7 @@ TEST(UrScript, LeavesRotationVectorsLongerThanATurn) {
   EXPECT_THAT(first("0.5,1.5,2.5"), ::testing::Not(HasSubstr("rad long")));
 }
 
-// VAL II
+// VAL II, FANUC and Kawasaki AS
 
 std::string of_val2(const std::string& statements, const std::string& name = "mcp[1]") {
   const std::string points = pose_line(WrittenIn::val2, tool_pose(), usual_joints(), 1, 5) + '\n' +
@@ -229,6 +229,36 @@ TEST(Val2, KnowsTheJointsBeforeALineThatItsMotionsName) {
   EXPECT_EQ(of_val2("").find("is not known"), std::string::npos) << of_val2("");
   EXPECT_THAT(of_val2(""), StartsWith("corrected:"));
   EXPECT_THAT(of_val2("  APPROS mcp[1], 300\n"), HasSubstr("300 mm away from it"));
+}
+
+TEST(FanucLs, LeavesPositionsThatTheProgramChanges) {
+  const auto of = [](const std::string& statement) {
+    return judged(WrittenIn::fanuc_ls,
+                  "/MN\n   1:J P[1] 100% FINE    ;\n" + statement + "/POS\n" +
+                      joints_line(WrittenIn::fanuc_ls, usual_joints(), 1, 3) + '\n' + "/END\n",
+                  "P[1]");
+  };
+  EXPECT_THAT(of("   2:  PR[1]=P[1]    ;\n"), StartsWith("corrected:"));
+  for (const char* change :
+       {"   2:  P[1]=LPOS    ;\n", "   2:  P[1,3:*]=P[1,3:*]+10    ;\n", "   2:  P[R[1]]=JPOS    ;\n",
+        "   2:  P[1:up]=PR[2]    ;\n", "   2:  IF DI[1]=ON,P[1]=JPOS ;\n"})
+    EXPECT_THAT(of(change), AllOf(StartsWith("left:"), HasSubstr(kChanged))) << change;
+}
+
+TEST(KawasakiAs, LeavesLocationsThatTheProgramChanges) {
+  const auto of = [](const std::string& statement) {
+    return judged(WrittenIn::kawasaki_as,
+                  ".PROGRAM t()\n  JMOVE #p1\n  LMOVE p1\n" + statement + ".END\n.TRANS\n" +
+                      pose_line(WrittenIn::kawasaki_as, tool_pose(), usual_joints(), 1, 4) + "\n.END\n.JOINTS\n" +
+                      joints_line(WrittenIn::kawasaki_as, usual_joints(), 1, 4) + "\n.END\n",
+                  "p1");
+  };
+  EXPECT_THAT(of("  DECOMPOSE x[0] = p1\n  LAPPRO p1,50\n"), StartsWith("corrected:"));
+  for (const char* change : {"  POINT/Z p1 = 200\n", "  POINT /OAT p1 = q\n", "  POINT p1 = q\n", "  HERE p1\n"})
+    EXPECT_THAT(of(change), StartsWith("left:")) << change;
+  for (const char* use : {"  POINT f = FRAME(p1,p2,p3,p1)\n", "  CALL go(p1)\n"})
+    EXPECT_THAT(of(use), AllOf(StartsWith("left:"), HasSubstr("not followed"))) << use;
+  EXPECT_THAT(of("  LAPPRO p1,300\n"), AllOf(StartsWith("corrected:"), HasSubstr("300 mm away from it")));
 }
 
 }  // namespace
