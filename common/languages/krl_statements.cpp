@@ -31,8 +31,24 @@ KrlStatements::KrlStatements(const ProgramText& text, Program& program)
     numbers_.insert(target.begin());
     if (!target.name.empty()) names_.insert(lower_case(target.name));
   }
-  text.for_each_word([&](std::size_t begin, std::size_t end) { read_name(begin, end); });
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    read_name(begin, end);
+    if (goes_elsewhere(begin, end)) program.unknown_motions.push_back(begin);
+  });
   changes_.mark(program.targets);
+}
+
+/// Whether a motion begins here that goes to what has no numbers, or by them.
+bool KrlStatements::goes_elsewhere(std::size_t begin, std::size_t end) const {
+  const std::string word = lower_case(code_.substr(begin, end - begin));
+  const bool relative = word.ends_with("_rel") && points_of_krl_motion(word.substr(0, word.size() - 4)) > 0;
+  if (points_of_krl_motion(word) == 0) return relative;
+  const std::size_t line_end = std::min(code_.find('\n', begin), code_.size());
+  std::size_t last = text_.skip_spaces(end);
+  if (points_of_krl_motion(word) > 1) last = text_.skip_spaces(next_krl_argument(code_, last, line_end));
+  if (last >= line_end || code_[last] == '{') return false;
+  const std::size_t after = text_.skip_spaces(after_index(text_.word_end(last), line_end));
+  return !names_.contains(text_.word_at(last)) || (after < line_end && code_[after] == ':');
 }
 
 std::size_t KrlStatements::after_index(std::size_t end, std::size_t line_end) const {

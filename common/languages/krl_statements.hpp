@@ -34,6 +34,7 @@ class KrlStatements {
   };
 
   void read_name(std::size_t begin, std::size_t end);
+  bool goes_elsewhere(std::size_t begin, std::size_t end) const;
   std::size_t after_index(std::size_t end, std::size_t line_end) const;
   bool is_declaration(const Place& place) const;
   /// Whether the aggregate at `begin` gives a point all its numbers.

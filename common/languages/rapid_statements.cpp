@@ -98,6 +98,16 @@ void RapidStatements::read_motion(std::size_t end, std::size_t targets) {
     begin = stop + 1;
     if (--targets == 0) break;
   }
+  if (!destinations_.empty() && !holds_target(destinations_.back())) program_.unknown_motions.push_back(end);
+}
+
+/// Whether the name or the numbers of a target stand there.
+bool RapidStatements::holds_target(const TextRange& range) const {
+  for (std::size_t at = range.begin; at < range.end; ++at) {
+    if (code_[at] == '[') return true;
+    if (text_.begins_word(at) && names_.contains(text_.word_at(at))) return true;
+  }
+  return false;
 }
 
 std::size_t RapidStatements::after_parts(std::size_t end) const {

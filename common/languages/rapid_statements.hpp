@@ -38,6 +38,7 @@ class RapidStatements {
  private:
   void read_motion(std::size_t end, std::size_t targets);
   void read_name(std::size_t begin, std::size_t end);
+  bool holds_target(const TextRange& range) const;
   /// Where the name's indices and components end.
   std::size_t after_parts(std::size_t end) const;
   /// Whether [begin, end) is the name alone, or Offs or RelTool of it; such an offset is judged.

@@ -118,13 +118,19 @@ class UrReader {
       plain_.insert(begin);
       for (const std::size_t literal : variable->second) add(literal, word, Numbers::or_expressions, hint);
     } else if (computed_.contains(word) && (after == ',' || after == ')')) {
-      skip_target(program_, {.name = word, .place = text_.place(begin)}, word + " is computed when the program runs");
+      elsewhere({.name = word, .place = text_.place(begin)}, word + " is computed when the program runs");
     } else {
       std::size_t first = begin;
       const std::string argument(text_.trimmed(first, argument_end(begin)));
-      skip_target(program_, {.name = word, .place = text_.place(std::min(begin, code_.size()))},
-                  "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
+      elsewhere({.name = word, .place = text_.place(std::min(begin, code_.size()))},
+                "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
     }
+  }
+
+  /// Says why a motion goes to none of the targets.
+  void elsewhere(const Target& target, const std::string& why) {
+    program_.unknown_motions.push_back(use_.begin);
+    skip_target(program_, target, why);
   }
 
   /// The word that begins at or after `offset`.

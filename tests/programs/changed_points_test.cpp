@@ -261,5 +261,39 @@ TEST(KawasakiAs, LeavesLocationsThatTheProgramChanges) {
   EXPECT_THAT(of("  LAPPRO p1,300\n"), AllOf(StartsWith("corrected:"), HasSubstr("300 mm away from it")));
 }
 
+// Where the arm comes from
+
+TEST(UnknownMotions, EndWhatIsKnownOfTheJointsBefore) {
+  const auto of_as = [](const std::string& between) {
+    return judged(WrittenIn::kawasaki_as,
+                  ".PROGRAM t()\n  JMOVE #p1\n" + between + "  LMOVE p1\n.END\n.TRANS\n" +
+                      pose_line(WrittenIn::kawasaki_as, tool_pose(), usual_joints(), 1, 4) + "\n.END\n.JOINTS\n" +
+                      joints_line(WrittenIn::kawasaki_as, usual_joints(), 1, 4) + "\n.END\n",
+                  "p1");
+  };
+  EXPECT_THAT(of_as(""), StartsWith("corrected:"));
+  EXPECT_THAT(of_as("  JMOVE SHIFT(q BY 0,0,9)\n"), AllOf(StartsWith("left:"), HasSubstr("is not known")));
+  const auto of_krl_line = [](const std::string& between) {
+    const std::string line = krl_point(1);
+    const std::string pose = line.substr(line.find('{'), line.find(",S 2") - line.find('{')) + "}\n";
+    return judged(
+        WrittenIn::krl,
+        "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nPTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n" + between + "LIN " + pose,
+        "");
+  };
+  EXPECT_THAT(of_krl_line("; LIN_REL {Z 9}\n"), ::testing::Not(HasSubstr("is not known")));
+  for (const char* between : {"PTP XP7\n", "LIN_REL {Z 9}\n", "PTP $AXIS_ACT\n"})
+    EXPECT_THAT(of_krl_line(between), HasSubstr("is not known")) << between;
+  const auto of_line = [](const std::string& between) {
+    const Eigen::Isometry3d pose = tool_pose();
+    return judged(WrittenIn::urscript,
+                  joints_line(WrittenIn::urscript, usual_joints(), 1, 5) + '\n' + between +
+                      pose_line(WrittenIn::urscript, pose, usual_joints(), 1, 5),
+                  "");
+  };
+  EXPECT_THAT(of_line(""), ::testing::Not(HasSubstr("is not known")));
+  EXPECT_THAT(of_line("movej(elsewhere)\n"), HasSubstr("is not known"));
+}
+
 }  // namespace
 }  // namespace demecal
