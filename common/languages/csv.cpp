@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -38,6 +39,7 @@ struct UnitName {
 constexpr std::array<UnitName, 2> kAngles{
     {{"_deg", {std::numbers::pi / 180.0, kDecimalsDeg}}, {"_rad", {1.0, kDecimalsRad}}}};
 constexpr std::array<UnitName, 2> kLengths{{{"_mm", kMillimetres}, {"_m", {1.0, kDecimalsM}}}};
+constexpr double kAbsoluteZero_celsius = -273.15;
 constexpr CellUnit kPlain{1.0, kDecimalsQuaternion};
 
 struct Column {
@@ -99,7 +101,8 @@ class CsvTargets {
       if (line.find(separator) != std::string_view::npos) break;
     }
     header_ = begin;
-    for (const Field& field : fields(begin, end)) {
+    headings_ = fields(begin, end);
+    for (const Field& field : headings_) {
       names_.push_back(lower_case(text_.text().substr(field.begin, field.size)));
     }
     find_columns();
@@ -121,8 +124,45 @@ class CsvTargets {
     return std::nullopt;
   }
 
+  /// Throws InputError at a heading.
+  [[noreturn]] void refuse(std::size_t column, const std::string& rule) const {
+    text_.fail(headings_[column].begin, headings_[column].size, rule);
+  }
+
+  /// A quantity stands in one column only, whatever its unit.
+  void refuse_twice(const std::string& stem) const {
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const auto is_this = [&](const UnitName& unit) { return names_[i] == stem + std::string(unit.ending); };
+      if (!std::ranges::any_of(kAngles, is_this) && !std::ranges::any_of(kLengths, is_this)) continue;
+      if (first) refuse(i, "stands beside '" + names_[*first] + "', which is the same quantity: one column must go");
+      first = i;
+    }
+  }
+
+  void refuse_both(const ProgramColumns& one, const ProgramColumns& other) const {
+    if (!one.empty() && !other.empty())
+      refuse(other.front().index,
+             "stands beside '" + names_[one.front().index] + "', which is the same quantity: one column must go");
+  }
+
+  /// Joint columns after the arm's last, where it has `joints` of them; 0: of this name there are not all.
+  void refuse_joints_beyond(const std::string& stem, std::size_t joints) const {
+    for (std::size_t i = 0; i < names_.size() && joints > 0; ++i) {
+      const std::string& name = names_[i];
+      const std::size_t unit = name.find('_', stem.size());
+      if (!name.starts_with(stem) || unit == std::string::npos) continue;
+      const auto number = cell_at(name, stem.size(), unit - stem.size(), {});
+      const auto ends = [&](const UnitName& one) { return name.substr(unit) == one.ending; };
+      if (!number || !(number->value > static_cast<double>(joints))) continue;
+      if (std::ranges::any_of(kAngles, ends) || std::ranges::any_of(kLengths, ends))
+        refuse(i, "the arm has " + std::to_string(joints) + " joints");
+    }
+  }
+
   ProgramColumns joint_columns(const std::string& stem) {
     ProgramColumns columns;
+    for (std::size_t i = 0; i < arm_.joints.size(); ++i) refuse_twice(stem + std::to_string(i + 1));
     for (std::size_t i = 0; i < arm_.joints.size(); ++i) {
       const bool revolute = is_revolute(arm_.joints[i]);
       const auto column = find(stem + std::to_string(i + 1), revolute ? kAngles : kLengths);
@@ -145,9 +185,13 @@ class CsvTargets {
 
   void find_columns() {
     for (const char* stem : {"q", "j", "joint", "theta", "axis", "a", "q_", "joint_", "theta_"}) {
-      if (joints_.empty()) joints_ = joint_columns(stem);
+      ProgramColumns found = joint_columns(stem);
+      if (joints_.empty()) refuse_joints_beyond(stem, found.empty() ? 0 : arm_.joints.size());
+      refuse_both(joints_, found);
+      if (joints_.empty()) joints_ = std::move(found);
     }
     constexpr std::array<UnitName, 1> kNoUnit{{{"", kPlain}}};
+    for (const char* axis : {"x", "y", "z"}) refuse_twice(axis);
     position_ = all_of({"x", "y", "z"}, kLengths);
     if (!position_.empty()) orientation_ = all_of({"qw", "qx", "qy", "qz"}, kNoUnit);
     std::vector<std::string> signs;
@@ -167,10 +211,14 @@ class CsvTargets {
     return found;
   }
 
-  std::optional<double> circumstance(const std::string& name, const std::vector<Field>& row) {
+  /// A number of this column that is not below `least`; `rule` says so.
+  std::optional<double> circumstance(const std::string& name, const std::vector<Field>& row, double least,
+                                     const std::string& rule) {
     const std::size_t* index = find(name);
     if (index == nullptr) return std::nullopt;
-    return text_.number(row[*index].begin, row[*index].size, {}).value;
+    const Cell cell = text_.number(row[*index].begin, row[*index].size, {});
+    if (!(cell.value >= least)) text_.fail(cell.begin, cell.size, rule);
+    return cell.value;
   }
 
   void read_row(std::size_t begin, std::size_t end) {
@@ -196,9 +244,10 @@ class CsvTargets {
       }
     }
     if (!approach_.empty()) target.approach = signs(row);
-    target.payload_kg = circumstance("payload_kg", row);
-    target.temperature_celsius = circumstance("temperature_celsius", row);
-    target.time_s = circumstance("time_s", row);
+    target.payload_kg = circumstance("payload_kg", row, 0.0, "must be 0 or more");
+    target.temperature_celsius =
+        circumstance("temperature_celsius", row, kAbsoluteZero_celsius, "must not be below -273.15");
+    target.time_s = circumstance("time_s", row, -std::numeric_limits<double>::infinity(), "");
     program_.targets.push_back(std::move(target));
   }
 
@@ -220,6 +269,7 @@ class CsvTargets {
   Program program_;
   char separator_ = ',';
   std::size_t header_ = 0, line_end_ = 0, found_ = 0;
+  std::vector<Field> headings_;
   std::vector<std::string> names_;
   ProgramColumns joints_, position_, orientation_, approach_;
 };

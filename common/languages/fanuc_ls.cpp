@@ -45,7 +45,7 @@ class FanucReader {
 
   Program read() {
     const std::size_t instructions = section("/mn"), positions = section("/pos");
-    if (instructions < positions) motions_.read(text_, instructions, positions);
+    if (instructions < positions) motions_.read(text_, instructions, positions, changes_);
     for (const std::size_t begin : motions_.to_registers())
       skip_target(program_, {.name = "", .place = text_.place(begin)},
                   "the motion goes to a register, whose value is not in this file");
@@ -53,6 +53,8 @@ class FanucReader {
       if (!text_.begins_word(at) || text_.word_at(at) != "p" || text_.next(text_.word_end(at)) != '[') continue;
       at = read_position(at, text_.skip_spaces(text_.word_end(at)));
     }
+    changes_.mark(program_.targets);
+    program_.unknown_motions = motions_.elsewhere();
     return std::move(program_);
   }
 
@@ -229,6 +231,7 @@ class FanucReader {
   const ControllerData& controller_;
   Program program_;
   FanucMotions motions_;
+  ChangedNames changes_{text_};
 };
 
 std::string fanuc_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

@@ -17,6 +17,27 @@ bool is_blank(char letter) {
   return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
 }
 
+/// "  12:  P[3]=LPOS" and "P[3,2:y]=...", also behind IF.
+void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes) {
+  const std::string_view code = text.code().substr(0, end);
+  while (begin < end && (is_blank(code[begin]) || is_digit(code[begin]) || code[begin] == ':')) ++begin;
+  if (begin < end && code[begin] == '!') return;  // a remark
+  for (std::size_t at = begin; at < end; ++at) {
+    if (!text.begins_word(at) || text.word_at(at) != "p") continue;
+    const std::size_t open = text.skip_spaces(text.word_end(at));
+    if (open >= end || code[open] != '[') continue;
+    std::size_t close = open;
+    for (int depth = 0; close < end; ++close) {
+      depth += code[close] == '[' ? 1 : code[close] == ']' ? -1 : 0;
+      if (depth == 0) break;
+    }
+    const std::size_t sign = close < end ? text.skip_spaces(close + 1) : end;
+    if (sign >= end || code[sign] != '=') continue;
+    const std::size_t index_end = std::min(code.find_first_of(":,", open), close);
+    changes.changed("P[" + std::string(code.substr(open + 1, index_end - open - 1)) + ']', at);
+  }
+}
+
 }  // namespace
 
 int position_number(const ProgramText& text, std::size_t open) {
@@ -30,10 +51,11 @@ int position_number(const ProgramText& text, std::size_t open) {
   return counts ? static_cast<int>(number->value) : -1;
 }
 
-void FanucMotions::read(const ProgramText& text, std::size_t begin, std::size_t end) {
+void FanucMotions::read(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes) {
   while (begin < end) {
     const std::size_t stop = std::min(text.code().find(';', begin), end);
     read_statement(text, begin, stop);
+    find_changes(text, begin, stop, changes);
     begin = stop + 1;
   }
 }
@@ -60,6 +82,8 @@ void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, st
     at = word_end - 1;
   }
   if (numbers.empty() && why == kOffset) to_registers_.push_back(begin);
+  const bool indirect = std::any_of(numbers.begin(), numbers.end(), [](int number) { return number < 0; });
+  if (!why.empty() || indirect) elsewhere_.push_back(begin);
   for (const int number : numbers) {
     if (number < 0 && !why.empty()) computed_numbers_ = "a motion may go by it: " + why;
     if (number >= 0 && !why.empty()) not_sent_to_[number] = why;

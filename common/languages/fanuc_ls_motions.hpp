@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -13,11 +14,15 @@ namespace demecal::inline languages {
 
 class FanucMotions {
  public:
-  /// Takes instructions, [begin, end) of the code: what stands between /MN and /POS.
-  void read(const ProgramText& text, std::size_t begin, std::size_t end);
+  /// Takes instructions, [begin, end) of the code: what stands between /MN and /POS. Those that give positions a value
+  /// are told to `changes`.
+  void read(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes);
 
   /// Where motions name a register and no position.
   const std::vector<std::size_t>& to_registers() const { return to_registers_; }
+
+  /// Where motions go elsewhere than to a position alone.
+  const std::vector<std::size_t>& elsewhere() const { return elsewhere_; }
 
   /// Why position `number` is not what the arm is sent to; empty: it is, as far as the instructions tell.
   std::string not_sent_to(int number) const;
@@ -29,7 +34,7 @@ class FanucMotions {
   void read_statement(const ProgramText& text, std::size_t begin, std::size_t end);
 
   std::map<int, std::vector<TargetUse>> uses_;
-  std::vector<std::size_t> to_registers_;
+  std::vector<std::size_t> to_registers_, elsewhere_;
   std::map<int, std::string> not_sent_to_;
   std::string computed_numbers_{};  ///< why no position is certain; empty: all are
 };

@@ -17,6 +17,7 @@
 #include "kinematics/chain.hpp"
 #include "languages/kawasaki_as_program.hpp"
 #include "languages/languages.hpp"
+#include "languages/location_names.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
@@ -51,9 +52,12 @@ class AsReader {
       begin = end + 1;
     }
     for (const LocationLiteral& literal : statements_.literals()) read_literal(literal);
-    for (const auto& [begin, what] : statements_.computed())
+    for (const auto& [begin, what] : statements_.computed()) {
+      program_.unknown_motions.push_back(begin);
       skip_target(program_, {.name = "", .place = text_.place(begin)},
                   '\'' + what + "' is computed when the program runs");
+    }
+    statements_.note_approaches(text_, program_);
     finish();
     return std::move(program_);
   }
@@ -157,6 +161,7 @@ class AsReader {
               "), and where it holds is not followed";
       if (!why.empty()) {
         skip_target(program_, target, why);
+        for (const TargetUse& use : statements_.uses(name)) program_.unknown_motions.push_back(use.begin);
         continue;
       }
       target.frames = frames;
@@ -173,7 +178,7 @@ class AsReader {
   const ControllerData& controller_;
   Program program_;
   AsSection section_ = AsSection::none;
-  AsStatements statements_;
+  AsStatements statements_{text_};
 };
 
 std::string as_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "data/text.hpp"
+#include "languages/location_names.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -18,16 +19,6 @@ bool is_motion(const std::string& word) {
   constexpr std::array<std::string_view, 9> kMotions{"jmove",  "lmove",  "hmove",  "xmove", "c1move",
                                                      "c2move", "jappro", "lappro", "smove"};
   return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
-}
-
-/// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.
-std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end) {
-  int depth = 0;
-  for (std::size_t at = begin; at < end; ++at) {
-    if (code[at] == ',' && depth == 0) return at;
-    depth += code[at] == '(' || code[at] == '[' ? 1 : code[at] == ')' || code[at] == ']' ? -1 : 0;
-  }
-  return end;
 }
 
 /// Whether + or - stand outside of parentheses.
@@ -42,23 +33,6 @@ bool is_sum(std::string_view argument) {
 
 }  // namespace
 
-std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end) {
-  const std::string_view code = text.code();
-  std::size_t at = begin;
-  if (at < end && code[at] == '#') ++at;
-  const std::size_t first = at;
-  while (at < end && (is_word_letter(code[at]) || code[at] == '.')) ++at;
-  if (at == first || is_digit(code[first])) return "";
-  if (at < end && code[at] == '[') at = std::min(code.find(']', at), end - 1) + 1;
-  return std::string(code.substr(begin, at - begin));
-}
-
-std::string location_key(std::string_view name) {
-  std::string key = lower_case(name);
-  std::erase_if(key, [](char letter) { return letter == ' ' || letter == '\t'; });
-  return key;
-}
-
 void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
   begin = text.skip_spaces(begin);
   while (begin < end && is_digit(text.code()[begin])) ++begin;  // a label
@@ -70,6 +44,9 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
     sets_configuration_ = word;
   if (is_motion(word)) return read_motion(text, word, begin, end);
   if (word == "point" && argument < end) return read_point(text, argument, end);
+  if (word == "call") return use_all(text, std::min(text.code().find('(', argument), end), end);
+  const std::string name = location_name(text, begin, end);
+  if (text.next(begin + name.size()) == '=') changes_.changed(name, begin);
   if (word == "here" && argument < end) {
     not_sent_to_[location_key(location_name(text, argument, end))] = "it is taught anew when the program runs (HERE)";
   }
@@ -110,6 +87,11 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   const std::string name = location_name(text, first, last);
   if (name.size() == argument.size()) {
     uses_[location_key(name)].push_back(use);
+    if (!word.ends_with("appro")) return;
+    std::size_t distance = std::min(last + 1, end);
+    const std::string_view number = text.trimmed(distance, end_of_argument(code, distance, end));
+    const auto cell = cell_at(code, distance, number.size(), {});
+    approaches_.push_back({begin, name, cell ? std::optional(cell->value) : std::nullopt});
     return;
   }
   computed_.emplace_back(first, std::string(argument));
@@ -122,17 +104,32 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   }
 }
 
-/// "p = TRANS(...)", or anything else that p is given.
+void AsStatements::use_all(const ProgramText& text, std::size_t begin, std::size_t end) {
+  for (const std::string& name : location_names(text, begin, end)) changes_.used(name, begin);
+}
+
+void AsStatements::note_approaches(const ProgramText& text, Program& program) const {
+  for (const Approach& approach : approaches_)
+    note_offset(program, text.place(approach.begin), approach.name, approach.distance_mm);
+}
+
+/// "p = TRANS(...)", or anything else that p is given; "/Z p = 200" gives it a part.
 void AsStatements::read_point(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const bool part = text.code()[begin] == '/';
+  if (part) begin = std::min(text.skip_spaces(std::min(text.code().find_first_of(" \t", begin), end)), end);
   const std::string name = location_name(text, begin, end);
   const std::size_t sign = std::min(text.code().find('=', begin), end);
   if (name.empty() || sign >= end) return;
-  if (auto literal = literal_at(text, text.skip_spaces(sign + 1), end)) {
+  if (auto literal = literal_at(text, text.skip_spaces(sign + 1), end); literal && !part) {
     literal->name = name;
     literals_.push_back(*literal);
     return;
   }
   not_sent_to_[location_key(name)] = "it is computed when the program runs (POINT)";
+  std::size_t first = sign + 1;
+  const std::string_view value = text.trimmed(first, end);
+  const bool copied = location_name(text, first, end).size() == value.size();
+  if (!copied && (text.word_at(first) != "shift" || is_sum(value))) use_all(text, first, end);
 }
 
 /// TRANS(...) or #PPOINT(...) that is all of [begin, end).
@@ -158,7 +155,7 @@ std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text,
 
 std::string AsStatements::not_sent_to(const std::string& name) const {
   const auto found = not_sent_to_.find(name);
-  return found == not_sent_to_.end() ? "" : found->second;
+  return found == not_sent_to_.end() ? changes_.why(name) : found->second;
 }
 
 std::vector<TargetUse> AsStatements::uses(const std::string& name) const {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -27,6 +28,9 @@ struct LocationLiteral {
 
 class AsStatements {
  public:
+  /// `text` must outlive this.
+  explicit AsStatements(const ProgramText& text) : changes_(text) {}
+
   /// Takes a line of a program, [begin, end) of the code.
   void read_line(const ProgramText& text, std::size_t begin, std::size_t end);
   /// Takes a line of .SYSDATA: "BASE" and "TOOL" with six numbers.
@@ -35,6 +39,8 @@ class AsStatements {
   const std::vector<LocationLiteral>& literals() const { return literals_; }
   /// Where motions go to what is computed, and what that is.
   const std::vector<std::pair<std::size_t, std::string>>& computed() const { return computed_; }
+  /// Says where motions come near a location only, and how near.
+  void note_approaches(const ProgramText& text, Program& program) const;
   /// Why the location of this key (location_key) is not what the arm is sent to; empty: it is.
   std::string not_sent_to(const std::string& name) const;
   /// Why poses are not reached in a configuration that can be told; empty: nothing sets one.
@@ -59,10 +65,20 @@ class AsStatements {
   std::vector<TargetUse> uses(const std::string& name) const;
 
  private:
+  struct Approach {
+    std::size_t begin;
+    std::string name;
+    std::optional<double> distance_mm;
+  };
+
+  /// Locations that [begin, end) hands on or computes with.
+  void use_all(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);
   void read_point(const ProgramText& text, std::size_t begin, std::size_t end);
   std::optional<LocationLiteral> literal_at(const ProgramText& text, std::size_t begin, std::size_t end) const;
 
+  ChangedNames changes_;
+  std::vector<Approach> approaches_{};
   std::vector<LocationLiteral> literals_;
   std::vector<std::pair<std::size_t, std::string>> computed_;
   std::map<std::string, std::vector<TargetUse>> uses_;
@@ -71,11 +87,5 @@ class AsStatements {
   bool moves_base_ = false;
   std::string sets_configuration_{};
 };
-
-/// The name that begins at `begin` of the code, as written: a # before it and indices behind it belong to it; empty
-/// where none does.
-std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end);
-/// By which names are one: in small letters, without blanks.
-std::string location_key(std::string_view name);
 
 }  // namespace demecal::inline languages

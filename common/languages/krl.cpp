@@ -13,6 +13,7 @@
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "languages/krl_frames.hpp"
+#include "languages/krl_statements.hpp"
 #include "languages/languages.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -70,7 +71,12 @@ class KrlReader {
       at += list.size - 1;
     }
     const KrlFrames frames(text_, controller_);
-    for (Target& target : program_.targets) frames.complete(target);
+    for (Target& target : program_.targets) {
+      const std::string carried = std::exchange(target.frames.unknown_frame, "");
+      frames.complete(target);
+      if (!carried.empty()) target.frames.unknown_frame = carried;
+    }
+    const KrlStatements statements(text_, program_);
     return std::move(program_);
   }
 
@@ -186,7 +192,19 @@ class KrlReader {
     target.orientation.assign(cells->begin() + 3, cells->end());
     target.form = OrientationForm::zyx_angles;
     if (const Component* turn = find(components, "t")) target.hint = signs(turn->value);
+    target.frames.unknown_frame = carried_by(components);
     program_.targets.push_back(std::move(target));
+  }
+
+  /// What external axes say of where the arm stands; empty where none has moved.
+  std::string carried_by(const std::vector<Component>& components) const {
+    for (const Component& part : components) {
+      if (part.name.size() != 2 || part.name.front() != 'e' || !is_digit(part.name.back())) continue;
+      const auto number = cell_at(text_.text(), part.value.begin, part.value.size, {});
+      if (number && number->value == 0.0) continue;
+      return std::string("an external axis, E") + part.name.back() + ", may carry the arm";
+    }
+    return "";
   }
 
   /// T: bit i is set where the angle of axis i + 1 is negative. It may be written 42 or 'B101010'.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "data/text.hpp"
+#include "languages/krl_statements.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -72,7 +73,7 @@ std::string numbered_name(bool of_tool, int number) {
 }
 
 bool is_line(const std::string& word) {
-  return word == "lin" || word == "circ" || word == "slin" || word == "scirc";
+  return points_of_krl_motion(word) > 0 && word != "ptp" && word != "sptp";
 }
 
 }  // namespace
@@ -213,8 +214,12 @@ void KrlFrames::apply_data(std::size_t begin, const FrameNumbers& numbers) {
 void KrlFrames::read_motion(const std::string& word, std::size_t begin, std::size_t next) {
   const Motion motion = is_line(word) ? Motion::line : Motion::joints;
   motions_[begin] = motion;
-  const std::string name = text_.word_at(next);
-  if (!name.empty()) uses_[name].push_back({begin, motion, settings_.at(begin)});
+  const std::size_t line_end = std::min(text_.code().find('\n', begin), text_.code().size());
+  for (std::size_t points = points_of_krl_motion(word); points > 0 && next < line_end; --points) {
+    const std::string name = text_.skip_spaces(next) < line_end ? text_.word_at(next) : "";
+    if (!name.empty()) uses_[name].push_back({begin, motion, settings_.at(begin)});
+    next = next_krl_argument(text_.code(), next, line_end);
+  }
 }
 
 void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
@@ -228,7 +233,7 @@ void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
     settings_.tool_from(begin, KnownFrame::computed("the tool of FDAT_ACT"));
     settings_.frame_from(begin, KnownFrame::computed("the base of FDAT_ACT"));
   }
-  if (word == "ptp" || word == "sptp" || is_line(word)) read_motion(word, begin, end);
+  if (points_of_krl_motion(word) > 0) read_motion(word, begin, end);
 }
 
 void KrlFrames::complete(Target& target) const {

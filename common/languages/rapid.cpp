@@ -14,6 +14,7 @@
 #include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
 #include "languages/rapid_frames.hpp"
+#include "languages/rapid_statements.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
@@ -60,11 +61,24 @@ class RapidReader {
       }
     }
     const RapidFrames frames(text_, controller_);
-    for (Target& target : program_.targets) frames.complete(target);
+    for (Target& target : program_.targets) complete(frames, target);
+    const RapidStatements statements(text_, program_);
+    if (!frames.has_motions() && std::any_of(program_.targets.begin(), program_.targets.end(),
+                                             [](const Target& target) { return target.is_pose(); }))
+      program_.remarks.push_back({kWholeProgram, "",
+                                  "no motion is in the files given: poses are taken to be of the model's tool in the "
+                                  "base frame; --with FILE takes in the module that moves to them"});
     return std::move(program_);
   }
 
  private:
+  /// A motion's frames, unless what carries the arm is elsewhere.
+  void complete(const RapidFrames& frames, Target& target) const {
+    const std::string carried = std::exchange(target.frames.unknown_frame, "");
+    frames.complete(target);
+    if (!carried.empty()) target.frames.unknown_frame = carried;
+  }
+
   /// Reads `NAME{n} := [...]` after the type's word; returns where to go on.
   std::size_t declaration(const std::string& type, std::size_t at) {
     const std::string_view code = text_.code();
@@ -132,6 +146,7 @@ class RapidReader {
     target.orientation = *orientation;
     target.form = OrientationForm::quaternion;
     target.hint = quadrants(*configuration);
+    target.frames.unknown_frame = carried_by(item.items[3]);
     program_.targets.push_back(std::move(target));
   }
 
@@ -146,6 +161,17 @@ class RapidReader {
       hint.quadrants[joints[i]] = static_cast<int>(quadrant);
     }
     return hint;
+  }
+
+  /// What external axes say of where the arm stands; empty where there are none (9E9), or none has moved.
+  std::string carried_by(const BracketItem& axes) const {
+    constexpr double kNoAxis = 9e9;
+    for (std::size_t i = 0; i < axes.items.size(); ++i) {
+      const auto cell = cell_at(text_.text(), axes.items[i].begin, axes.items[i].size, {});
+      if (cell && (cell->value == 0.0 || cell->value == kNoAxis)) continue;
+      return std::string("an external axis, eax_") + static_cast<char>('a' + i) + ", may carry the arm";
+    }
+    return "";
   }
 
   void jointtarget(const BracketItem& item, const std::string& name, Numbers numbers) {

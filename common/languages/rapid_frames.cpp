@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "data/text.hpp"
+#include "languages/rapid_statements.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -53,26 +54,10 @@ KnownFrame hidden(const std::string& what) {
   return {what, Eigen::Isometry3d::Identity(), what + " is LOCAL to another file of the program"};
 }
 
-/// The ends of the arguments from `begin`: commas outside of brackets, and the semicolon (or end) last.
-std::vector<std::size_t> argument_ends(std::string_view code, std::size_t begin) {
-  std::vector<std::size_t> ends;
-  int depth = 0;
-  for (std::size_t at = begin; at < code.size(); ++at) {
-    const char letter = code[at];
-    if (letter == ';') break;
-    if (letter == ',' && depth == 0) ends.push_back(at);
-    depth += letter == '[' || letter == '(' || letter == '{'   ? 1
-             : letter == ']' || letter == ')' || letter == '}' ? -1
-                                                               : 0;
-  }
-  ends.push_back(std::min(code.find(';', begin), code.size()));
-  return ends;
-}
-
 }  // namespace
 
 RapidFrames::RapidFrames(const ProgramText& text, const ControllerData& controller)
-    : text_(text), controller_(controller) {
+    : text_(text), controller_(controller), displaced_(displaced_by_pdisp(text)) {
   const std::string_view code = text.code();
   tools_["tool0"] = {"tool0", Eigen::Isometry3d::Identity(), ""};
   frames_["wobj0"] = {"wobj0", Eigen::Isometry3d::Identity(), ""};
@@ -86,7 +71,7 @@ RapidFrames::RapidFrames(const ProgramText& text, const ControllerData& controll
   for_each_word(
       [&](std::size_t begin, std::size_t end, const std::string& word) { forget_assigned(word, begin, end); });
   for_each_word([&](std::size_t begin, std::size_t end, const std::string& word) {
-    if (word.starts_with("move") || word.starts_with("trigg")) read_move(begin, word, end);
+    if (targets_of_rapid_motion(word) > 0) read_move(begin, word, end);
   });
 }
 
@@ -146,9 +131,8 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
   const std::vector<std::size_t> ends = argument_ends(code, end);
   if (ends.size() < 3) return;
   TargetUse use{begin, Motion::joints, {}};
-  if (word.starts_with("movel") || word.starts_with("movec") || word == "triggl" || word == "triggc") {
-    use.motion = Motion::line;
-  }
+  const bool line = word.starts_with("movel") || word.starts_with("movec") || word.starts_with("triggl");
+  if (line || word == "triggc") use.motion = Motion::line;
   const auto is_tool = [&](const std::string& name) {
     return tools_.contains(name) || controller_.tools.contains(name);
   };
@@ -168,7 +152,11 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
     const std::size_t name = sign == std::string::npos ? ends.back() : text_.skip_spaces(end + sign + 2);
     set_frame(use.frames, known_object(lower_case(code.substr(name, text_.word_end(name) - name)), begin));
   }
-  const std::size_t targets = word.starts_with("movec") || word == "triggc" ? 2 : 1;
+  for (const TextRange& range : displaced_) {
+    if (begin >= range.begin && begin < range.end)
+      use.frames.unknown_frame = "points are displaced by PDispSet or PDispOn";
+  }
+  const std::size_t targets = targets_of_rapid_motion(word);
   held_.push_back({end, ends[targets - 1], use});
   for (std::size_t at = end; at < ends[targets - 1]; ++at) {
     if (!text_.begins_word(at)) continue;
@@ -176,19 +164,33 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
     if (stop < code.size() && code[stop] == '{') stop = std::min(code.find('}', stop), code.size() - 1) + 1;
     std::string name = lower_case(code.substr(at, stop - at));
     std::erase(name, ' ');
-    uses_[name].push_back(use);
+    const std::size_t brace = name.find('{');
+    const bool computed =
+        brace != std::string::npos && name.find_first_not_of("0123456789,{}", brace) != std::string::npos;
+    uses_[computed ? name.substr(0, brace) : name].push_back(use);
     at = stop - 1;
   }
+}
+
+/// The motions to the target, or to an element of its array that is not told.
+std::vector<TargetUse> RapidFrames::uses_of(const std::string& name) const {
+  std::vector<TargetUse> found;
+  for (const std::string& key : std::set<std::string>{name, name.substr(0, name.find('{'))}) {
+    const auto uses = uses_.find(key);
+    if (uses != uses_.end()) found.insert(found.end(), uses->second.begin(), uses->second.end());
+  }
+  return found;
 }
 
 void RapidFrames::complete(Target& target) const {
   const std::size_t begin = target.begin();
   target.order = begin;
-  const auto uses = uses_.find(lower_case(target.name));
-  if (!target.name.empty() && uses != uses_.end()) return take_uses(uses->second, target);
+  if (const auto uses = uses_of(lower_case(target.name)); !target.name.empty() && !uses.empty())
+    return take_uses(uses, target);
   for (const Held& held : held_) {
     if (begin >= held.begin && begin < held.end) return take_uses({held.use}, target);
   }
+  if (!held_.empty()) target.frames.unknown_tool = "no motion names it";
 }
 
 }  // namespace demecal::inline languages

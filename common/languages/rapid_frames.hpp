@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "languages/rapid_statements.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -20,8 +21,10 @@ class RapidFrames {
 
   /// Completes a target that was read, by its name and place.
   void complete(Target& target) const;
+  bool has_motions() const { return !held_.empty(); }
 
  private:
+  std::vector<TargetUse> uses_of(const std::string& name) const;
   void read_declaration(const std::string& type, std::size_t at);
   void read_move(std::size_t begin, const std::string& word, std::size_t end);
   void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
@@ -32,6 +35,7 @@ class RapidFrames {
 
   const ProgramText& text_;
   const ControllerData& controller_;
+  std::vector<TextRange> displaced_;
   std::map<std::string, KnownFrame> tools_, frames_;
   std::map<std::string, std::size_t> local_to_;  ///< names that are LOCAL, and to which file
   std::set<std::size_t> declared_;               ///< where the names of declarations stand

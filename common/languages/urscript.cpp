@@ -16,6 +16,7 @@
 
 #include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
+#include "languages/urscript_statements.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
@@ -49,6 +50,7 @@ class UrReader {
       read_call(text_.skip_spaces(end), targets);
     });
     leave_targets_on_targets();
+    mark_changed(text_, plain_, program_.targets);
     for (Target& target : program_.targets) take_uses(uses_at_.at(literal_of_.at(target.begin())), target);
     std::sort(program_.targets.begin(), program_.targets.end(),
               [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
@@ -56,13 +58,7 @@ class UrReader {
   }
 
  private:
-  /// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
-  std::optional<std::size_t> literal_at(std::size_t offset) const {
-    offset = text_.skip_spaces(offset);
-    if (offset >= code_.size()) return std::nullopt;
-    const bool pose = code_[offset] == 'p' && text_.next(offset + 1) == '[' && text_.word_end(offset) == offset + 1;
-    return pose || code_[offset] == '[' ? std::optional(offset) : std::nullopt;
-  }
+  std::optional<std::size_t> literal_at(std::size_t offset) const { return urscript_literal(text_, offset); }
 
   /// Remembers where every variable is given a literal.
   void find_assignments() {
@@ -119,13 +115,22 @@ class UrReader {
     const auto variable = assigned_.find(word);
     const char after = text_.next(end);
     if (variable != assigned_.end() && (after == ',' || after == ')')) {
+      plain_.insert(begin);
       for (const std::size_t literal : variable->second) add(literal, word, Numbers::or_expressions, hint);
+    } else if (computed_.contains(word) && (after == ',' || after == ')')) {
+      elsewhere({.name = word, .place = text_.place(begin)}, word + " is computed when the program runs");
     } else {
       std::size_t first = begin;
       const std::string argument(text_.trimmed(first, argument_end(begin)));
-      skip_target(program_, {.name = word, .place = text_.place(std::min(begin, code_.size()))},
-                  "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
+      elsewhere({.name = word, .place = text_.place(std::min(begin, code_.size()))},
+                "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
     }
+  }
+
+  /// Says why a motion goes to none of the targets.
+  void elsewhere(const Target& target, const std::string& why) {
+    program_.unknown_motions.push_back(use_.begin);
+    skip_target(program_, target, why);
   }
 
   /// The word that begins at or after `offset`.
@@ -135,9 +140,10 @@ class UrReader {
   }
 
   /// The pose of a literal, or of a variable that is given one and no other.
-  std::optional<Eigen::Isometry3d> pose_at(std::size_t offset) const {
+  std::optional<Eigen::Isometry3d> pose_at(std::size_t offset) {
     std::optional<std::size_t> literal = literal_at(offset);
     const std::string word = word_from(offset);
+    plain_.insert(text_.skip_spaces(offset));
     const auto variable = assigned_.find(word);
     if (!literal && variable != assigned_.end() && variable->second.size() == 1 && !computed_.contains(word)) {
       literal = variable->second.front();
@@ -167,7 +173,7 @@ class UrReader {
   }
 
   /// The feature that stands at [begin, end).
-  KnownFrame feature(std::size_t begin, std::size_t end) const {
+  KnownFrame feature(std::size_t begin, std::size_t end) {
     const std::string argument(text_.trimmed(begin, end)), name = word_from(begin);
     const auto pose = pose_at(begin);
     const auto literal = literal_at(begin);
@@ -202,9 +208,10 @@ class UrReader {
   }
 
   /// The joints that a literal or a variable gives; empty where it gives none.
-  JointVector joints_at(std::size_t offset) const {
+  JointVector joints_at(std::size_t offset) {
     std::optional<std::size_t> literal = literal_at(offset);
     const std::size_t begin = text_.skip_spaces(offset);
+    plain_.insert(begin);
     const auto variable = assigned_.find(std::string(code_.substr(begin, text_.word_end(begin) - begin)));
     if (!literal && variable != assigned_.end()) literal = variable->second.front();
     if (!literal || code_[*literal] != '[') return {};
@@ -237,6 +244,7 @@ class UrReader {
       target.orientation.assign(cells->begin() + 3, cells->end());
       target.form = OrientationForm::rotation_vector;
       target.hint = hint;
+      if (const std::string why = longer_than_a_turn(target); !why.empty()) return skip_target(program_, target, why);
     } else {
       target.joints = *cells;
     }
@@ -249,6 +257,7 @@ class UrReader {
   const Chain& arm_;
   const ControllerData& controller_;
   Program program_;
+  std::set<std::size_t> plain_;  ///< where variables stand for what they were given
   std::map<std::string, std::vector<std::size_t>> assigned_;
   std::set<std::string> computed_;  ///< variables that are given something else, too
   std::set<std::size_t> seen_;

@@ -22,6 +22,8 @@
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
+#include "languages/location_names.hpp"
+#include "languages/val2_program.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
@@ -46,96 +48,6 @@ std::string rotation_rule() {
   return "begins nine numbers that are no rotation: three axes of one length at right angles are needed";
 }
 
-std::string lower_name(const Target& target) {
-  return lower_case(target.name);
-}
-
-/// BASE dx, dy, dz, turn: how the robot's base was moved in the world that points are in, mm and degrees about z; what
-/// is left out is 0. The frame that points are in is the way back.
-KnownFrame base_of(const std::string& argument) {
-  std::array<double, 4> values{};
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < values.size() && begin <= argument.size(); ++i) {
-    const std::size_t end = std::min(argument.find(',', begin), argument.size());
-    if (end > begin) {
-      const auto cell = cell_at(argument, begin, end - begin, {});
-      if (!cell) return KnownFrame::computed("BASE");
-      values[i] = cell->value;
-    }
-    begin = end + 1;
-  }
-  if (begin <= argument.size()) return KnownFrame::computed("BASE");
-  Eigen::Isometry3d moved(
-      Eigen::AngleAxisd(values[3] * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix());
-  moved.translation() = 1e-3 * Eigen::Vector3d(values[0], values[1], values[2]);
-  return {"BASE", moved.inverse(), ""};
-}
-
-KnownFrame tool_of(const std::string& argument, const Program& program, const ControllerData& controller) {
-  if (argument.empty() || argument == "null" || argument == "nulltool") {
-    return {"flange", Eigen::Isometry3d::Identity(), ""};
-  }
-  std::map<std::string, KnownFrame> found;
-  for (const Target& target : program.targets) {
-    if (target.is_pose() && lower_name(target) == argument)
-      declare(found, argument, {target.name, stated_tool_pose(target), ""});
-  }
-  if (!found.empty()) return found.at(argument);
-  return controller.tools.contains(argument) ? controller.tool(argument, argument) : KnownFrame::computed("TOOL");
-}
-
-/// The only one of the arguments; nothing where they differ.
-std::optional<std::string> only(const std::vector<std::string>& arguments) {
-  const std::set<std::string> different(arguments.begin(), arguments.end());
-  return different.size() == 1 ? std::optional(*different.begin()) : std::nullopt;
-}
-
-/// Collects the TOOL and BASE instructions of programs line by line; points are not tied to motions here, so that one
-/// tool and one base must serve all of them.
-class Val2Frames {
- public:
-  /// Takes a line of a program, [begin, end) of the code.
-  void read_line(const ProgramText& text, std::size_t begin, std::size_t end);
-
-  /// Gives the program's targets their frames; the location that TOOL names is taken out, for nothing moves to it.
-  void complete(Program& program, const ControllerData& controller) const;
-
- private:
-  std::vector<std::string> tools_, bases_;  ///< what stands behind each instruction, without spaces, in small letters
-};
-
-void Val2Frames::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
-  const std::string_view code = text.code();
-  begin = text.skip_spaces(begin);
-  while (begin < end && is_digit(code[begin])) ++begin;  // a label
-  begin = text.skip_spaces(begin);
-  if (begin >= end || !text.begins_word(begin)) return;
-  const std::size_t word_end = std::min(text.word_end(begin), end);
-  const std::string word = lower_case(code.substr(begin, word_end - begin));
-  if (word != "tool" && word != "base") return;
-  std::string argument = lower_case(code.substr(word_end, end - word_end));
-  std::erase_if(argument, [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; });
-  (word == "tool" ? tools_ : bases_).push_back(argument);
-}
-
-void Val2Frames::complete(Program& program, const ControllerData& controller) const {
-  StatedFrames frames;
-  if (!tools_.empty()) {
-    const auto argument = only(tools_);
-    set_tool(frames, argument ? tool_of(*argument, program, controller)
-                              : KnownFrame{"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
-  }
-  if (!bases_.empty()) {
-    const auto argument = only(bases_);
-    set_frame(frames, argument ? base_of(*argument)
-                               : KnownFrame{"BASE", Eigen::Isometry3d::Identity(), "several bases are set by BASE"});
-  }
-  std::erase_if(program.targets, [&](const Target& target) {
-    return std::find(tools_.begin(), tools_.end(), lower_name(target)) != tools_.end();
-  });
-  for (Target& target : program.targets) target.frames = frames;
-}
-
 class Val2Reader {
  public:
   explicit Val2Reader(const ReaderInput& input)
@@ -149,7 +61,7 @@ class Val2Reader {
       begin = end + 1;
     }
     finish();
-    frames_.complete(program_, controller_);
+    statements_.complete(program_, controller_);
     return std::move(program_);
   }
 
@@ -162,7 +74,7 @@ class Val2Reader {
       in_locations_ = lower_case(line.substr(0, line.find_first_of(" \t"))) == ".locations";
       return;
     }
-    if (!in_locations_) return frames_.read_line(text_, begin, end);
+    if (!in_locations_) return statements_.read_line(begin, end);
     if (line.empty()) return;
     if (line.front() == '#' || text_.begins_word(begin)) begin = read_name(begin, end);
     read_numbers(begin, end);
@@ -256,7 +168,7 @@ class Val2Reader {
   Program program_;
   bool in_locations_ = false, open_ = false;
   Location location_{};
-  Val2Frames frames_;
+  Val2Statements statements_{text_};
 };
 
 std::string val2_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

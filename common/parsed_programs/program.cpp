@@ -113,6 +113,16 @@ void skip_target(Program& program, const Target& target, const std::string& why)
   program.uncorrected.push_back({target.place, target.name, why + "; it is left as it is"});
 }
 
+void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm) {
+  constexpr double kClose_mm = 100.0;  ///< within which an arm's error changes little
+  if (distance_mm && std::abs(*distance_mm) <= kClose_mm) return;
+  const std::string where = distance_mm
+                                ? "a place " + std::to_string(std::lround(std::abs(*distance_mm))) + " mm away from it"
+                                : "a place at a distance from it that is not known";
+  program.remarks.push_back(
+      {place, name, where + " is given the correction of this point, which need not be right there"});
+}
+
 std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<const BracketItem> items,
                                           std::span<const CellUnit> units, Numbers numbers, Program& program,
                                           const Target& target) {

@@ -59,6 +59,8 @@ struct Target {
   Motion motion = Motion::joints;
   std::size_t order = 0;  ///< targets are visited by this, then in the order of the text
   StatedFrames frames{};
+  /// Why the robot may be sent elsewhere than to these numbers, which are then left as they are; empty: it is not.
+  std::string not_sent_to{};
   std::optional<ApproachSigns> approach{};  ///< where the file says it
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 
@@ -89,6 +91,10 @@ struct Program {
   std::vector<FurtherFile> further{};  ///< in the order of the text
   std::vector<Target> targets;         ///< in the order of the text
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
+  std::vector<Remark> remarks{};       ///< what else should be known before it runs
+  /// Bytes at which a motion goes to a place that is none of the targets: the joints before it say nothing of those
+  /// after it.
+  std::vector<std::size_t> unknown_motions{};
 
   /// The name of a file by its number (TextPlace::file).
   const std::string& file_name(std::size_t number) const { return number == 0 ? file : further[number - 1].name; }
@@ -166,6 +172,10 @@ std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<con
 
 /// Says in `program` why this target cannot be corrected.
 void skip_target(Program& program, const Target& target, const std::string& why);
+
+/// Says in `program` that a place so far from the target of this name (nothing: it is not known how far) is given the
+/// target's correction; not where it is close by.
+void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm);
 
 /// Throws InputError at the place unless w, x, y, z are a unit quaternion, to the digits that files keep.
 void require_quaternion(const ProgramText& text, std::span<const Cell> cells);

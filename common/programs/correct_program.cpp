@@ -55,6 +55,10 @@ class Corrector {
   }
 
   CorrectedTarget correct(const Target& target) {
+    if (!target.not_sent_to.empty()) {
+      forget_where_it_is();
+      return left(target.not_sent_to + "; it is left as it is");
+    }
     const CommandModel& model = model_for(target);
     CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
     if (!corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined) {
@@ -88,13 +92,16 @@ class Corrector {
     return circumstances_.tool_given ? "" : target.frames.unknown_tool;
   }
 
-  CorrectedTarget refused(const Target& target) const {
+  static CorrectedTarget left(std::string sentence) {
     CorrectedTarget corrected;
     corrected.outcome = CorrectionOutcome::uncorrected;
-    const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
-    corrected.remarks.push_back(unknown(target) + "; this line was not corrected" +
-                                (frame ? "" : "; --tool-mm states the tool"));
+    corrected.remarks.push_back(std::move(sentence));
     return corrected;
+  }
+
+  CorrectedTarget refused(const Target& target) const {
+    const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
+    return left(unknown(target) + "; this line was not corrected" + (frame ? "" : "; --tool-mm states the tool"));
   }
 
   /// The model with the tool that the target states.
@@ -150,7 +157,7 @@ class Corrector {
         " is not known (" + difference_of(arm, corrected.nominal, alternatives[other].nominal) +
         "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
         " mm: " + moved_text(corrected) + " or " + moved_text(alternatives[other]) + "; this line was not corrected; " +
-        (words.empty() ? "a joint move before it or --near tells"
+        (words.empty() ? "a joint move to joints near its own before it, or --near, tells"
                        : "joints within 0.5 rad of its own tell, before it or by --near")};
     corrected.outcome = CorrectionOutcome::uncorrected;
   }
@@ -196,6 +203,15 @@ std::vector<std::size_t> visits(const Program& program) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a motion between these bytes goes to a place that is not told.
+bool goes_elsewhere(const Program& program, std::size_t from, std::size_t to) {
+  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) { return at >= from && at < to; });
+}
+
+}  // namespace
+
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
@@ -203,14 +219,16 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (std::string& sentence : warnings_of(result.program, model, circumstances)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
-  result.warnings.insert(result.warnings.end(), result.program.uncorrected.begin(), result.program.uncorrected.end());
+  for (const std::vector<Remark>* remarks : {&result.program.uncorrected, &result.program.remarks})
+    result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
-  std::size_t last_file = 0;
+  std::size_t last_file = 0, last_order = 0;
   for (const std::size_t i : visits(result.program)) {
     const Target& target = result.program.targets[i];
     const std::size_t file = result.program.file_at(target.order);
-    if (file != last_file) corrector.forget_where_it_is();
+    if (file != last_file || goes_elsewhere(result.program, last_order, target.order)) corrector.forget_where_it_is();
     last_file = file;
+    last_order = target.order;
     result.targets[i] = corrector.correct(target);
     for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});

@@ -76,6 +76,20 @@ TEST(Csv, NamesTheFault) {
   expect_fault(WrittenIn::csv, "", 0, "is empty");
 }
 
+TEST(Csv, RefusesColumnsThatContradictEachOtherOrTheArm) {
+  const std::string head = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg", row = "\n1,2,3,4,5,6,7\n";
+  expect_fault(WrittenIn::csv, "# a comment\n" + head + ",q1_rad" + row, 2, "'q1_rad': stands beside 'q1_deg'");
+  expect_fault(WrittenIn::csv, head + ",Q2_DEG" + row, 1, "'Q2_DEG': stands beside 'q2_deg'");
+  expect_fault(WrittenIn::csv, head + ",j1_deg,j2_deg,j3_deg,j4_deg,j5_deg,j6_deg" + row, 1,
+               "'j1_deg': stands beside 'q1_deg'");
+  expect_fault(WrittenIn::csv, head + ",q7_deg" + row, 1, "'q7_deg': the arm has 6 joints");
+  expect_fault(WrittenIn::csv, "x_mm,y_mm,z_mm,z_m\n1,2,3,4\n", 1, "'z_m': stands beside 'z_mm'");
+  expect_fault(WrittenIn::csv, head + ",payload_kg\n1,2,3,4,5,6,-5\n", 2, "'-5': must be 0 or more");
+  expect_fault(WrittenIn::csv, head + ",temperature_celsius\n1,2,3,4,5,6,20\n1,2,3,4,5,6,-400\n", 3,
+               "'-400': must not be below -273.15");
+  EXPECT_EQ(read_program(WrittenIn::csv, head + ",a7\n1,2,3,4,5,6,x\n", "p", wrist_arm()).targets.size(), 1u);
+}
+
 TEST(Krl, ReadsTargetsAndNeitherFramesNorRelativeMotions) {
   const Program program =
       read_program(WrittenIn::krl,

@@ -1,0 +1,124 @@
+#include "languages/krl_statements.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "data/text.hpp"
+
+namespace demecal::inline languages {
+
+std::size_t points_of_krl_motion(std::string_view word) {
+  if (word == "circ" || word == "scirc") return 2;
+  constexpr std::array<std::string_view, 5> kMotions{"ptp", "sptp", "lin", "slin", "spl"};
+  return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end() ? 1 : 0;
+}
+
+std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::size_t end) {
+  int depth = 0;
+  for (; begin < end; ++begin) {
+    const char letter = code[begin];
+    if (letter == ',' && depth == 0) break;
+    depth += letter == '{' || letter == '[' || letter == '('   ? 1
+             : letter == '}' || letter == ']' || letter == ')' ? -1
+                                                               : 0;
+  }
+  return begin + 1;
+}
+
+KrlStatements::KrlStatements(const ProgramText& text, Program& program)
+    : text_(text), code_(text.code()), changes_(text) {
+  for (const Target& target : program.targets) {
+    numbers_.insert(target.begin());
+    if (!target.name.empty()) names_.insert(lower_case(target.name));
+  }
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    read_name(begin, end);
+    if (goes_elsewhere(begin, end)) program.unknown_motions.push_back(begin);
+  });
+  changes_.mark(program.targets);
+}
+
+/// Whether a motion begins here that goes to what has no numbers, or by them.
+bool KrlStatements::goes_elsewhere(std::size_t begin, std::size_t end) const {
+  const std::string word = lower_case(code_.substr(begin, end - begin));
+  const bool relative = word.ends_with("_rel") && points_of_krl_motion(word.substr(0, word.size() - 4)) > 0;
+  if (points_of_krl_motion(word) == 0) return relative;
+  const std::size_t line_end = std::min(code_.find('\n', begin), code_.size());
+  std::size_t last = text_.skip_spaces(end);
+  if (points_of_krl_motion(word) > 1) last = text_.skip_spaces(next_krl_argument(code_, last, line_end));
+  if (last >= line_end || code_[last] == '{') return false;
+  const std::size_t after = text_.skip_spaces(after_index(text_.word_end(last), line_end));
+  return !names_.contains(text_.word_at(last)) || (after < line_end && code_[after] == ':');
+}
+
+std::size_t KrlStatements::after_index(std::size_t end, std::size_t line_end) const {
+  const std::size_t open = text_.skip_spaces(end);
+  if (open >= line_end || code_[open] != '[') return end;
+  return std::min(code_.find(']', open), line_end - 1) + 1;
+}
+
+void KrlStatements::read_name(std::size_t begin, std::size_t end) {
+  const std::string word = lower_case(code_.substr(begin, end - begin));
+  if (!names_.contains(word)) return;
+  if (begin > 0 && (code_[begin - 1] == '.' || code_[begin - 1] == '#')) return;
+  Place place{begin == 0 ? 0 : code_.rfind('\n', begin - 1) + 1, std::min(code_.find('\n', begin), code_.size()), begin,
+              end, end};
+  place.name_end = place.end = after_index(end, place.line_end);
+  bool part = false;
+  for (; text_.next(place.end) == '.' && text_.skip_spaces(place.end) < place.line_end; part = true)
+    place.end = after_index(text_.word_end(text_.skip_spaces(text_.skip_spaces(place.end) + 1)), place.line_end);
+  const std::size_t sign = text_.skip_spaces(place.end);
+  const bool assigned = sign < place.line_end && code_[sign] == '=' && !code_.substr(sign).starts_with("==");
+  const std::string_view name = code_.substr(begin, place.name_end - begin);
+  if (assigned && !part && is_point(text_.skip_spaces(sign + 1))) return;
+  if (assigned) return changes_.changed(name, begin);
+  if (!part && (is_declaration(place) || is_destination(place) || is_copied(place))) return;
+  changes_.used(name, begin);
+}
+
+bool KrlStatements::is_point(std::size_t begin) const {
+  if (begin >= code_.size() || code_[begin] != '{') return false;
+  const BracketItem list = read_list(text_, begin, '{');
+  const auto number = numbers_.lower_bound(begin);
+  return number != numbers_.end() && *number < begin + list.size;
+}
+
+/// "DECL E6POS XP1, XP2" and "GLOBAL E6AXIS HOME".
+bool KrlStatements::is_declaration(const Place& place) const {
+  constexpr std::array<std::string_view, 7> kWords{"decl", "global", "const", "pos", "e6pos", "axis", "e6axis"};
+  const std::string first = text_.word_at(place.line_begin);
+  return std::find(kWords.begin(), kWords.end(), first) != kWords.end();
+}
+
+/// Whether the name is all that a motion is sent to: "LIN XP2 C_DIS", and each of the two points of "CIRC XP1, XP2".
+bool KrlStatements::is_destination(const Place& place) const {
+  std::size_t motion_end = 0, points = 0;
+  for (std::size_t at = place.line_begin; at < place.begin; ++at) {
+    if (!text_.begins_word(at)) continue;
+    const std::size_t end = text_.word_end(at);
+    if (const std::size_t count = points_of_krl_motion(lower_case(code_.substr(at, end - at)))) {
+      motion_end = end;
+      points = count;
+    }
+    at = end - 1;
+  }
+  for (std::size_t begin = motion_end; points > 0 && begin < place.line_end; --points) {
+    if (text_.skip_spaces(begin) == place.begin) {
+      const std::size_t after = text_.skip_spaces(place.name_end);
+      return after >= place.line_end || code_[after] == ',' || text_.begins_word(after);
+    }
+    begin = next_krl_argument(code_, begin, place.line_end);
+  }
+  return false;
+}
+
+/// "XP2=XP1".
+bool KrlStatements::is_copied(const Place& place) const {
+  const std::size_t before = place.begin == 0 ? std::string_view::npos : code_.find_last_not_of(" \t", place.begin - 1);
+  if (before == std::string_view::npos || before <= place.line_begin || code_[before] != '=') return false;
+  constexpr std::string_view kComparisons = "=<>";
+  return kComparisons.find(code_[before - 1]) == std::string_view::npos &&
+         text_.skip_spaces(place.name_end) >= place.line_end;
+}
+
+}  // namespace demecal::inline languages

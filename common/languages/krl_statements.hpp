@@ -1,0 +1,52 @@
+// KUKA KRL: what statements do with the points that a program gives numbers, besides moving to them.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "parsed_programs/changed_names.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
+
+namespace demecal::inline languages {
+
+/// How many points a motion command begins with; 0 for words that are none.
+std::size_t points_of_krl_motion(std::string_view word);
+
+/// Behind the comma that ends the argument at `begin`, or past `end`.
+std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::size_t end);
+
+/// The numbers of a point are those that the robot is sent to where every statement that names it gives it numbers,
+/// moves to it or copies it to another.
+class KrlStatements {
+ public:
+  /// `text` must outlive this.
+  KrlStatements(const ProgramText& text, Program& program);
+
+ private:
+  /// A line of the code, and the name that is being read in it.
+  struct Place {
+    std::size_t line_begin, line_end;
+    std::size_t begin, name_end;  ///< of the name, indices included
+    std::size_t end;              ///< components included
+  };
+
+  void read_name(std::size_t begin, std::size_t end);
+  bool goes_elsewhere(std::size_t begin, std::size_t end) const;
+  std::size_t after_index(std::size_t end, std::size_t line_end) const;
+  bool is_declaration(const Place& place) const;
+  /// Whether the aggregate at `begin` gives a point all its numbers.
+  bool is_point(std::size_t begin) const;
+  bool is_destination(const Place& place) const;
+  bool is_copied(const Place& place) const;
+
+  const ProgramText& text_;
+  std::string_view code_;
+  ChangedNames changes_;
+  std::set<std::string> names_;    ///< of targets, in small letters
+  std::set<std::size_t> numbers_;  ///< where those of targets begin
+};
+
+}  // namespace demecal::inline languages

@@ -1,0 +1,26 @@
+// Universal Robots URScript: where variables are given what no reader can follow, and rotation vectors that cannot be
+// meant in rad.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
+
+namespace demecal::inline languages {
+
+/// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
+std::optional<std::size_t> urscript_literal(const ProgramText& text, std::size_t offset);
+
+/// Marks the targets of variables that are also given anything but numbers, and of those that stand anywhere but where
+/// motions, features and tools take them (`plain`, by offset), and are not copied to another either.
+void mark_changed(const ProgramText& text, const std::set<std::size_t>& plain, std::vector<Target>& targets);
+
+/// Why the rotation vector of a pose cannot be meant in rad; empty: it can.
+std::string longer_than_a_turn(const Target& target);
+
+}  // namespace demecal::inline languages

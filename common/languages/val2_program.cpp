@@ -1,0 +1,173 @@
+#include "languages/val2_program.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "data/text.hpp"
+#include "languages/location_names.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+std::string lower_name(const Target& target) {
+  return location_key(target.name);
+}
+
+std::size_t statement_of(const ProgramText& text, std::size_t begin, std::size_t end) {
+  begin = text.skip_spaces(begin);
+  while (begin < end && is_digit(text.code()[begin])) ++begin;  // a label
+  return text.skip_spaces(begin);
+}
+
+/// BASE dx, dy, dz, turn: how the robot's base was moved in the world that points are in, mm and degrees about z; what
+/// is left out is 0. The frame that points are in is the way back.
+KnownFrame base_of(const std::string& argument) {
+  std::array<double, 4> values{};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < values.size() && begin <= argument.size(); ++i) {
+    const std::size_t end = std::min(argument.find(',', begin), argument.size());
+    if (end > begin) {
+      const auto cell = cell_at(argument, begin, end - begin, {});
+      if (!cell) return KnownFrame::computed("BASE");
+      values[i] = cell->value;
+    }
+    begin = end + 1;
+  }
+  if (begin <= argument.size()) return KnownFrame::computed("BASE");
+  Eigen::Isometry3d moved(
+      Eigen::AngleAxisd(values[3] * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  moved.translation() = 1e-3 * Eigen::Vector3d(values[0], values[1], values[2]);
+  return {"BASE", moved.inverse(), ""};
+}
+
+KnownFrame tool_of(const std::string& argument, const Program& program, const ControllerData& controller) {
+  if (argument.empty() || argument == "null" || argument == "nulltool") {
+    return {"flange", Eigen::Isometry3d::Identity(), ""};
+  }
+  std::map<std::string, KnownFrame> found;
+  for (const Target& target : program.targets) {
+    if (target.is_pose() && lower_name(target) == argument)
+      declare(found, argument, {target.name, stated_tool_pose(target), ""});
+  }
+  if (!found.empty()) return found.at(argument);
+  return controller.tools.contains(argument) ? controller.tool(argument, argument) : KnownFrame::computed("TOOL");
+}
+
+/// The only one of the arguments; nothing where they differ.
+std::optional<std::string> only(const std::vector<std::string>& arguments) {
+  const std::set<std::string> different(arguments.begin(), arguments.end());
+  return different.size() == 1 ? std::optional(*different.begin()) : std::nullopt;
+}
+
+bool is_motion_of_val2(const std::string& word) {
+  constexpr std::array<std::string_view, 6> kMotions{"move", "moves", "movet", "movest", "appro", "appros"};
+  return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
+}
+
+/// Whether the indices of a name are numbers.
+bool has_known_indices(const std::string& name) {
+  const std::size_t open = name.find('[');
+  return open == std::string::npos || name.find_first_not_of("0123456789, ]", open + 1) == std::string::npos;
+}
+
+}  // namespace
+
+void Val2Statements::read_line(std::size_t begin, std::size_t end) {
+  const std::string_view code = text_.code();
+  begin = statement_of(text_, begin, end);
+  if (begin >= end || !text_.begins_word(begin)) return;
+  const std::size_t word_end = std::min(text_.word_end(begin), end);
+  const std::string word = lower_case(code.substr(begin, word_end - begin));
+  const std::size_t argument = std::min(text_.skip_spaces(word_end), end);
+  if (is_motion_of_val2(word)) return read_motion(word, begin, argument, end);
+  if (word == "set") return read_set(argument, end);
+  if (word == "here") return changes_.changed(location_name(text_, argument, end), begin);
+  if (word != "tool" && word != "base") return;
+  std::string named = lower_case(code.substr(word_end, end - word_end));
+  std::erase_if(named, [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; });
+  (word == "tool" ? tools_ : bases_).push_back(named);
+}
+
+void Val2Statements::read_motion(const std::string& word, std::size_t statement, std::size_t begin, std::size_t end) {
+  const std::size_t last = end_of_argument(text_.code(), begin, end);
+  std::size_t first = begin;
+  std::string argument(text_.trimmed(first, last));
+  if (argument.ends_with('!')) argument.pop_back();  // the motion is being recorded
+  const std::string name = location_name(text_, first, first + argument.size());
+  if (name.empty() || name.size() != argument.size()) {
+    computed_.emplace_back(statement, argument);
+    if (argument.find(':') == std::string::npos) return;
+    for (const std::string& part : location_names(text_, first, last)) changes_.used(part, statement);
+    return;
+  }
+  const bool line = word == "moves" || word == "movest" || word == "appros";
+  uses_[location_key(name)].push_back({statement, line ? Motion::line : Motion::joints, {}});
+  if (!has_known_indices(name)) indexed_.push_back(statement);
+  if (!word.starts_with("appro")) return;
+  std::size_t distance = std::min(last + 1, end);
+  const std::string_view number = text_.trimmed(distance, end);
+  const auto cell = cell_at(text_.code(), distance, number.size(), {});
+  approaches_.push_back({statement, name, cell ? std::optional(cell->value) : std::nullopt});
+}
+
+/// "SET a = b": only copies and SHIFT leave the locations on the right what they are.
+void Val2Statements::read_set(std::size_t begin, std::size_t end) {
+  const std::string name = location_name(text_, begin, end);
+  const std::size_t sign = std::min(text_.code().find('=', begin), end);
+  if (name.empty() || sign >= end) return;
+  changes_.changed(name, begin);
+  std::size_t first = sign + 1;
+  const std::string_view value = text_.trimmed(first, end);
+  const bool whole = location_name(text_, first, end).size() == value.size();
+  if (whole || (text_.word_at(first) == "shift" && value.find(':') == std::string_view::npos)) return;
+  for (const std::string& part : location_names(text_, first, end)) changes_.used(part, begin);
+}
+
+StatedFrames Val2Statements::frames(const Program& program, const ControllerData& controller) const {
+  StatedFrames frames;
+  if (!tools_.empty()) {
+    const auto argument = only(tools_);
+    const bool changed = argument && !changes_.why(*argument).empty();
+    set_tool(frames, changed    ? KnownFrame::computed("TOOL")
+                     : argument ? tool_of(*argument, program, controller)
+                                : KnownFrame{"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
+  }
+  if (!bases_.empty()) {
+    const auto argument = only(bases_);
+    set_frame(frames, argument ? base_of(*argument)
+                               : KnownFrame{"BASE", Eigen::Isometry3d::Identity(), "several bases are set by BASE"});
+  }
+  return frames;
+}
+
+void Val2Statements::complete(Program& program, const ControllerData& controller) const {
+  const StatedFrames stated = frames(program, controller);
+  std::erase_if(program.targets, [&](const Target& target) {
+    return std::find(tools_.begin(), tools_.end(), lower_name(target)) != tools_.end();
+  });
+  for (Target& target : program.targets) {
+    target.frames = stated;
+    target.order = target.begin();
+    const auto found = uses_.find(lower_name(target));
+    if (found == uses_.end()) continue;
+    std::vector<TargetUse> uses = found->second;
+    for (TargetUse& use : uses) use.frames = stated;
+    take_uses(uses, target);
+  }
+  changes_.mark(program.targets);
+  for (const Approach& approach : approaches_)
+    note_offset(program, text_.place(approach.begin), approach.name, approach.distance_mm);
+  program.unknown_motions = indexed_;
+  for (const auto& [begin, what] : computed_) {
+    program.unknown_motions.push_back(begin);
+    skip_target(program, {.name = "", .place = text_.place(begin)},
+                '\'' + what + "' is computed when the program runs");
+  }
+}
+
+}  // namespace demecal::inline languages

@@ -1,0 +1,50 @@
+// VAL II: what the statements of programs say of the locations that they name, and the tool and base that they set.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parsed_programs/changed_names.hpp"
+#include "parsed_programs/program.hpp"
+#include "parsed_programs/program_text.hpp"
+
+namespace demecal::inline languages {
+
+/// Tool and base hold for all points: one of each must serve them. Motions whose location has an index that is computed
+/// are tied to none.
+class Val2Statements {
+ public:
+  /// `text` must outlive this.
+  explicit Val2Statements(const ProgramText& text) : text_(text), changes_(text) {}
+
+  /// Takes a line of a program, [begin, end) of the code.
+  void read_line(std::size_t begin, std::size_t end);
+
+  /// Gives the program's targets their frames and motions, and those that it changes the reason to be left; the
+  /// location that TOOL names is taken out, for nothing moves to it.
+  void complete(Program& program, const ControllerData& controller) const;
+
+ private:
+  void read_motion(const std::string& word, std::size_t statement, std::size_t begin, std::size_t end);
+  void read_set(std::size_t begin, std::size_t end);
+  StatedFrames frames(const Program& program, const ControllerData& controller) const;
+
+  const ProgramText& text_;
+  ChangedNames changes_;
+  std::vector<std::string> tools_{},
+      bases_{};  ///< what stands behind each instruction, without spaces, in small letters
+  std::map<std::string, std::vector<TargetUse>> uses_{};
+  struct Approach {
+    std::size_t begin;
+    std::string name;
+    std::optional<double> distance_mm;
+  };
+  std::vector<Approach> approaches_{};
+  std::vector<std::pair<std::size_t, std::string>> computed_{};  ///< destinations that are no locations
+  std::vector<std::size_t> indexed_{};                           ///< motions to locations with computed indices
+};
+
+}  // namespace demecal::inline languages
