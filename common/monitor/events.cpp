@@ -5,7 +5,6 @@
 
 #include "errors/input_error.hpp"
 #include "monitor/event_members.hpp"
-#include "monitor/event_schema.hpp"
 #include "monitor/state_json.hpp"
 
 namespace demecal::inline monitor {
