@@ -1,4 +1,5 @@
-// The commands of `demecal`, and what they share: how they end, what interrupts them, and how they take up a data set.
+// The commands of `demecal`, and what they share: how they end, what interrupts them, how they take up a data set, and
+// runs that begin with a model found before (--prior of calibrate and diagnose).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/job.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
@@ -107,5 +109,15 @@ auto fit_or_report(const std::string& folder, const std::string& job, const Chec
     throw;
   }
 }
+
+struct PriorRun {
+  std::string prior_file, out;
+  Job job;
+  bool declared_stated = false;  ///< otherwise what is declared is the prior's
+  bool json = false, quiet = false, force = false;
+};
+
+/// Brings the model up to date by the poses of job.data_file and writes the folder of results.
+ExitCode run_with_prior(PriorRun run);
 
 }  // namespace demecal

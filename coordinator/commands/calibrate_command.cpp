@@ -16,7 +16,6 @@
 #include "calibration/job.hpp"
 #include "config/job_file.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/commands/prior_runs.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/event_log.hpp"
 #include "coordinator/result_folder.hpp"

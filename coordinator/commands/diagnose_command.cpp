@@ -20,7 +20,6 @@
 #include "config/job_file.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
-#include "coordinator/commands/prior_runs.hpp"
 #include "coordinator/displays.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"

@@ -1,4 +1,4 @@
-#include "coordinator/commands/prior_runs.hpp"
+#include "coordinator/commands.hpp"
 
 #include <fmt/format.h>
 #include <atomic>
