@@ -89,6 +89,7 @@ RapidStatements::RapidStatements(const ProgramText& text, Program& program)
 
 void RapidStatements::read_motion(std::size_t end, std::size_t targets) {
   const std::vector<std::size_t> ends = argument_ends(code_, end);
+  const std::size_t first = destinations_.size();
   std::size_t begin = end;
   if (code_.substr(text_.skip_spaces(begin)).starts_with('\\'))  // \Conc, before the first target
     begin = std::min(code_.find(',', begin), ends.back() - 1) + 1;
@@ -98,7 +99,9 @@ void RapidStatements::read_motion(std::size_t end, std::size_t targets) {
     begin = stop + 1;
     if (--targets == 0) break;
   }
-  if (!destinations_.empty() && !holds_target(destinations_.back())) program_.unknown_motions.push_back(end);
+  for (std::size_t i = first; i < destinations_.size(); ++i) {
+    if (!holds_target(destinations_[i])) goes_elsewhere(destinations_[i]);
+  }
 }
 
 /// Whether the name or the numbers of a target stand there.
@@ -108,6 +111,16 @@ bool RapidStatements::holds_target(const TextRange& range) const {
     if (text_.begins_word(at) && names_.contains(text_.word_at(at))) return true;
   }
   return false;
+}
+
+void RapidStatements::goes_elsewhere(const TextRange& range) {
+  if (!elsewhere_.insert(range.begin).second) return;
+  std::size_t begin = range.begin;
+  std::string what(text_.trimmed(begin, range.end));
+  what = what.substr(0, what.find('\\'));
+  program_.unknown_motions.push_back(begin);
+  skip_target(program_, {.name = "", .place = text_.place(begin)},
+              '\'' + what + "' is not given as numbers in this program");
 }
 
 std::size_t RapidStatements::after_parts(std::size_t end) const {
@@ -140,8 +153,9 @@ void RapidStatements::read_name(std::size_t begin, std::size_t end) {
   for (const TextRange& range : destinations_) {
     if (begin < range.begin || begin >= range.end) continue;
     const std::size_t option = std::min(code_.substr(0, range.end).find('\\', begin), range.end);
-    if (!is_plain(range.begin, option, begin, name_end)) changes_.used(name, begin);
-    return;
+    if (is_plain(range.begin, option, begin, name_end)) return;
+    changes_.used(name, begin);
+    return goes_elsewhere(range);
   }
   const std::size_t equals = code_.substr(0, begin).rfind(":="), statement = code_.substr(0, begin).rfind(';');
   const bool copied = equals != std::string_view::npos && (statement == std::string_view::npos || equals > statement);

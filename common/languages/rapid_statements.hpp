@@ -38,6 +38,8 @@ class RapidStatements {
  private:
   void read_motion(std::size_t end, std::size_t targets);
   void read_name(std::size_t begin, std::size_t end);
+  /// Says that a motion goes to none of the targets.
+  void goes_elsewhere(const TextRange& range);
   bool holds_target(const TextRange& range) const;
   /// Where the name's indices and components end.
   std::size_t after_parts(std::size_t end) const;
@@ -51,6 +53,7 @@ class RapidStatements {
   ChangedNames changes_;
   std::set<std::string> names_;            ///< of targets, in small letters and without indices
   std::set<std::string> declared_{};       ///< those that were declared up to here
+  std::set<std::size_t> elsewhere_{};      ///< where destinations begin that are no targets
   std::vector<TextRange> destinations_{};  ///< the arguments of motions that say where to
 };
 

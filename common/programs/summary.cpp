@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "data/text.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
 #include "parsed_programs/program_text.hpp"
@@ -83,6 +84,25 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
   return json;
 }
 
+/// Where the base is that poses are counted from, for people to compare with the controller's: the height of the place
+/// on axis 2 that is nearest to axis 1. Empty where no two joints turn about axes that differ in direction.
+std::string base_text(const Chain& arm) {
+  if (arm.size() < 2 || !is_revolute(arm, 0) || !is_revolute(arm, 1)) return "";
+  const auto places =
+      differential_kinematics(arm, JointVector::Zero(arm.size()), arm.tool_m, PlaceMotions::Zero(6, arm.size() + 1))
+          .places;
+  const Eigen::Vector3d first = places[0].linear().col(2), second = places[1].linear().col(2);
+  const double cosine = first.dot(second), square = 1.0 - cosine * cosine;
+  if (square < 1e-6) return "";
+  const Eigen::Vector3d apart = places[0].translation() - places[1].translation();
+  const double along = (second.dot(apart) - cosine * first.dot(apart)) / square;
+  const double height_m = places[1].translation().z() + along * second.z();
+  return fmt::format(
+      "Poses are counted from the base of the robot's description, in which axis 2 is at z = {:.1f} mm; the "
+      "controller must count from there, too.\n",
+      millimetres(height_m));
+}
+
 }  // namespace
 
 TargetFigures target_figures(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
@@ -139,7 +159,11 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
                       figures.targets, figures.mean_mm, figures.max_mm);
   const std::size_t left = static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size();
   if (left > 0) text += fmt::format("; {} left as they are", left);
-  return text + '\n';
+  text += '\n';
+  for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
+    if (corrected.program.targets[i].is_pose() && !corrected.targets[i].is_uncorrected()) return text + base_text(arm);
+  }
+  return text;
 }
 
 std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {

@@ -3,11 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <optional>
-
-#include "corrected_arm.hpp"
-#include "kinematics/units.hpp"
-#include "languages/written_program.hpp"
+#include "judged_points.hpp"
 
 namespace demecal {
 namespace {
@@ -15,110 +11,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-JointVector usual_joints() {
-  JointVector joints(6);
-  joints << 0.2, -1.0, 1.2, 0.35, 0.9, 0.1;
-  return joints;
-}
-
-Eigen::Isometry3d flange_pose() {
-  RandomStream stream{7521};
-  return forward(elbow_arm(stream).chain, usual_joints());
-}
-
-Eigen::Isometry3d tool_pose() {
-  RandomStream stream{7521};
-  return flange_pose() * Eigen::Translation3d(elbow_arm(stream).chain.tool_m);
-}
-
-/// "corrected" or "left", and what is said of the target of this name: "left: line 5 changes it ...".
-std::string judged(WrittenIn language, const std::vector<ProgramFile>& files, const std::string& name) {
-  RandomStream stream{7521};
-  const CommandModel model = erring_model(stream, elbow_arm(stream));
-  const ProgramSource source(files);
-  const CorrectedProgram corrected = correct_program(
-      source.text(), read_program(row_of(language), source, model.nominal.chain), model, {.temperature_celsius = 20.0});
-  std::string said = "left:";
-  for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
-    const bool moved = corrected.program.targets[i].name == name && !corrected.targets[i].is_uncorrected();
-    if (moved) said = "corrected:";
-  }
-  for (const Remark& warning : corrected.warnings) {
-    if (warning.name == name) said += ' ' + warning.sentence;
-  }
-  return said;
-}
-
-std::string judged(WrittenIn language, const std::string& text, const std::string& name) {
-  return judged(language, std::vector<ProgramFile>{{"p", text}}, name);
-}
-
-constexpr const char* kChanged = "changes it when the program runs";
-constexpr const char* kUsed = "uses it otherwise than to move to it";
-
-// RAPID
-
-std::string rapid_point(const std::string& name, const std::string& kind = "VAR") {
-  const std::string line = pose_line(WrittenIn::rapid, flange_pose(), usual_joints(), 1, 4);
-  const std::size_t begin = line.find("[[");
-  return kind + " robtarget " + name + ":=" + line.substr(begin, line.find(",v200") - begin) + ";\n";
-}
-
-std::string of_rapid(const std::string& statements, const std::string& name = "pA") {
-  return judged(WrittenIn::rapid,
-                "MODULE m\n" + rapid_point("pA") + rapid_point("pB", "CONST") +
-                    "PERS jointtarget jA:=[[10,-60,70,20,50,5],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\n" +
-                    "MoveAbsJ jA,v9,fine,tool0;\nMoveJ pB,v9,fine,tool0;\n" + statements + "ENDPROC\nENDMODULE\n",
-                name);
-}
-
-TEST(Rapid, LeavesPointsThatTheProgramChanges) {
-  const std::string move = "MoveJ pA,v9,fine,tool0;\n";
-  EXPECT_THAT(of_rapid(move), StartsWith("corrected:"));
-  EXPECT_THAT(of_rapid(move, "jA"), StartsWith("corrected:"));
-  for (const char* change : {"pA.trans.z:=pA.trans.z+50;\n", "pA.trans:=[500,0,300];\n", "pA:=CRobT(\\Tool:=tool0);\n",
-                             "PA := Offs(pB,0,0,50);\n"}) {
-    for (const std::string& text : {move + change + move, change + move})
-      EXPECT_THAT(of_rapid(text), AllOf(StartsWith("left: line "), HasSubstr(kChanged))) << text;
-    EXPECT_THAT(of_rapid(move + change, "pB"), StartsWith("corrected:"));
-  }
-  EXPECT_THAT(of_rapid(move + "jA.robax.rax_2:=40;\nMoveAbsJ jA,v9,fine,tool0;\n", "jA"),
-              AllOf(StartsWith("left:"), HasSubstr("line 9 changes it")));
-}
-
-TEST(Rapid, LeavesPointsThatAreHandedOn) {
-  const std::string move = "MoveJ pA,v9,fine,tool0;\n";
-  for (const char* use : {"Grp pA;\n", "Grp(pA);\n", "w.uframe:=DefFrame(pA,pB,pB);\n", "MoveHome pA,v9,fine,tool0;\n",
-                          "SearchL\\Stop,di1,pA,pB,v9,tool0;\n", "MoveL ORobT(pA),v9,fine,tool0;\n"})
-    EXPECT_THAT(of_rapid(move + use), AllOf(StartsWith("left:"), HasSubstr(kUsed))) << use;
-  EXPECT_THAT(of_rapid(move + "MoveL Offs(pA,0,0,50)\\ID:=5,v9,fine,tool0;\n"), StartsWith("corrected:"));
-  EXPECT_THAT(of_rapid(move + "pC:=pA;\nWaitTime 1;\n"), StartsWith("corrected:"));
-}
-
-TEST(Rapid, LeavesPointsThatAreDisplaced) {
-  const std::string set = "PDispSet [[0,0,100],[1,0,0,0]];\n", move = "MoveJ pA,v9,fine,tool0;\n";
-  EXPECT_THAT(of_rapid(set + move), AllOf(StartsWith("left:"), HasSubstr("displaced by PDispSet")));
-  EXPECT_THAT(of_rapid(set + move, "jA"), StartsWith("corrected:"));
-  EXPECT_THAT(of_rapid(set + "MoveL pB,v9,fine,tool0;\nPDispOff;\n" + move), StartsWith("corrected:"));
-  EXPECT_THAT(of_rapid(set + "Grp;\nPDispOff;\n" + move), StartsWith("left:"));
-}
-
-TEST(Rapid, WarnsOfPlacesFarFromThePointThatCorrectsThem) {
-  const std::string move = "MoveJ pA,v9,fine,tool0;\n";
-  EXPECT_EQ(of_rapid(move + "MoveL Offs(pA,0,0,50),v9,fine,tool0;\n"), of_rapid(move));
-  EXPECT_THAT(of_rapid(move + "MoveL Offs(pA,0,0,-300),v9,fine,tool0;\n"),
-              AllOf(StartsWith("corrected:"), HasSubstr("300 mm away from it")));
-  EXPECT_THAT(of_rapid(move + "MoveL RelTool(pA,0,0,n),v9,fine,tool0;\n"), HasSubstr("is not known"));
-}
-
-TEST(Rapid, LeavesPointsThatNoMotionNamesOrThatATrackMayCarry) {
-  EXPECT_THAT(of_rapid(""), AllOf(StartsWith("left:"), HasSubstr("no motion names it")));
-  std::string point = rapid_point("pT");
-  point.replace(point.find("[9E+09"), 6, "[150");
-  EXPECT_THAT(judged(WrittenIn::rapid, point + "MoveJ pT,v9,fine,tool0;\n", "pT"),
-              AllOf(StartsWith("left:"), HasSubstr("eax_a, may carry the arm")));
-}
 
 // KRL
 

@@ -151,6 +151,29 @@ TEST(Summary, ShowsNominalCorrectedAndDifference) {
   EXPECT_THAT(json, HasSubstr("\"nominal\":[17.188"));
 }
 
+TEST(Summary, SaysWhereTheBaseIsThatPosesAreCountedFrom) {
+  const CommandModel model = wave_model(2e-3);
+  Chain arm = model.nominal.chain;
+  const auto table = [&](const std::string& text) {
+    const CorrectedProgram corrected =
+        correct_program(text, read_program(WrittenIn::urscript, text, "p", arm), model, {});
+    return summary_table(corrected, arm);
+  };
+  const auto height_mm = [&] {
+    const Eigen::Isometry3d tool =
+        forward(model.nominal.chain, joints_with(0.5, 0.2)) * Eigen::Translation3d(model.nominal.chain.tool_m);
+    const std::string said = table(joints_line(WrittenIn::urscript, joints_with(0.5, 0.2), 1, 9) + '\n' +
+                                   pose_line(WrittenIn::urscript, tool, joints_with(0.5, 0.2), 2, 9));
+    const std::string words = "axis 2 is at z = ";
+    const std::size_t at = said.find(words);
+    return at == std::string::npos ? -1e9 : std::stod(said.substr(at + words.size()));
+  };
+  const double before_mm = height_mm();
+  arm.base.translation().z() += 0.33;
+  EXPECT_NEAR(height_mm() - before_mm, 330.0, 0.11);
+  EXPECT_EQ(table(joints_line(WrittenIn::urscript, joints_with(0.5, 0.2), 1, 9)).find("axis 2"), std::string::npos);
+}
+
 TEST(Approach, IsThatOfTheJointsLastMotion) {
   RandomStream stream{7503};
   const Robot nominal = elbow_arm(stream);
