@@ -19,7 +19,7 @@ namespace demecal::inline data_check {
 namespace {
 
 /// How joints and orientations might be meant, and what to do if they are.
-struct Reading {
+struct OrientationReading {
   FindingKind kind = FindingKind::convention;
   int joint = -1;
   std::string remedy;
@@ -31,11 +31,11 @@ JointVector as_given(JointVector joints) {
   return joints;
 }
 
-std::vector<Reading> other_readings(const Chain& chain) {
+std::vector<OrientationReading> other_readings(const Chain& chain) {
   const auto inverse = [](const Eigen::Quaterniond& q) { return q.conjugate(); };
   // What was read as w, x, y, z.
   const auto scalar_last = [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()); };
-  std::vector<Reading> readings{
+  std::vector<OrientationReading> readings{
       {FindingKind::convention, -1, "read the columns of orientation as x, y, z, w", as_given, scalar_last},
       {FindingKind::convention, -1, "take the measured orientations the other way round (the base seen from the tool)",
        as_given, inverse},
@@ -56,7 +56,7 @@ std::vector<Reading> other_readings(const Chain& chain) {
 
 /// The angle, rad, by which orientations scatter about one turn of each tool on its flange: the median over the rows,
 /// about the row that most agree with.
-double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit, const Reading& reading) {
+double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit, const OrientationReading& reading) {
   constexpr std::size_t kMostTried = 30;
   std::map<int, std::vector<Eigen::Quaterniond>> turns;
   for (const TrialRow& row : trial.rows) {
@@ -95,14 +95,15 @@ std::vector<Finding> find_wrong_orientations(const DataSet& data, const Trial& t
   const auto with = std::ranges::count_if(
       trial.rows, [&](const TrialRow& row) { return data.poses[row.pose].orientation.has_value(); });
   if (static_cast<std::size_t>(with) < kFewest) return {};
-  const Reading given{FindingKind::other_robot, -1, "", as_given, [](const Eigen::Quaterniond& q) { return q; }};
+  const OrientationReading given{FindingKind::other_robot, -1, "", as_given,
+                                 [](const Eigen::Quaterniond& q) { return q; }};
   const double given_rad = scatter_rad(data, trial, fit, given);
   if (given_rad < implausible) return {};
   const std::string observed = fmt::format(
       "The measured orientations contradict the joints, though the positions fit: they are {:.0f} deg "
       "(median) from where the arm turns the tool.",
       degrees(given_rad));
-  for (const Reading& reading : other_readings(fit.chain)) {
+  for (const OrientationReading& reading : other_readings(fit.chain)) {
     const double changed_rad = scatter_rad(data, trial, fit, reading);
     if (changed_rad > explained) continue;
     Finding finding{.kind = reading.kind, .joint = reading.joint};

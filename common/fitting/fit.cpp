@@ -45,8 +45,9 @@ Fit too_few(const CorrectedRobot& start, std::size_t poses, int rows, int parame
     fit.sentence = "no pose is a calibration pose, and a model is fitted to these: is the column `set` right?";
     return fit;
   }
-  fit.sentence = std::to_string(poses) + (poses == 1 ? " pose gives " : " poses give ") + std::to_string(rows) + " measured numbers; " +
-                 std::to_string(parameters) + " free parameters need at least " + std::to_string(parameters + 1);
+  fit.sentence = std::to_string(poses) + (poses == 1 ? " pose gives " : " poses give ") + std::to_string(rows) +
+                 " measured numbers; " + std::to_string(parameters) + " free parameters need at least " +
+                 std::to_string(parameters + 1);
   return fit;
 }
 
