@@ -220,6 +220,19 @@ TEST(UnitMotions, OfABaseUnderUnknownMassesSpanTheMomentOfAnyMasses) {
   }
 }
 
+TEST(UnitMotions, NoBaseTiltsByMoreThanThreeMilliradians) {
+  RandomStream stream{34, 15};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  Evidence evidence = full_evidence(robot);
+  evidence.masses = false;
+  for (Effect effect : find_law("link_bending")->proposals(robot, evidence)) {
+    effect.values.assign(law_of(effect).coefficients(effect, robot).size(), -1e-3);
+    EXPECT_EQ(law_of(effect).implausibility(effect), "");
+    effect.values.back() = -4e-3;
+    EXPECT_EQ(law_of(effect).implausibility(effect), "no base gives way so far (> 3 mrad)");
+  }
+}
+
 TEST(UnitMotions, OfTiltedGravityAreTheTorqueOfLeaningGravity) {
   RandomStream stream{34, 5};
   constexpr double kLean = 1e-5;
