@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -182,7 +183,50 @@ DataCheck check_data(const DataSet& data) {
   return DataChecker(data).run();
 }
 
+namespace {
+
+/// A finding for each joint of which the fitted link is farther from its description than three times what makers'
+/// figures are usually wrong by.
+std::vector<Finding> implausible_links(const Chain& described, const Chain& fitted) {
+  constexpr double kMost = 3.0;
+  struct Part {
+    LinkParameter parameter;
+    const char* name;
+    bool angle;
+  };
+  constexpr Part kParts[] = {{LinkParameter::theta, "theta", true},
+                             {LinkParameter::d, "d", false},
+                             {LinkParameter::a, "a", false},
+                             {LinkParameter::alpha, "alpha", true}};
+  std::vector<Finding> findings;
+  for (int joint = 0; joint < described.size(); ++joint) {
+    const auto place = static_cast<std::size_t>(joint);
+    std::string parts;
+    for (const Part& part : kParts) {
+      const double before = described.joints[place].parameter(part.parameter);
+      const double after = fitted.joints[place].parameter(part.parameter);
+      if (std::abs(after - before) < kMost * (part.angle ? kLinkDeviation_rad : kLinkDeviation_m)) continue;
+      parts += (parts.empty() ? "" : ", ") +
+               (part.angle ? fmt::format("{} {:.2f} instead of {:.2f} deg", part.name, degrees(after), degrees(before))
+                           : fmt::format("{} {:.1f} instead of {:.1f} mm", part.name, millimetres(after),
+                                         millimetres(before)));
+    }
+    if (parts.empty()) continue;
+    findings.push_back({.kind = FindingKind::implausible_link, .joint = joint});
+    findings.back().sentence = fmt::format(
+        "Joint {} and its link are fitted far from the robot's description: {}. Makers' figures are right to some 5 mm "
+        "and 1 "
+        "deg: check the file against the arm, the joint's zero, and lengths that the data state.",
+        joint + 1, parts);
+  }
+  return findings;
+}
+
+}  // namespace
+
 void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& check) {
+  for (Finding& finding : implausible_links(data.robot.chain, robot.chain))
+    check.findings.push_back(std::move(finding));
   std::set<std::string> named;
   for (const Finding& finding : check.findings) named.insert(finding.poses.begin(), finding.poses.end());
   std::vector<TrialRow> rows;

@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 20> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 21> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -36,6 +36,7 @@ constexpr std::array<KindRow, 20> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
                                           {FindingKind::outlier, "outlier", false},
+                                          {FindingKind::implausible_link, "implausible_link", false},
                                           {FindingKind::other_robot, "other_robot", true}}};
 
 const KindRow& row_of(FindingKind kind) {

@@ -29,6 +29,7 @@ enum class FindingKind {
   typing_error,
   wrong_contact,
   outlier,
+  implausible_link,
   other_robot
 };
 

@@ -132,6 +132,26 @@ TEST(CheckData, TakesSmallAnglesForRadiansWhereOnlyLengthsWereMeasured) {
   EXPECT_THAT(kinds_of(checked(data)), Contains(FindingKind::unit));
 }
 
+TEST(CheckFitted, NamesALinkThatIsFittedFarFromItsDescription) {
+  const DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  CorrectedRobot robot = fit_registration(data, poses_of(data, PoseSet::calibration),
+                                          {.registration = true, .tool = true}, nominal_robot(data))
+                             .robot;
+  robot.chain.joints[3].a_m += 0.014;
+  robot.chain.joints[4].theta_rad += radians(2.9);
+  DataCheck near, far;
+  check_fitted(data, robot, near);
+  EXPECT_FALSE(near.has(FindingKind::implausible_link));
+  robot.chain.joints[1].a_m += 0.05;
+  robot.chain.joints[1].theta_rad -= radians(5.0);
+  check_fitted(data, robot, far);
+  ASSERT_TRUE(far.has(FindingKind::implausible_link));
+  const Finding& finding = far.findings.front();
+  EXPECT_EQ(finding.joint, 1);
+  EXPECT_FALSE(contradicts(finding.kind));
+  EXPECT_THAT(finding.sentence, HasSubstr("Joint 2 and its link are fitted far from the robot's description: theta"));
+}
+
 TEST(CheckFitted, SaysThatALaterMeasurementStandsInAnotherFrame) {
   DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
   const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},
