@@ -43,7 +43,7 @@ void on_signal(int) {
     say("\nended at once; what was not written yet is lost\n");
     ::_exit(static_cast<int>(ExitCode::interrupted));
   }
-  say("\ninterrupted: what was reached is saved as soon as this step ends; once more ends at once and loses it\n");
+  say("\nstopping after this step; once more ends at once\n");
 }
 
 }  // namespace

@@ -39,6 +39,40 @@ TEST(Export, WritesAModelInEveryLanguageAndSaysWhatItLeavesOut) {
   EXPECT_EQ(run("demecal", {"export", job.job()}).code, 11);
 }
 
+TEST(Export, OverwritesNeitherItsInputNorWhatItDidNotWrite) {
+  SmallJob job(6);
+  const std::string robot = job.path("data/robot.yaml");
+  const auto exported_to = [&](const std::string& name, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"export", robot, "--format", "c", "--out", job.path(name)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("demecal", arguments);
+  };
+  const std::string drawn = job.text("data/robot.yaml");
+  const Ended own = exported_to("data/robot.yaml", {"--force"});
+  EXPECT_EQ(own.code, 10);
+  EXPECT_THAT(own.err, HasSubstr("is the file that was read, which is never overwritten"));
+  EXPECT_EQ(job.text("data/robot.yaml"), drawn);
+  EXPECT_EQ(exported_to("arm.c").code, 0);
+  EXPECT_EQ(exported_to("arm.c").code, 0) << "its own file may be written again";
+  const std::string foreign = job.text("job.yaml");
+  EXPECT_EQ(exported_to("job.yaml").code, 10);
+  EXPECT_EQ(job.text("job.yaml"), foreign);
+}
+
+TEST(Arguments, ThatMeanNothingAreNamed) {
+  const Ended unknown = run("demecal", {"calibrat"});
+  EXPECT_EQ(unknown.code, 10);
+  EXPECT_THAT(unknown.err, HasSubstr("'calibrat' is no command; the nearest is 'calibrate'"));
+  SmallJob job(6);
+  const Ended seed = run("demecal", {"diagnose", job.data(), "--seed", "-5", "--out", job.path("out")});
+  EXPECT_EQ(seed.code, 10);
+  EXPECT_THAT(seed.err, HasSubstr("--seed: '-5' must be a whole number, 0 or more"));
+  EXPECT_EQ(run("demecal", {"calibrate", job.job(), "--resume", job.path("none")}).code, 10);
+  const Ended twice = run("demecal", {"diagnose", job.data(), job.data(), "--out", job.path("out")});
+  EXPECT_EQ(twice.code, 11);
+  EXPECT_THAT(twice.err, HasSubstr("a station is given once"));
+}
+
 TEST(Export, WritesRobotsAsDrawnAndMatricesOfTextShortened) {
   const Ended robot = run("demecal", {"export", kConfigs + "robots/puma761.yaml"});
   ASSERT_EQ(robot.code, 0) << robot.err;
