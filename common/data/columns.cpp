@@ -184,17 +184,6 @@ std::string why_no_number(const std::string& text, char decimal) {
 
 }  // namespace
 
-std::vector<ColumnName> ColumnMap::all() const {
-  std::vector<ColumnName> names;
-  for (const auto* group : {&joints, &position, &orientation, &sigma, &distances, &approach, &torque}) {
-    names.insert(names.end(), group->begin(), group->end());
-  }
-  for (const auto* single : {&payload, &temperature, &time, &set, &pose, &target, &contact}) {
-    if (*single) names.push_back(**single);
-  }
-  return names;
-}
-
 std::optional<ColumnUnit> find_unit(std::string_view name) {
   const auto found =
       std::find_if(kUnits.begin(), kUnits.end(), [&](const ColumnUnit& unit) { return unit.name == name; });

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "data/csv.hpp"
@@ -21,19 +23,69 @@ struct ColumnName {
   std::size_t table = 0;   ///< among those that the poses are read from
 };
 
-struct ColumnMap {
-  InputError::Where where;              ///< of the whole map
-  std::vector<ColumnName> joints;       ///< one per joint
-  std::vector<ColumnName> position;     ///< x, y, z, or none
-  std::vector<ColumnName> orientation;  ///< w, x, y, z of a unit quaternion, or none
-  std::vector<ColumnName> sigma;  ///< of the position: one for all axes, x, y, z, or range and two angles; or none
-  std::vector<ColumnName> distances;
-  std::vector<ColumnName> approach;  ///< one per joint, or none
-  std::vector<ColumnName> torque;    ///< one per joint, or none
-  std::optional<ColumnName> payload, temperature, time, set, pose, target, contact;
+/// The columns of one key: none, one or several.
+template <typename Column>
+std::span<const Column> columns_in(const std::vector<Column>& list) {
+  return list;
+}
+template <typename Column>
+std::span<const Column> columns_in(const std::optional<Column>& single) {
+  return single ? std::span<const Column>(&*single, 1) : std::span<const Column>();
+}
 
-  /// All columns named, in the order above.
-  std::vector<ColumnName> all() const;
+template <typename Column>
+void add_column(std::vector<Column>& list, Column column) {
+  list.push_back(std::move(column));
+}
+template <typename Column>
+void add_column(std::optional<Column>& single, Column column) {
+  single = std::move(column);
+}
+
+/// What columns may hold of poses; a `Column` is a name, an index, or a column found.
+template <typename Column>
+struct PoseColumns {
+  std::vector<Column> joints;       ///< one per joint
+  std::vector<Column> position;     ///< x, y, z, or none
+  std::vector<Column> orientation;  ///< w, x, y, z of a unit quaternion, or none
+  std::vector<Column> sigma;        ///< of the position: one for all axes, x, y, z, or range and two angles; or none
+  std::vector<Column> distances;
+  std::vector<Column> approach;  ///< one per joint, or none
+  std::vector<Column> torque;    ///< one per joint, or none
+  std::optional<Column> payload, temperature, time, set, pose, target, contact;
+
+  /// Calls `visit(key, member)` for each of them, a list or a single column, with its key under `columns:`.
+  template <typename Visit>
+  static void for_each_key(const Visit& visit) {
+    visit("joints", &PoseColumns::joints);
+    visit("position", &PoseColumns::position);
+    visit("orientation", &PoseColumns::orientation);
+    visit("sigma", &PoseColumns::sigma);
+    visit("distances", &PoseColumns::distances);
+    visit("approach", &PoseColumns::approach);
+    visit("torque", &PoseColumns::torque);
+    visit("payload", &PoseColumns::payload);
+    visit("temperature", &PoseColumns::temperature);
+    visit("time", &PoseColumns::time);
+    visit("set", &PoseColumns::set);
+    visit("pose", &PoseColumns::pose);
+    visit("target", &PoseColumns::target);
+    visit("contact", &PoseColumns::contact);
+  }
+
+  /// All columns that there are, in the order above.
+  std::vector<Column> all() const {
+    std::vector<Column> columns;
+    for_each_key([&](std::string_view, auto member) {
+      for (const Column& column : columns_in(this->*member)) columns.push_back(column);
+    });
+    return columns;
+  }
+};
+
+/// Which columns the user says hold what.
+struct ColumnMap : PoseColumns<ColumnName> {
+  InputError::Where where;  ///< of the whole map
 };
 
 enum class Quantity { angle, length, mass, temperature, time, torque, force };

@@ -20,11 +20,9 @@ namespace {
 
 using TableColumns = std::vector<TableColumn>;
 
-/// The columns of a data set, found in its table.
-struct PoseColumns {
-  TableColumns joints, position, orientation, sigma, distances, approach, torque;
+/// The columns of a data set, found in its tables.
+struct FoundColumns : PoseColumns<TableColumn> {
   bool sigma_by_angles = false;
-  std::optional<TableColumn> payload, temperature, time, set, pose, target, contact;
 };
 
 using Tables = std::vector<CsvTable>;
@@ -70,23 +68,24 @@ TableColumns find_sigma(const Tables& tables, const ColumnMap& map, const Assume
   return columns;
 }
 
-PoseColumns find_columns(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
-  const bool by_angles = states_range_and_angles(tables, map);
-  return {.joints = find_by_joint(tables, map.joints, units, chain, joint_quantity),
-          .position = find_all(tables, map.position, Quantity::length, units),
-          .orientation = find_all(tables, map.orientation),
-          .sigma = find_sigma(tables, map, units, by_angles),
-          .distances = find_all(tables, map.distances, Quantity::length, units),
-          .approach = find_all(tables, map.approach),
-          .torque = find_by_joint(tables, map.torque, units, chain, load_quantity),
-          .sigma_by_angles = by_angles,
-          .payload = find_one(tables, map.payload, Quantity::mass, units),
-          .temperature = find_one(tables, map.temperature, Quantity::temperature, units),
-          .time = find_one(tables, map.time, Quantity::time, units),
-          .set = find_one(tables, map.set),
-          .pose = find_one(tables, map.pose),
-          .target = find_one(tables, map.target),
-          .contact = find_one(tables, map.contact)};
+FoundColumns find_columns(const Tables& tables, const ColumnMap& map, const AssumedUnits& units, const Chain& chain) {
+  FoundColumns found;
+  found.joints = find_by_joint(tables, map.joints, units, chain, joint_quantity);
+  found.position = find_all(tables, map.position, Quantity::length, units);
+  found.orientation = find_all(tables, map.orientation);
+  found.sigma_by_angles = states_range_and_angles(tables, map);
+  found.sigma = find_sigma(tables, map, units, found.sigma_by_angles);
+  found.distances = find_all(tables, map.distances, Quantity::length, units);
+  found.approach = find_all(tables, map.approach);
+  found.torque = find_by_joint(tables, map.torque, units, chain, load_quantity);
+  found.payload = find_one(tables, map.payload, Quantity::mass, units);
+  found.temperature = find_one(tables, map.temperature, Quantity::temperature, units);
+  found.time = find_one(tables, map.time, Quantity::time, units);
+  found.set = find_one(tables, map.set);
+  found.pose = find_one(tables, map.pose);
+  found.target = find_one(tables, map.target);
+  found.contact = find_one(tables, map.contact);
+  return found;
 }
 
 /// The rows of one pose, by table.
@@ -135,7 +134,7 @@ Eigen::Matrix3d instrument_axes(const Eigen::Vector3d& point_m) {
 }
 
 /// Columns of sigma: one for all axes, x, y, z, or range and the angles about the vertical and of elevation.
-Eigen::Matrix3d read_covariance(const PoseColumns& columns, const PoseRows& rows, const Eigen::Vector3d& position_m) {
+Eigen::Matrix3d read_covariance(const FoundColumns& columns, const PoseRows& rows, const Eigen::Vector3d& position_m) {
   constexpr double kLeast_m = 1e-9;  ///< beside the pole an angle about it says everything
   Eigen::Vector3d sigma;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -214,7 +213,7 @@ bool all_empty(const TableColumns& columns, const PoseRows& rows) {
 }
 
 /// What an instrument gave. A row that touches something may have been measured by nothing else.
-void read_measured(const PoseColumns& columns, const PoseRows& rows, MeasuredPose& pose) {
+void read_measured(const FoundColumns& columns, const PoseRows& rows, MeasuredPose& pose) {
   const auto given = [&](const TableColumns& some) {
     return !some.empty() && (pose.contact.empty() || !all_empty(some, rows));
   };
@@ -225,7 +224,7 @@ void read_measured(const PoseColumns& columns, const PoseRows& rows, MeasuredPos
   if (given(columns.distances)) pose.distances_m = read_distances(columns.distances, rows);
 }
 
-MeasuredPose read_pose(const PoseColumns& columns, const PoseRows& rows) {
+MeasuredPose read_pose(const FoundColumns& columns, const PoseRows& rows) {
   MeasuredPose pose;
   pose.line = rows.line();
   pose.joints = read_vector<JointVector>(columns.joints, rows);
@@ -274,7 +273,7 @@ bool states_range_and_angles(std::span<const CsvTable> tables, const ColumnMap& 
 std::vector<MeasuredPose> read_poses(const JoinedTables& joined, const ColumnMap& columns, const AssumedUnits& units,
                                      const Chain& chain, const std::map<std::string, Eigen::Vector3d>& tools_m) {
   check_column_map(columns, chain);
-  const PoseColumns found = find_columns(joined.tables, columns, units, chain);
+  const FoundColumns found = find_columns(joined.tables, columns, units, chain);
   std::vector<MeasuredPose> poses;
   poses.reserve(joined.rows.size());
   for (std::size_t pose = 0; pose < joined.rows.size(); ++pose) poses.push_back(read_pose(found, {joined, pose}));

@@ -92,17 +92,13 @@ void exclude(const YamlNode* ids, DataSet& data) {
   }
 }
 
-std::vector<ColumnName> read_columns(const YamlNode* node) {
-  std::vector<ColumnName> columns;
-  if (node) {
-    for (const YamlNode& item : node->list()) columns.push_back(read_column(item));
-  }
-  return columns;
+void read_columns(const YamlNode* node, std::vector<ColumnName>& columns) {
+  if (!node) return;
+  for (const YamlNode& item : node->list()) columns.push_back(read_column(item));
 }
 
-std::optional<ColumnName> read_single(const YamlNode* node) {
-  if (!node) return std::nullopt;
-  return read_column(*node);
+void read_columns(const YamlNode* node, std::optional<ColumnName>& column) {
+  if (node) column = read_column(*node);
 }
 
 }  // namespace
@@ -153,24 +149,13 @@ DescribedDataSet load_described_data_set(const std::filesystem::path& path) {
 }
 
 ColumnMap read_column_map(const YamlNode& node, ColumnsOf of) {
-  node.with_keys({"joints", "position", "orientation", "sigma", "distances", "approach", "torque", "payload",
-                  "temperature", "time", "set", "pose", "target", "contact"});
+  std::vector<std::string> keys;
+  ColumnMap::for_each_key([&](std::string_view key, auto) { keys.emplace_back(key); });
+  node.with_keys(keys);
   ColumnMap map;
   map.where = {node.file, node.line};
-  map.joints = read_columns(of == ColumnsOf::all ? &node.at("joints") : node.find("joints"));
-  map.position = read_columns(node.find("position"));
-  map.orientation = read_columns(node.find("orientation"));
-  map.sigma = read_columns(node.find("sigma"));
-  map.distances = read_columns(node.find("distances"));
-  map.approach = read_columns(node.find("approach"));
-  map.torque = read_columns(node.find("torque"));
-  map.payload = read_single(node.find("payload"));
-  map.temperature = read_single(node.find("temperature"));
-  map.time = read_single(node.find("time"));
-  map.set = read_single(node.find("set"));
-  map.pose = read_single(node.find("pose"));
-  map.target = read_single(node.find("target"));
-  map.contact = read_single(node.find("contact"));
+  ColumnMap::for_each_key([&](std::string_view key, auto member) { read_columns(node.find(key), map.*member); });
+  if (of == ColumnsOf::all) node.at("joints");
   return map;
 }
 

@@ -21,15 +21,6 @@
 namespace demecal::inline data_files {
 namespace {
 
-using GroupOfColumns = std::vector<ColumnName> ColumnMap::*;
-using SingleColumn = std::optional<ColumnName> ColumnMap::*;
-
-constexpr GroupOfColumns kGroups[] = {&ColumnMap::joints, &ColumnMap::position,  &ColumnMap::orientation,
-                                      &ColumnMap::sigma,  &ColumnMap::distances, &ColumnMap::approach,
-                                      &ColumnMap::torque};
-constexpr SingleColumn kSingles[] = {&ColumnMap::payload, &ColumnMap::temperature, &ColumnMap::time,   &ColumnMap::set,
-                                     &ColumnMap::pose,    &ColumnMap::target,      &ColumnMap::contact};
-
 /// The files that share columns, and which of them has a column.
 class SharedFiles {
  public:
@@ -86,41 +77,36 @@ void set_keys(const SharedFiles& files, std::vector<PoseFile>& all, const std::o
   for (const auto& [number, file] : files.having(*name)) (file->*key) = *name;
 }
 
+/// Several files may have these: their rows are joined by them.
+bool joins_rows(std::string_view key) {
+  return key == "pose" || key == "time";
+}
+
 void add_shared(std::vector<PoseFile>& files, const ColumnMap& shared, ColumnMap& map) {
   const SharedFiles where(files);
-  for (const GroupOfColumns group : kGroups) {
-    for (ColumnName name : shared.*group) {
+  ColumnMap::for_each_key([&](std::string_view key, auto member) {
+    if (joins_rows(key)) return;
+    for (ColumnName name : columns_in(shared.*member)) {
       name.table = where.only(name);
-      (map.*group).push_back(std::move(name));
+      add_column(map.*member, std::move(name));
     }
-  }
-  for (const SingleColumn single : kSingles) {
-    if (single == &ColumnMap::pose || single == &ColumnMap::time || !(shared.*single)) continue;
-    map.*single = *(shared.*single);
-    (map.*single)->table = where.only(*(shared.*single));
-  }
+  });
   set_keys(where, files, shared.pose, &PoseFile::pose);
   set_keys(where, files, shared.time, &PoseFile::time);
 }
 
-[[noreturn]] void fail_twice(const ColumnName& name) {
-  throw InputError(name.where, name.name, "is given for another file too: a quantity must come from one file");
-}
-
 void add_own(PoseFile& file, std::size_t table, ColumnMap& map) {
-  for (const GroupOfColumns group : kGroups) {
-    for (ColumnName name : (*file.own_columns).*group) {
-      if (!(map.*group).empty() && (map.*group).front().table != table) fail_twice(name);
+  ColumnMap::for_each_key([&](std::string_view key, auto member) {
+    if (joins_rows(key)) return;
+    for (ColumnName name : columns_in((*file.own_columns).*member)) {
+      const auto others = columns_in(map.*member);
+      if (!others.empty() && others.front().table != table) {
+        throw InputError(name.where, name.name, "is given for another file too: a quantity must come from one file");
+      }
       name.table = table;
-      (map.*group).push_back(std::move(name));
+      add_column(map.*member, std::move(name));
     }
-  }
-  for (const SingleColumn single : kSingles) {
-    if (single == &ColumnMap::pose || single == &ColumnMap::time || !((*file.own_columns).*single)) continue;
-    if (map.*single) fail_twice(*((*file.own_columns).*single));
-    map.*single = (*file.own_columns).*single;
-    (map.*single)->table = table;
-  }
+  });
   file.pose = file.own_columns->pose;
   file.time = file.own_columns->time;
 }

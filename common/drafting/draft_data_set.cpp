@@ -71,28 +71,32 @@ bool are_sigmas(const CsvTable& table, const std::vector<std::size_t>& columns) 
   });
 }
 
+bool holds_several(const CsvTable& table, std::size_t column) {
+  return std::ranges::any_of(
+      table.rows, [&](const CsvRow& row) { return row.fields[column] != table.rows.front().fields[column]; });
+}
+
+/// The last part of the folder's path, "." and ".." resolved.
+std::string name_of(const std::filesystem::path& folder) {
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
+  const std::filesystem::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  return name.empty() ? "measurement" : name.string();
+}
+
+/// Targets are left out: where several are on the tool, their places are needed too.
 std::string columns_text(const GivenTable& given, const std::string& indent) {
-  const GuessedColumns& columns = given.columns;
   const CsvTable& table = given.read.table;
   std::ostringstream text;
-  const auto list = [&](const char* key, const std::vector<std::size_t>& group) {
-    if (!group.empty()) text << indent << key << ": " << references(table, group) << '\n';
-  };
-  const auto single = [&](const char* key, const std::optional<std::size_t>& column) {
-    if (column) text << indent << key << ": " << reference(table, *column) << '\n';
-  };
-  list("joints", columns.joints);
-  list("position", columns.position);
-  list("sigma", columns.sigma);
-  list("orientation", columns.orientation);
-  list("approach", columns.approach);
-  list("torque", columns.torque);
-  single("payload", columns.payload);
-  single("temperature", columns.temperature);
-  single("time", columns.time);
-  single("set", columns.set);
-  single("pose", columns.name);
-  single("contact", columns.contact);
+  GuessedColumns::for_each_key([&](std::string_view key, auto member) {
+    const auto& columns = given.columns.*member;
+    if (key == "target" || columns_in(columns).empty()) return;
+    text << indent << key << ": ";
+    if constexpr (requires { columns.size(); }) {
+      text << references(table, columns) << '\n';
+    } else {
+      text << reference(table, *columns) << '\n';
+    }
+  });
   return text.str();
 }
 
@@ -135,7 +139,7 @@ std::vector<JoinDraft> possible_joins(const std::vector<GivenTable>& tables) {
     return std::ranges::all_of(tables, [&](const GivenTable& given) { return (given.columns.*member).has_value(); });
   };
   std::vector<JoinDraft> joins;
-  if (all_have(&GuessedColumns::name))
+  if (all_have(&GuessedColumns::pose))
     joins.push_back({"join: {by: name}\n", "rows of the files are joined by the name of the point"});
   if (all_have(&GuessedColumns::time)) {
     double step_s = 1e9;
@@ -238,6 +242,13 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
       assumed.push_back("positions weigh by " + references(given.read.table, sigma) +
                         ", taken to be their standard uncertainties: leave `sigma` out if they are not");
   }
+  for (const GivenTable& given : tables) {
+    if (!given.columns.target || !holds_several(given.read.table, *given.columns.target)) continue;
+    assumed.push_back("all points are taken to be of one target: if " +
+                      reference(given.read.table, *given.columns.target) + " of " + given.path.string() +
+                      " names several on the tool, name it under `columns: target` and give their places under "
+                      "`tools_mm`");
+  }
   const auto any = [&](auto group) {
     return std::ranges::any_of(tables, [&](const GivenTable& given) { return !(given.columns.*group).empty(); });
   };
@@ -250,9 +261,7 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
   require(tables, any(&GuessedColumns::position) || any(&GuessedColumns::orientation) || touched,
           "no columns are called as measured points may be (x, y, z; X [mm] ...), nor any as what the tool touches "
           "(contact): rename them, or name them in a data set by hand (`demecal template dataset`)");
-  std::string body =
-      "demecal_dataset: 1\nname: " + yaml_text(folder.filename().empty() ? "measurement" : folder.filename().string()) +
-      "\nrobot: " + yaml_text(robot) + "\n";
+  std::string body = "demecal_dataset: 1\nname: " + yaml_text(name_of(folder)) + "\nrobot: " + yaml_text(robot) + "\n";
   if (tables.size() == 1 && layout_text(told, "").empty()) {
     body += "poses: " + yaml_text(relative_name(tables[0].path, folder)) +
             "\ncolumns:                 # by name, or by number from 1\n" + columns_text(tables[0], "  ");

@@ -141,7 +141,7 @@ GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::ve
   for (const std::string_view stem : {"torque", "tau", "jointtorque"}) {
     if (guess.torque.empty()) guess.torque = named.all_of(numbered_names(stem, 1, joints));
   }
-  guess.name = named.first_of({"poseid", "pose", "pointid", "pointname", "point", "name", "pointno", "id", "nr", "no"});
+  guess.pose = named.first_of({"poseid", "pose", "pointid", "pointname", "point", "name", "pointno", "id", "nr", "no"});
   guess.time = named.first_of({"time", "timestamp", "datetime", "t", "stamp", "zeit", "zeitstempel"});
   guess.set = named.find("set");
   guess.payload = named.first_of({"payload", "payloadkg"});
@@ -166,8 +166,8 @@ GuessedColumns by_contents(const CsvTable& table, std::size_t joints) {
     } else if (!guess.time &&
                holds(table, column, [](const auto& field) { return parse_time_stamp(field).has_value(); })) {
       guess.time = column;
-    } else if (!guess.name) {
-      guess.name = column;
+    } else if (!guess.pose) {
+      guess.pose = column;
     }
   }
   const auto take = [&](std::size_t from, std::size_t count) {

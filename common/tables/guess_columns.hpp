@@ -13,10 +13,7 @@
 namespace demecal::inline tables {
 
 /// Indices of columns; empty, or nothing, where the table has none of the kind.
-struct GuessedColumns {
-  std::vector<std::size_t> joints, position, orientation, sigma, approach, torque;
-  std::optional<std::size_t> name, time, set, payload, temperature, target, contact;
-};
+using GuessedColumns = PoseColumns<std::size_t>;
 
 /// By their headings: joints q1 or j1, joint_1, axis1, A1 ... in a row of `joints`, or `joint_names` themselves; x y z;
 /// qw qx qy qz; sx sy sz; torque1 or tau1 ...; a name or point; a time. In a table without headings: three columns of

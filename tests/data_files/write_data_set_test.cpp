@@ -9,6 +9,8 @@
 
 #include "../config/temporary_folder.hpp"
 #include "random/random_stream.hpp"
+#include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -155,6 +157,19 @@ TEST(WriteDataSet, LoadsBackToTheSamePoses) {
     ASSERT_EQ(back.poses.size(), data.poses.size());
     for (std::size_t i = 0; i < data.poses.size(); ++i) expect_same_pose(back.poses[i], data.poses[i]);
   }
+}
+
+TEST(WriteDataSet, WritesEveryKeyThatColumnsHave) {
+  const TemporaryFolder folder;
+  RandomStream random{761, 4};
+  DataSet data = random_data_set(random);
+  for (MeasuredPose& pose : data.poses) {
+    pose.position_covariance_m2 = Eigen::Matrix3d::Identity() * 1e-9;
+    pose.contact = "socket";
+  }
+  const YamlNode written = read_yaml(write_data_set(data, folder.path(), "everything"));
+  ColumnMap::for_each_key(
+      [&](std::string_view key, auto) { EXPECT_NE(written.at("columns").find(std::string(key)), nullptr) << key; });
 }
 
 TEST(WriteDataSet, LeavesOutWhatWasNotMeasured) {
