@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -241,6 +242,15 @@ MeasuredPose read_pose(const FoundColumns& columns, const PoseRows& rows) {
   return pose;
 }
 
+/// Rows at equal joints, in one set, are repeats of one pose where nothing names poses.
+void name_repeats(std::vector<MeasuredPose>& poses) {
+  std::map<std::pair<PoseSet, std::vector<double>>, std::string> first;
+  for (MeasuredPose& pose : poses) {
+    const std::vector<double> joints(pose.joints.begin(), pose.joints.end());
+    pose.pose_id = first.try_emplace({pose.set, joints}, pose.pose_id).first->second;
+  }
+}
+
 /// A row that touches nothing must have been measured otherwise.
 void require_something_measured(std::span<const MeasuredPose> poses, const ColumnName& contact,
                                 const std::string& file) {
@@ -277,6 +287,7 @@ std::vector<MeasuredPose> read_poses(const JoinedTables& joined, const ColumnMap
   std::vector<MeasuredPose> poses;
   poses.reserve(joined.rows.size());
   for (std::size_t pose = 0; pose < joined.rows.size(); ++pose) poses.push_back(read_pose(found, {joined, pose}));
+  if (!columns.pose) name_repeats(poses);
   check_targets(poses, tools_m, joined.tables[joined.main].file);
   if (columns.contact) require_something_measured(poses, *columns.contact, joined.tables[joined.main].file);
   check_repeats(poses, joined.tables[joined.main].file);

@@ -26,6 +26,7 @@ constexpr double kHardlyMoving_rad = radians(2.0), kHardlyMoving_m = 5e-3;
 constexpr double kFlat = 0.005;      ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
 constexpr double kThin = 0.05;       ///< ratio of both to the third that makes it a line
 constexpr int kFineDecimals_mm = 3;  ///< digits behind the point, mm, that repeats with noise do not share
+constexpr double kSamePlace = 2e-4;  ///< rad or m: to what joints that are driven to again are read
 constexpr std::size_t kFewestPoses = 4;  ///< below which nothing is said of spread
 
 Finding constant_joint(const DataSet& data, int joint, double range) {
@@ -129,6 +130,37 @@ std::vector<Finding> find_small_angles(const DataSet& data) {
            .sentence = fmt::format("Joint angles look like radians where degrees are stated: none is beyond {:.2f}. "
                                    "Name the columns with _rad.",
                                    degrees(largest))}};
+}
+
+std::vector<Finding> find_shared_poses(const DataSet& data) {
+  std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  const auto first_joint = [&](std::size_t pose) { return data.poses[pose].joints[0]; };
+  std::ranges::sort(fitted, {}, first_joint);
+  const auto twin_of = [&](const MeasuredPose& pose) -> const MeasuredPose* {
+    auto at = std::ranges::lower_bound(fitted, pose.joints[0] - kSamePlace, {}, first_joint);
+    for (; at != fitted.end() && first_joint(*at) <= pose.joints[0] + kSamePlace; ++at)
+      if ((data.poses[*at].joints - pose.joints).cwiseAbs().maxCoeff() <= kSamePlace) return &data.poses[*at];
+    return nullptr;
+  };
+  std::vector<Finding> found;
+  for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
+    const std::vector<std::size_t> judging = poses_of(data, set);
+    std::vector<std::pair<const MeasuredPose*, const MeasuredPose*>> shared;
+    for (const std::size_t pose : judging)
+      if (const MeasuredPose* twin = twin_of(data.poses[pose])) shared.emplace_back(&data.poses[pose], twin);
+    if (shared.size() < 2 || 20 * shared.size() < judging.size()) continue;
+    Finding finding{.kind = FindingKind::shared_poses};
+    for (const auto& [pose, twin] : shared) finding.poses.push_back(pose->pose_id);
+    const auto& [pose, twin] = shared.front();
+    finding.sentence = fmt::format(
+        "{} of the {} {} poses stand at the joints of calibration poses (line {} ({}) at those of line {} ({})): their "
+        "errors say nothing of other places. Give repeats of a pose one name and one set, or measure {} poses of their "
+        "own.",
+        shared.size(), judging.size(), to_string(set), pose->line, pose->pose_id, twin->line, twin->pose_id,
+        to_string(set));
+    found.push_back(std::move(finding));
+  }
+  return found;
 }
 
 std::vector<Finding> take_out_copies(DataSet& data) {

@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 21> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 22> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -33,6 +33,7 @@ constexpr std::array<KindRow, 21> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::constant_joint, "constant_joint", false},
                                           {FindingKind::degenerate_points, "degenerate_points", false},
                                           {FindingKind::copied_rows, "copied_rows", false},
+                                          {FindingKind::shared_poses, "shared_poses", false},
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
                                           {FindingKind::outlier, "outlier", false},

@@ -26,6 +26,7 @@ enum class FindingKind {
   constant_joint,
   degenerate_points,
   copied_rows,
+  shared_poses,
   typing_error,
   wrong_contact,
   outlier,

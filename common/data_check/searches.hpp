@@ -67,6 +67,10 @@ std::vector<Finding> find_lacking_spread(const DataSet& data);
 /// Of data without positions: joint angles said to be in degrees that are all as small as radians are.
 std::vector<Finding> find_small_angles(const DataSet& data);
 
+/// Validation or accept poses, one in twenty of their set and two at least, at the joints of calibration poses: what
+/// was fitted judges itself there.
+std::vector<Finding> find_shared_poses(const DataSet& data);
+
 /// Takes rows out that repeat another to the last digit of what was measured, joints included, and names each: a repeat
 /// with noise does not, unless its digits are as coarse as the noise.
 std::vector<Finding> take_out_copies(DataSet& data);

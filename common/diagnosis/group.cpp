@@ -245,8 +245,8 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       ++added;
     } else {
       round.verdict = outcome_.not_significant ? Verdict::none : Verdict::rejected;
-      if (!tilt_is_implausible(round.effect))
-        exclude_equivalents(round);  // what needs no such lean is still to be tried
+      if (!has_impossible_coefficients(round.effect))
+        exclude_equivalents(round);  // what is like it but possible is still to be tried
       outcome_.rounds.push_back(std::move(round));
       ++rejected;
     }

@@ -241,7 +241,7 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
   return result;
 }
 
-bool tilt_is_implausible(const Effect& effect) {
+bool has_impossible_coefficients(const Effect& effect) {
   return !law_of(effect).implausibility(effect).empty();
 }
 

@@ -67,7 +67,8 @@ std::string implausibility(const Effect& effect, const DiagnosisProblem& problem
 /// Whether it moves a place by more than any real arm's effects do.
 bool is_implausibly_large(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
 
-/// A mount is known to a few degrees: whether gravity must lean more, so that the effect is another one in truth.
-bool tilt_is_implausible(const Effect& effect);
+/// Whether its coefficients are no real arm's (EffectLaw::implausibility), so that the effect is another one in truth:
+/// gravity that leans by more than a mount may, a link that grows by more than any metal does.
+bool has_impossible_coefficients(const Effect& effect);
 
 }  // namespace demecal::inline diagnosis

@@ -60,6 +60,12 @@ class ThermalLengthLaw final : public EffectLaw {
            " per kelvin as the arm warms up: " + length_text(effect.value(0) * std::hypot(link.a_m, link.d_m)) +
            " per kelvin over its length.";
   }
+  std::string implausibility(const Effect& effect) const override {
+    constexpr double kMost_per_kelvin = 150e-6;  // aluminium grows by 23e-6; parts may warm more than the thermometer
+    return std::abs(effect.value(0)) > kMost_per_kelvin ? "no link grows so much with temperature (> 150 ppm/K; "
+                                                          "aluminium: 23): what it follows is something else"
+                                                        : "";
+  }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
   Circumstance prerequisite() const override { return Circumstance::temperature; }
 };

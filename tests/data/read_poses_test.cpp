@@ -76,9 +76,19 @@ TEST(ReadPoses, ReadsEveryCircumstance) {
 }
 
 TEST(ReadPoses, GivesRowsWithoutPoseColumnTheirOwnIds) {
-  const auto poses = read(kHeading + "\n40,0,0,1,2,3\n\n40,0,0,1,2,3\n");
+  const auto poses = read(kHeading + "\n40,0,0,1,2,3\n\n41,0,0,1,2,3\n");
   EXPECT_EQ(poses[0].pose_id, "line 2");
   EXPECT_EQ(poses[1].pose_id, "line 4");
+}
+
+TEST(ReadPoses, TakesRowsAtEqualJointsForRepeatsWithoutPoseColumn) {
+  ColumnMap map = small_map();
+  map.set = column("set");
+  const std::string rows = ",set\n40,0,0,1,2,3,accept\n50,0,0,1,2,3,accept\n40,0,0,1,2,3.1,accept\n";
+  const auto poses = read(kHeading + rows + "40,0,0,1,2,3,validation\n", map);
+  EXPECT_EQ(poses[1].pose_id, "line 3");
+  EXPECT_EQ(poses[2].pose_id, "line 2");
+  EXPECT_EQ(poses[3].pose_id, "line 5") << "sets share no pose";
 }
 
 TEST(ReadPoses, RefusesBadValuesWithTheirLineAndColumn) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "../errors/complaint.hpp"
 #include "data_check/searches.hpp"
 #include "fitting/fit.hpp"
@@ -14,7 +16,9 @@ namespace demecal {
 namespace {
 
 using bench::MistakenCase;
+using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -93,6 +97,31 @@ TEST(CheckData, PutsExchangedRowsInOneSentence) {
   const DataCheck check = checked(case_of("two pairs of rows exchanged").data);
   EXPECT_EQ(check.findings.size(), 2u) << sentences_of(check);
   EXPECT_THAT(sentences_of(check), HasSubstr("fit if their measured points are exchanged"));
+}
+
+TEST(CheckData, SaysWhereTheSetsThatJudgeStandAtCalibrationPoses) {
+  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
+  const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
+  const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
+  const auto measure_again = [&](std::size_t which) {
+    MeasuredPose& pose = data.poses[accept[which]];
+    const auto [set, id, line] = std::tuple(pose.set, pose.pose_id, pose.line);
+    pose = data.poses[fitted[3 * which]];
+    pose.set = set;
+    pose.pose_id = id;
+    pose.line = line;
+    pose.joints[0] += 1e-5;
+    *pose.position_m += Eigen::Vector3d(2e-5, 0, -1e-5);
+  };
+  measure_again(0);
+  EXPECT_THAT(checked(data).findings, IsEmpty()) << "one pose may be a home that is measured again and again";
+  for (std::size_t i = 1; i < 1 + accept.size() / 10; ++i) measure_again(i);
+  const DataCheck check = checked(data);
+  ASSERT_THAT(kinds_of(check), ElementsAre(FindingKind::shared_poses));
+  EXPECT_EQ(check.findings[0].poses.size(), 1 + accept.size() / 10);
+  EXPECT_THAT(check.findings[0].sentence, AllOf(HasSubstr(" accept poses stand at the joints of calibration poses"),
+                                                HasSubstr("(" + data.poses[accept[0]].pose_id + ") at those of line "),
+                                                HasSubstr("(" + data.poses[fitted[0]].pose_id + ")")));
 }
 
 TEST(CheckData, TakesCopiesOutSoThatTheyAreNoRepeats) {

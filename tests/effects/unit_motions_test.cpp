@@ -233,6 +233,15 @@ TEST(UnitMotions, NoBaseTiltsByMoreThanThreeMilliradians) {
   }
 }
 
+TEST(UnitMotions, NoLinkGrowsMuchMoreThanAluminium) {
+  Effect effect{.kind = "thermal_length", .joint = 1, .settings = {{"reference_celsius", 20.0}}, .values = {23e-6}};
+  EXPECT_EQ(law_of(effect).implausibility(effect), "");
+  for (const double share : {1e-3, -1e-3}) {
+    effect.values = {share};
+    EXPECT_THAT(law_of(effect).implausibility(effect), ::testing::HasSubstr("no link grows so much"));
+  }
+}
+
 TEST(UnitMotions, OfTiltedGravityAreTheTorqueOfLeaningGravity) {
   RandomStream stream{34, 5};
   constexpr double kLean = 1e-5;
