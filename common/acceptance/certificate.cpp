@@ -12,9 +12,9 @@
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/posterior.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
 

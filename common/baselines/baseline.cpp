@@ -108,7 +108,7 @@ BaselineFit fourier(const RegisteredArm& arm, int order) {
   constexpr double kPi = 3.14159265358979323846;
   const ScaledJoints scaled(arm.data, arm.poses);
   std::vector<LinkFunction> functions;
-  for (const ParameterId& id : free_parameters(arm.data, {.joint_offset = true, .geometry = true}, {})) {
+  for (const ParameterId& id : free_parameters(arm.data, {.joint_offset = true, .geometry = true})) {
     const int joint = id.index;
     const bool revolute = variable_of(arm.robot.chain, joint) == LinkParameter::theta;
     const auto angle = [=](const JointVector& q) { return revolute ? q[joint] : kPi / 2 * scaled.one(q, joint); };

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 

@@ -12,11 +12,11 @@
 #include "baselines/regression.hpp"
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline baselines {
@@ -24,8 +24,7 @@ namespace {
 
 constexpr int kFoldsOfLinks = 5;
 constexpr int kMostSteps = 6;
-constexpr double kSmallStep = 1e-9;            // of the rows' norm: nothing is left to gain
-constexpr double kMountedOtherwise_rad = 0.1;  // orientations this far off are not of the tool that is modelled
+constexpr double kSmallStep = 1e-9;  // of the rows' norm: nothing is left to gain
 
 /// The model: every parameter of base and tool is a coefficient of its own, every function's coefficient adds to a link
 /// parameter as the joints have it.
@@ -65,7 +64,7 @@ class VaryingModel {
   /// Base and tool, then each link parameter that a function adds to, once; and where each function's stands.
   static std::vector<ParameterId> ids_of(const RegisteredArm& arm, const std::vector<LinkFunction>& functions,
                                          Eigen::Index& fixed, std::vector<Eigen::Index>& columns) {
-    std::vector<ParameterId> ids = free_parameters(arm.data, arm.base_and_tool, {});
+    std::vector<ParameterId> ids = free_parameters(arm.data, arm.base_and_tool);
     fixed = static_cast<Eigen::Index>(ids.size());
     for (const LinkFunction& function : functions) {
       const ParameterId id{ParameterId::Kind::link, function.joint, function.parameter, {}};

@@ -13,9 +13,9 @@
 #include "calibration/training.hpp"
 #include "data/data_set.hpp"
 #include "explanations/error_budget.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/posterior.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {

@@ -18,10 +18,10 @@
 #include "calibration/training.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 

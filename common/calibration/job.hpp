@@ -14,8 +14,8 @@
 #include "explanations/explanation_search.hpp"
 #include "expression/tree.hpp"
 #include "fitness/parameters.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/stations.hpp"
+#include "parameters/declared_model.hpp"
 
 namespace demecal::inline calibration {
 

@@ -13,10 +13,10 @@
 #include "calibration/joint_targets.hpp"
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
-#include "fitting/observation.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 

@@ -10,10 +10,10 @@
 
 #include "calibration/job.hpp"
 #include "data/data_set.hpp"
-#include "fitting/observation.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/inverse.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline calibration {

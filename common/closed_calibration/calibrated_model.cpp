@@ -16,14 +16,6 @@
 namespace demecal::inline closed_calibration {
 namespace {
 
-bool is_of_base(const ParameterId& id) {
-  return id.kind == ParameterId::Kind::base_translation || id.kind == ParameterId::Kind::base_rotation;
-}
-
-bool is_of_tool(const ParameterId& id) {
-  return id.kind == ParameterId::Kind::tool_translation || id.kind == ParameterId::Kind::tool_rotation;
-}
-
 /// The poses that the model's numbers come from.
 std::vector<std::size_t> fitted_poses(const DataSet& data, const Calibration& calibration) {
   return calibration.unseen ? poses_of_last_fit(data) : poses_of(data, PoseSet::calibration);
@@ -31,10 +23,10 @@ std::vector<std::size_t> fitted_poses(const DataSet& data, const Calibration& ca
 
 /// How the residuals scatter; orientations of a target that is mounted otherwise than its tool do not count.
 RowScales scatter_of(const DataSet& data, const CorrectedRobot& robot, const std::vector<Observation>& observations) {
-  constexpr double kMountedOtherwise_rad = 0.1, kSmallest = 1e-9;
+  constexpr double kSmallest = 1e-9;
   RowScales scales = median_deviations(data, robot, observations);
   for (double& scale : scales) scale = scale > 0.0 ? std::max(scale, kSmallest) : scale;
-  if (root_mean_squares(data, robot, observations)[kOrientation] > kMountedOtherwise_rad) scales[kOrientation] = 0.0;
+  if (mounted_otherwise(data, robot, observations)) scales[kOrientation] = 0.0;
   return scales;
 }
 
@@ -53,9 +45,9 @@ void widen(const Linearization& linearization, Eigen::MatrixXd& covariance) {
   std::vector<double> usual;
   for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
     const ParameterId& id = linearization.ids[i];
-    if (!is_of_base(id) && !is_of_tool(id)) continue;
+    if (!id.is_of_base() && !id.is_of_tool()) continue;
     places.push_back(static_cast<Eigen::Index>(i));
-    usual.push_back(is_of_base(id) ? kBase : id.is_angle() ? kTool_rad : kTool_m);
+    usual.push_back(id.is_of_base() ? kBase : id.is_angle() ? kTool_rad : kTool_m);
   }
   if (places.empty()) return;
   const Eigen::VectorXd unit = Eigen::Map<const Eigen::VectorXd>(usual.data(), std::ssize(usual));

@@ -14,10 +14,10 @@
 #include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/posterior.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline closed_calibration {

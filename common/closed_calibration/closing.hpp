@@ -10,8 +10,8 @@
 #include "data/data_set.hpp"
 #include "diagnosis/loop.hpp"
 #include "explanations/error_budget.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/diagnosed_model.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "calibration/job.hpp"
 #include "fitness/parameters.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "yaml/yaml_node.hpp"
 
 namespace demecal::inline config {

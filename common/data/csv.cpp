@@ -139,12 +139,14 @@ CsvTable read_csv(std::istream& text, const std::string& file) {
   return table;
 }
 
-void write_csv(std::ostream& text, const CsvTable& table) {
+std::string csv_text(const CsvTable& table) {
+  std::ostringstream text;
   write_line(text, table.columns);
   for (const CsvRow& row : table.rows) {
     DEMECAL_CHECK(row.fields.size() == table.columns.size(), "fields=" << row.fields.size());
     write_line(text, row.fields);
   }
+  return text.str();
 }
 
 }  // namespace demecal::inline data

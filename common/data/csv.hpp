@@ -35,6 +35,6 @@ struct CsvTable {
 CsvTable read_csv(std::istream& text, const std::string& file);
 
 /// Writes the table in a form read_csv() reads back the same, whatever its fields hold but line breaks.
-void write_csv(std::ostream& text, const CsvTable& table);
+std::string csv_text(const CsvTable& table);
 
 }  // namespace demecal::inline data

@@ -22,6 +22,7 @@
 #include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
@@ -206,7 +207,7 @@ std::vector<Finding> implausible_links(const Chain& described, const Chain& fitt
     for (const Part& part : kParts) {
       const double before = described.joints[place].parameter(part.parameter);
       const double after = fitted.joints[place].parameter(part.parameter);
-      if (std::abs(after - before) < kMost * (part.angle ? kLinkDeviation_rad : kLinkDeviation_m)) continue;
+      if (std::abs(after - before) < kMost * (part.angle ? kMakersDeviation_rad : kMakersDeviation_m)) continue;
       parts += (parts.empty() ? "" : ", ") +
                (part.angle ? fmt::format("{} {:.2f} instead of {:.2f} deg", part.name, degrees(after), degrees(before))
                            : fmt::format("{} {:.1f} instead of {:.1f} mm", part.name, millimetres(after),

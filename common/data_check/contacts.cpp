@@ -26,8 +26,7 @@ constexpr double kThere = 0.3;           ///< of the error: how far off the cont
 
 DeclaredModel declared_for(const DataSet& data, std::size_t poses) {
   const DeclaredModel all{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
-  return 3 * poses > 2 * free_parameters(data, all, {}).size() ? all
-                                                               : DeclaredModel{.registration = true, .tool = true};
+  return 3 * poses > 2 * free_parameters(data, all).size() ? all : DeclaredModel{.registration = true, .tool = true};
 }
 
 /// Tool and links as the calibration poses have them; nothing where they are too few.

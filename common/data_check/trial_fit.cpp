@@ -13,6 +13,7 @@
 
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
+#include "parameters/declared_model.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
@@ -87,7 +88,7 @@ struct ParameterPlaces {
 };
 
 double link_deviation(LinkParameter parameter) {
-  return parameter == LinkParameter::d || parameter == LinkParameter::a ? kLinkDeviation_m : kLinkDeviation_rad;
+  return parameter == LinkParameter::d || parameter == LinkParameter::a ? kMakersDeviation_m : kMakersDeviation_rad;
 }
 
 struct WeightedEquations {

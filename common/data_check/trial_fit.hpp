@@ -56,9 +56,6 @@ struct TrialFit {
   bool has_links() const;
 };
 
-/// How far makers' figures are from the truth, as a standard deviation: that of FitOptions.
-inline constexpr double kLinkDeviation_m = 5e-3, kLinkDeviation_rad = 17.5e-3;
-
 /// Base and tools: closed-form registration of the nominal points (Horn 1987), weighted by 1 / error, then Gauss-Newton
 /// steps with Tukey's weights. Their scale is the error at the rank (n + p / 3) / 2 of n rows, of which p parameters
 /// can fit p / 3 exactly, so that half of the others count (Rousseeuw and Leroy 1987), over what three normals of unit

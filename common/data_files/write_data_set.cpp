@@ -233,9 +233,7 @@ void write_robot(const Robot& robot, const std::filesystem::path& path, const st
 std::filesystem::path write_data_set(const DataSet& data, const std::filesystem::path& folder,
                                      const std::string& purpose) {
   const std::vector<ColumnGroup> groups = column_groups(data);
-  std::ostringstream poses;
-  write_csv(poses, table_of(data, groups));
-  write_file(folder / "poses.csv", poses.str());
+  write_file(folder / "poses.csv", csv_text(table_of(data, groups)));
   write_robot(data.robot, folder / "robot.yaml", "the robot of " + data.name + ", nominal");
   write_file(folder / "dataset.yaml", yaml_of(data, groups, purpose));
   return folder / "dataset.yaml";

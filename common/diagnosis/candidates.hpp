@@ -10,10 +10,13 @@
 #include "diagnosis/outcome.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal::inline diagnosis {
+
+/// Joints that move less (rad or m) say nothing of a formula's shape.
+inline constexpr double kLeastMotion = 0.05;
 
 /// The evidence of `poses`. A circumstance counts where every pose has it and not all poses have the same; a joint's
 /// approach where it came from both sides.

@@ -118,7 +118,6 @@ bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const st
 /// By number of causes, what is left of the model or what evolution found, each shorter than all of fewer causes.
 std::vector<EffectSet> worth_having(const SetModels& models, std::vector<EffectSet> pruned,
                                     const std::vector<EffectSet>& evolved) {
-  constexpr double kNatsToDistinguish = 5.0;
   for (const EffectSet& set : evolved) {
     const auto same = std::ranges::find(pruned, set.causes, &EffectSet::causes);
     if (same != pruned.end() && set.description_nats > same->description_nats - kNatsToDistinguish) continue;

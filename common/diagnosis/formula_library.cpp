@@ -17,8 +17,6 @@
 namespace demecal::inline diagnosis {
 namespace {
 
-constexpr double kLeastMotion = 0.05;  ///< rad or m: joints that move less say nothing
-
 Tree variable(int index) {
   return variable_tree(static_cast<std::uint8_t>(index));
 }

@@ -19,7 +19,6 @@ constexpr int kMostRejections = 12;
 constexpr double kLeastFreedom = 12.0;      ///< measured numbers that a model must leave over
 constexpr double kEquivalentCosine = 0.9;   ///< cosine
 constexpr double kIdenticalCosine = 0.995;  ///< cosine
-constexpr double kNatsToDistinguish = 5.0;
 constexpr double kNatsAboutEqual = 3.0;
 constexpr double kGains = 0.5;    ///< share of a change borne out: errors decrease above it
 constexpr double kEvident = 2.0;  ///< times the largest gain from noise alone: no need to draw again

@@ -10,7 +10,7 @@
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
@@ -57,6 +57,9 @@ struct Resampled {
 };
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
                     RandomStream random);
+
+/// Nats by which one description must be shorter than another to be preferred.
+inline constexpr double kNatsToDistinguish = 5.0;
 
 /// Why no real arm has this effect, and what to look at; empty where one may. `states` are those of the fitted poses. A
 /// joint that moves by a whole share of another's motion, which `model` with it bears out, is how the controller

@@ -13,7 +13,7 @@
 #include "diagnosis/explain.hpp"
 #include "diagnosis/group.hpp"
 #include "effects/arm_state.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"

@@ -13,8 +13,8 @@
 #include "diagnosis/outcome.hpp"
 #include "explanations/error_budget.hpp"
 #include "explanations/explanation_search.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "parameters/declared_model.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 

@@ -18,7 +18,7 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effects/effect.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"

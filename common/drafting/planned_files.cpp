@@ -64,9 +64,7 @@ std::string planned_poses_csv(const Plan& plan, const PlanRequest& request) {
       table.rows.push_back(std::move(row));
     }
   }
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
+  return csv_text(table);
 }
 
 std::string planned_data_set_text(const Plan& plan, const PlanRequest& request) {
@@ -182,9 +180,7 @@ std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const
     if (columns.payload) row.fields.push_back(fmt::format("{:.6g}", stop.payload_kg));
     table.rows.push_back(std::move(row));
   }
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
+  return csv_text(table);
 }
 
 }  // namespace demecal::inline drafting

@@ -49,8 +49,6 @@ void append_symbolic_link_motion(SymbolicWriter& writer, int coefficient, LinkPa
   }
 }
 
-constexpr double kParallel_rad = 0.02;
-
 struct FreeParameter {
   LinkParameter parameter;
   std::string symbol;
@@ -60,7 +58,7 @@ struct FreeParameter {
 /// What of a link is free beside its joint's offset: d, a and alpha, beta in place of d between near-parallel axes; of
 /// a prismatic joint, which has a direction but no place, two angles.
 std::vector<FreeParameter> free_parameters_of(const Robot& robot, int joint) {
-  const bool parallel = leads_between_parallels(robot.chain, joint, kParallel_rad);
+  const bool parallel = leads_between_parallels(robot.chain, joint, kNearParallel_rad);
   const FreeParameter beta{LinkParameter::beta, "beta", "rad"}, alpha{LinkParameter::alpha, "alpha", "rad"};
   if (!is_revolute(robot.chain, joint))
     return {parallel ? beta : FreeParameter{LinkParameter::theta, "theta", "rad"}, alpha};

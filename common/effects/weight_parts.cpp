@@ -57,15 +57,6 @@ std::vector<WeightPart> parts_told_apart(const Robot& robot, int joint, std::siz
 }
 
 constexpr int kStates = 64;
-constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
-
-/// The `index`-th number of van der Corput's sequence, in (0, 1) for index >= 1.
-double radical_inverse(int index, int base) {
-  double value = 0.0, digit = 1.0 / base;
-  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
-  return value;
-}
-
 Interval range_of(const Robot& robot, const Evidence& evidence, std::size_t joint) {
   if (joint < evidence.joint_ranges.size()) return evidence.joint_ranges[joint];
   const Joint& link = robot.chain.joints[joint];
@@ -195,8 +186,7 @@ std::vector<ArmState> sampled_states(const Robot& robot, const Evidence& evidenc
     JointVector joints(robot.chain.size());
     for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
       const Interval range = range_of(robot, evidence, i);
-      joints[static_cast<Eigen::Index>(i)] =
-          range.lower + (range.upper - range.lower) * radical_inverse(index, kPrimes[i]);
+      joints[static_cast<Eigen::Index>(i)] = range.lower + (range.upper - range.lower) * spread_share(index, i);
     }
     Stop stop(joints);
     stop.payload_kg = payload_kg;

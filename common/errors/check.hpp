@@ -1,4 +1,4 @@
-// A programmer's error: stops the program and shows the values that broke the promise.
+// A programmer's error: stops the program and shows the values of the broken condition.
 #pragma once
 
 #include <cstdio>

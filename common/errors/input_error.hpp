@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace demecal::inline errors {
@@ -37,5 +38,10 @@ class InputError : public std::runtime_error {
   std::string value_;
   std::string rule_;
 };
+
+/// What the system says of one of its error numbers (errno).
+inline std::string system_reason(int number) {
+  return std::generic_category().message(number);
+}
 
 }  // namespace demecal::inline errors

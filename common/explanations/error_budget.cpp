@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "fitting/parameter_space.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline explanations {

@@ -37,7 +37,7 @@ class SetIsland {
   void vary(int variations);
   /// The best of every number of causes.
   std::vector<const FittedSet*> elite() const;
-  void welcome(const SetIsland& neighbour);
+  void accept_immigrants(const SetIsland& neighbour);
 
  private:
   static constexpr std::size_t kKept = 4;        ///< sets of every number of causes
@@ -226,7 +226,7 @@ std::vector<const FittedSet*> SetIsland::elite() const {
   return best;
 }
 
-void SetIsland::welcome(const SetIsland& neighbour) {
+void SetIsland::accept_immigrants(const SetIsland& neighbour) {
   for (const FittedSet* set : neighbour.elite()) note(*set);
 }
 
@@ -267,7 +267,8 @@ std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, co
   for (int epoch = 0; epoch < kEpochs && search.variations > 0; ++epoch) {
     in_pieces(islands.size(), [&](std::size_t i) { islands[i].vary(share_of(search.variations, i, epoch)); });
     const std::vector<SetIsland> neighbours = islands;
-    for (std::size_t i = 0; i < islands.size(); ++i) islands[i].welcome(neighbours[(i + 1) % neighbours.size()]);
+    for (std::size_t i = 0; i < islands.size(); ++i)
+      islands[i].accept_immigrants(neighbours[(i + 1) % neighbours.size()]);
   }
   return front_of(islands);
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "explanations/causes.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal::inline explanations {
 namespace {

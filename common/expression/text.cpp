@@ -43,8 +43,6 @@ InfixText joined_texts(Primitive function, InfixText left, InfixText right) {
   return {std::move(left.text), own};
 }
 
-constexpr int kDeepestNesting = 256;  // parse() calls itself at every parenthesis, and text comes from strangers
-
 class FormulaParser {
  public:
   FormulaParser(std::string_view text, const VariableNames& names, std::span<const SharedFunction> functions)

@@ -13,6 +13,9 @@
 
 namespace demecal::inline expression {
 
+/// Parentheses within each other that parsers take: they call themselves, and text comes from strangers.
+inline constexpr int kDeepestNesting = 256;
+
 /// How tightly infix text binds; whole: a terminal, a call, or anything in parentheses.
 enum class Precedence { sum, product, whole };
 struct InfixText {

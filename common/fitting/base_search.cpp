@@ -15,8 +15,8 @@
 
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/forward.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal::inline fitting {
 namespace {
@@ -63,7 +63,7 @@ class BaseSearch {
       : data_(data),
         start_(start),
         tool_(declared.tool),
-        ids_(free_parameters(data, {.registration = declared.registration, .tool = declared.tool}, options)),
+        ids_(free_parameters(data, {.registration = declared.registration, .tool = declared.tool})),
         observations_(observe(data, spread(poses, static_cast<std::size_t>(options.start_poses)), start)),
         scales_(search_scales(count_rows(data, observations_), tool_)) {}
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {

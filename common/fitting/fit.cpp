@@ -9,9 +9,9 @@
 #include "errors/input_error.hpp"
 #include "fitting/base_search.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/parameter_space.hpp"
 #include "fitting/row_sums.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {
@@ -29,9 +29,8 @@ void require_known_anchors(const DataSet& data, std::span<const std::size_t> pos
 /// The first scale of every kind of row that can be fitted.
 RowScales first_scales(const DataSet& data, const CorrectedRobot& robot, const std::vector<Observation>& observations,
                        bool tool) {
-  constexpr double kMountedOtherwise_rad = 0.1;
   RowScales scales = median_deviations(data, robot, observations);
-  if (!tool && root_mean_squares(data, robot, observations)[kOrientation] > kMountedOtherwise_rad) {
+  if (!tool && mounted_otherwise(data, robot, observations)) {
     scales[kOrientation] = 0.0;
   }
   return scales;
@@ -163,7 +162,7 @@ Fit fit_identifiable(LeastSquares problem, const CorrectedRobot& nominal, double
 std::vector<ParameterId> parameters_of(const DataSet& data, std::span<const std::size_t> poses,
                                        const DeclaredModel& declared, const CorrectedRobot& start,
                                        const FitOptions& options) {
-  std::vector<ParameterId> ids = free_parameters(data, declared, options);
+  std::vector<ParameterId> ids = free_parameters(data, declared);
   if (options.refit_effects)
     for (ParameterId& id : effect_parameters(start)) ids.push_back(std::move(id));
   for (ParameterId& id : contact_parameters(data, poses)) ids.push_back(std::move(id));

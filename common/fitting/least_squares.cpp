@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
-#include "fitting/declared_model.hpp"
-#include "fitting/observation.hpp"
 #include "fitting/row_sums.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline fitting {

@@ -9,8 +9,8 @@
 
 #include "data/data_set.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {

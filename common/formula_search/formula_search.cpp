@@ -25,8 +25,6 @@
 namespace demecal::inline formula_search {
 namespace {
 
-constexpr double kLeastMotion = 0.05;  ///< rad or m: joints that move less say nothing
-
 /// The places in symbolic_variables of what these poses know and what varies.
 std::vector<std::uint8_t> variables_of(const Evidence& evidence, int joints) {
   std::vector<std::uint8_t> known;

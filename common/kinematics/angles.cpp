@@ -13,14 +13,13 @@
 namespace demecal::inline kinematics {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Controllers round what they report: data this little beyond +-pi still count as quadrant data.
 constexpr double kRounding = 1e-6;
 
 }  // namespace
 
 double wrap_near(double angle_rad, double centre_rad) {
-  return angle_rad - kTurn * std::round((angle_rad - centre_rad) / kTurn);
+  return angle_rad - kTurn_rad * std::round((angle_rad - centre_rad) / kTurn_rad);
 }
 
 AngleBranch choose_branch(std::span<const double> angles_rad) {
@@ -30,13 +29,13 @@ AngleBranch choose_branch(std::span<const double> angles_rad) {
       sorted.back() > std::numbers::pi + kRounding) {
     return {};
   }
-  double widest = kTurn - (sorted.back() - sorted.front());  // the arc through +-pi
+  double widest = kTurn_rad - (sorted.back() - sorted.front());  // the arc through +-pi
   AngleBranch branch;
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     const double gap = sorted[i] - sorted[i - 1];
     if (gap > widest) {
       widest = gap;
-      branch = {true, std::remainder(sorted[i - 1] + gap / 2 + std::numbers::pi, kTurn)};
+      branch = {true, std::remainder(sorted[i - 1] + gap / 2 + std::numbers::pi, kTurn_rad)};
     }
   }
   return branch;
@@ -44,7 +43,7 @@ AngleBranch choose_branch(std::span<const double> angles_rad) {
 
 AngleBranch choose_branch(std::span<const double> angles_rad, double lower_rad, double upper_rad) {
   const double travel = upper_rad - lower_rad;
-  if (travel <= 0.0 || travel > kTurn) return choose_branch(angles_rad);
+  if (travel <= 0.0 || travel > kTurn_rad) return choose_branch(angles_rad);
   const bool quadrants_suffice =
       lower_rad >= -std::numbers::pi - kRounding && upper_rad <= std::numbers::pi + kRounding;
   return quadrants_suffice ? AngleBranch{} : AngleBranch{true, (lower_rad + upper_rad) / 2};

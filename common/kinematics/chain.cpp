@@ -70,6 +70,14 @@ JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> va
   return joints;
 }
 
+double spread_share(int index, std::size_t joint) {
+  constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
+  const int base = kPrimes[joint];
+  double value = 0.0, digit = 1.0 / base;
+  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
 bool near_parallel_to_next(const Chain& chain, int joint, double tolerance_rad) {
   if (joint < 0 || joint + 1 >= chain.size()) return false;
   // The twist between two joint axes is the standard link's own alpha, and the next modified link's.

@@ -87,6 +87,16 @@ JointVector commanded_joints(const Chain& chain, JointVector driven);
 /// Joints stated in deg, mm where one slides: one value per joint.
 JointVector joints_from_deg_or_mm(const Chain& chain, std::span<const double> values);
 
+/// The share of its range, in (0, 1), at which joint `joint` (from 0) stands at the `index`-th (from 1) of a sequence
+/// of poses that fills the joints' ranges evenly (Halton, 1960).
+double spread_share(int index, std::size_t joint);
+
+/// Share of a joint's range, at either end, in which nothing is measured unless it is asked for.
+inline constexpr double kLimitMargin = 0.02;
+
+/// Below this angle axes are near-parallel: d cannot be distinguished from that of the next joint.
+inline constexpr double kNearParallel_rad = 0.02;
+
 /// Whether the axis of joint `joint` and that of its successor are parallel within `tolerance_rad` at nominal geometry,
 /// so that d of one is not separable from d of the other and Hayati's beta is needed. `joint` counts from 0; the last
 /// joint has no successor: false.

@@ -5,6 +5,8 @@
 
 namespace demecal::inline kinematics {
 
+inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
 constexpr double radians(double degrees) {
   return degrees * (std::numbers::pi / 180.0);
 }

@@ -18,9 +18,9 @@
 #include "data/text.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
-#include "fitting/declared_model.hpp"
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
+#include "parameters/declared_model.hpp"
 #include "pieces/pieces.hpp"
 #include "scheduling/worker_pool.hpp"
 #include "workflows/piece_threads.hpp"
@@ -57,9 +57,9 @@ void require_plausible(const Measurements& measured, const CalibrationSettings& 
 }
 
 /// Passes on in sentences what happens, and asks for an end where that is the answer.
-class ProgressTeller final : public CalibrationObserver {
+class ProgressReporter final : public CalibrationObserver {
  public:
-  explicit ProgressTeller(const std::function<bool(const std::string&)>& progress) : progress_(progress) {}
+  explicit ProgressReporter(const std::function<bool(const std::string&)>& progress) : progress_(progress) {}
 
   void on_round(const Round& round, const Robot&) override {
     if (round.verdict == Verdict::added) on_message(round.diagnosis);
@@ -80,14 +80,14 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   require_plausible(measured, settings);
   const DataSet& data = measured.implementation().data;
   const unsigned threads = settings.threads > 0 ? settings.threads : std::max(std::thread::hardware_concurrency(), 1U);
-  ProgressTeller teller(settings.progress);
-  teller.on_message("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
+  ProgressReporter reporter(settings.progress);
+  reporter.on_message("calibrating " + std::to_string(data.poses.size()) + " poses of " + data.robot.name);
   PieceThreads pieces(threads);
   const RunPiecesBy by_threads(pieces);
   CalibrateOptions options;
-  options.observer = &teller;
+  options.observer = &reporter;
   const MakeWorkerPool make_pool = [threads] { return std::make_unique<InProcessWorkerPool>(threads); };
-  CalibrateResult result = calibrate(data, to_job(settings), make_pool, teller.interrupt(), options);
+  CalibrateResult result = calibrate(data, to_job(settings), make_pool, reporter.interrupt(), options);
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
   arm->text = model_text(arm->model);

@@ -20,7 +20,6 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kBelow_m = 0.05;
 constexpr double kBeyond = 0.1;
-constexpr double kFromLimits = 0.02;
 constexpr int kAttempts = 500;
 
 Eigen::Vector3d upwards(const Eigen::Vector3d& gravity_mps2) {
@@ -170,7 +169,7 @@ FeasiblePoses::FeasiblePoses(const DataSet& data, std::span<const std::size_t> p
   }
   for (std::size_t i = 0; i < measured_.size(); ++i) {
     const Joint& joint = data.robot.chain.joints[i];
-    const double margin = kFromLimits * (joint.upper - joint.lower);
+    const double margin = kLimitMargin * (joint.upper - joint.lower);
     allowed_.push_back(margin > 0 ? Interval{joint.lower + margin, joint.upper - margin} : measured_[i]);
   }
 }

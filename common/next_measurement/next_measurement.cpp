@@ -13,9 +13,9 @@
 
 #include "data/data_set.hpp"
 #include "effects/law_terms.hpp"
-#include "fitting/declared_model.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"

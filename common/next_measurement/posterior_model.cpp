@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "effects/arm_state.hpp"
-#include "fitting/declared_model.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"

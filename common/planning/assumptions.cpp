@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "fitting/parameter_space.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline planning {

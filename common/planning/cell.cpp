@@ -95,12 +95,10 @@ std::vector<double> assumed_radii(const Chain& chain) {
 
 namespace {
 
-constexpr double kFromLimits = 0.02;
-
 Interval range_of(const Joint& joint, const std::optional<Interval>& stated) {
   Interval range{joint.lower, joint.upper};
   if (stated) range = {std::max(range.lower, stated->lower), std::min(range.upper, stated->upper)};
-  const double margin = stated ? 0.0 : kFromLimits * (range.upper - range.lower);
+  const double margin = stated ? 0.0 : kLimitMargin * (range.upper - range.lower);
   range = {range.lower + margin, range.upper - margin};
   if (!stated && is_revolute(joint) && range.upper - range.lower > 2.0 * std::numbers::pi) {
     const double middle = 0.5 * (range.lower + range.upper);

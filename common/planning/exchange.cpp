@@ -12,26 +12,26 @@
 
 namespace demecal::inline planning {
 
-Knowledge::Knowledge(Eigen::MatrixXd known, Eigen::MatrixXd weight)
+PosteriorCovariance::PosteriorCovariance(Eigen::MatrixXd known, Eigen::MatrixXd weight)
     : known_(std::move(known)), weight_(std::move(weight)) {
   set({});
 }
 
-void Knowledge::set(const std::vector<Eigen::MatrixXd>& rows) {
+void PosteriorCovariance::set(const std::vector<Eigen::MatrixXd>& rows) {
   const Eigen::Index n = weight_.rows();
   Eigen::MatrixXd information = known_ + Eigen::MatrixXd::Identity(n, n);
   for (const Eigen::MatrixXd& own : rows) information.noalias() += own.transpose() * own;
   covariance_ = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
 }
 
-void Knowledge::add(const Eigen::MatrixXd& rows) {
+void PosteriorCovariance::add(const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd along = rows * covariance_;
   Eigen::MatrixXd spread = along * rows.transpose();
   spread.diagonal().array() += 1.0;
   covariance_ -= along.transpose() * spread.llt().solve(along);
 }
 
-void Knowledge::remove(const Eigen::MatrixXd& rows) {
+void PosteriorCovariance::remove(const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd along = rows * covariance_;
   Eigen::MatrixXd left = -along * rows.transpose();
   left.diagonal().array() += 1.0;
@@ -115,7 +115,7 @@ constexpr double kLeastGain = 2e-3;                 ///< of a round, over what t
 /// By how much rows would lower the expected squared error, at one state of knowledge.
 class PoseGain {
  public:
-  explicit PoseGain(const Knowledge& knowledge)
+  explicit PoseGain(const PosteriorCovariance& knowledge)
       : covariance_(knowledge.covariance()), wanted_(covariance_ * knowledge.weight() * covariance_) {}
 
   double operator()(const Eigen::MatrixXd& rows) const {
@@ -164,7 +164,7 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
   std::vector<Eigen::MatrixXd> rows;
   std::ranges::transform(poses, std::back_inserter(rows),
                          [&](const PlannedPose& pose) { return model.measured_rows(pose); });
-  Knowledge knowledge(known, weight);
+  PosteriorCovariance knowledge(known, weight);
   knowledge.set(rows);
   double width = kWidest;
   for (int round = 0; round < kRefinements; ++round, width *= kNarrowing) {

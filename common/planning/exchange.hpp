@@ -14,10 +14,10 @@ namespace demecal::inline planning {
 
 /// What measured poses leave unknown of a model's numbers, kept up while poses are added and taken away. The numbers
 /// are in units of what is believed of them, so that nothing measured leaves the identity as their covariance.
-class Knowledge {
+class PosteriorCovariance {
  public:
   /// `known`: information already there (numbers x numbers); `weight`: of the expected squared error, see Workspace.
-  Knowledge(Eigen::MatrixXd known, Eigen::MatrixXd weight);
+  PosteriorCovariance(Eigen::MatrixXd known, Eigen::MatrixXd weight);
 
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const Eigen::MatrixXd& weight() const { return weight_; }
@@ -36,7 +36,8 @@ class Knowledge {
 /// Chooses poses among candidates by what each would measure.
 class Design {
  public:
-  /// `rows`: of all candidates, one after another, `rows_per_pose` each; `known` and `weight` as of Knowledge.
+  /// `rows`: of all candidates, one after another, `rows_per_pose` each; `known` and `weight` as of
+  /// PosteriorCovariance.
   Design(Eigen::MatrixXd rows, int rows_per_pose, const Eigen::MatrixXd& known, Eigen::MatrixXd weight);
 
   std::size_t candidates() const { return static_cast<std::size_t>(rows_.rows() / rows_per_pose_); }
@@ -61,7 +62,7 @@ class Design {
 
   Eigen::MatrixXd rows_;
   int rows_per_pose_;
-  Knowledge knowledge_;
+  PosteriorCovariance knowledge_;
   std::vector<std::size_t> chosen_;
   std::vector<bool> taken_;
 };

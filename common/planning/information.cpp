@@ -9,10 +9,10 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/posterior.hpp"
 #include "fitting/row_sums.hpp"
 #include "kinematics/forward.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 
@@ -66,7 +66,7 @@ std::vector<ParameterId> ids_of(const PlannedModel& model, const CorrectedRobot&
     one.poses.front().position_m.reset();
     one.poses.front().contact = "any";
   }
-  std::vector<ParameterId> ids = free_parameters(one, model.declared, {});
+  std::vector<ParameterId> ids = free_parameters(one, model.declared);
   one.poses.clear();
   for (std::size_t i = 0; i < model.sockets.size(); ++i)
     std::ranges::move(as_measured(model, {anywhere, {}, i}), std::back_inserter(one.poses));

@@ -10,8 +10,8 @@
 
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
-#include "fitting/declared_model.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal::inline planning {
 

@@ -11,8 +11,8 @@
 
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
+#include "parameters/declared_model.hpp"
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
 #include "planning/sockets.hpp"

@@ -15,6 +15,7 @@
 #include "expression/simplify.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal::inline prediction {
 namespace {
@@ -81,7 +82,7 @@ SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std
 }
 
 /// What it depends on beside joints and masses; empty where on nothing.
-std::string words_of(const Needs& needs) {
+std::string to_string(const Needs& needs) {
   std::string words;
   for (const CircumstanceWords& one : circumstances()) {
     if (needs.*one.needed) words += (words.empty() ? "" : " and ") + std::string(one.words);
@@ -95,7 +96,7 @@ std::string note_on(const Effect& effect, const Robot& robot, bool held) {
   const std::string name =
       effect.kind + (effect.joint < 0 ? std::string() : " of joint " + std::to_string(effect.joint + 1));
   const Needs needs = law_of(effect).needs(effect, robot);
-  const std::string words = words_of(needs);
+  const std::string words = to_string(needs);
   if (!held) {
     return name + " is left out" + (words.empty() ? "" : ", for it depends on " + words) + '.';
   }
@@ -164,8 +165,6 @@ Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const s
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 double width(const Interval& range) {
   return range.upper - range.lower;
 }
@@ -218,7 +217,7 @@ struct SymbolicHeldState {
 
 /// The weight of the end farther from the joint: none where the ends are no neighbours.
 Expression weight_of_farther_end(const RangedJoint& joint) {
-  const double unmeasured = kTurn - width(joint.range);
+  const double unmeasured = kTurn_rad - width(joint.range);
   if (!joint.revolute || unmeasured <= 0.0) return joint.value.algebra().constant(0.0);
   return smooth_step((1.0 / unmeasured) * joint.beyond);
 }
@@ -235,7 +234,7 @@ std::vector<SymbolicHeldState> held_states(const SymbolicState& state, const std
   for (const RangedJoint& joint : joints) {
     const auto i = static_cast<std::size_t>(joint.joint);
     // Ranges of a turn and more hold the same place twice; an arm within all of them is taken as it stands.
-    const bool wide = joint.revolute && width(joint.range) >= kTurn;
+    const bool wide = joint.revolute && width(joint.range) >= kTurn_rad;
     const Expression near =
         wide ? algebra.function(Function::if_not_negative, {inside(joints), joint.given, joint.nearer}) : joint.nearer;
     const Expression weight = fades ? algebra.constant(0.0) : weight_of_farther_end(joint);

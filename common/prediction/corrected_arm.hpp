@@ -9,6 +9,7 @@
 #include "effects/effect.hpp"
 #include "effects/symbolic_state.hpp"
 #include "expression/bound.hpp"
+#include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "symbolic/algebra.hpp"
 #include "symbolic/code.hpp"
@@ -35,9 +36,8 @@ Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const s
 
 /// As wrap_near().
 inline Expression wrapped_near(Expression angle, double centre_rad) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const Expression turns = (1.0 / kTurn) * (angle - centre_rad);
-  return angle - kTurn * angle.algebra().function(Function::round, {turns});
+  const Expression turns = (1.0 / kTurn_rad) * (angle - centre_rad);
+  return angle - kTurn_rad * angle.algebra().function(Function::round, {turns});
 }
 
 /// The nearest value of the range.

@@ -37,12 +37,6 @@ void add_mm(std::vector<std::string>& fields, const Eigen::Vector3d& lengths_m) 
   for (const double length_m : lengths_m) fields.push_back(mm_text(length_m));
 }
 
-std::string to_text(const CsvTable& table) {
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
-}
-
 /// Whether the pose stands in a VAL II file: of all languages only that one writes axes.
 bool has_axes(const RawMeasurements& raw, const PreparedPose& pose) {
   return pose.pose_target &&
@@ -104,7 +98,7 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
     files.push_back({free_name(files, std::string(to_string(raw.sets[text.entry].set))),
                      replaced(text.source->text, text.source->program, text.targets)});
   }
-  if (!table.rows.empty()) files.push_back({"corrected.csv", to_text(table)});
+  if (!table.rows.empty()) files.push_back({"corrected.csv", csv_text(table)});
   return files;
 }
 
@@ -132,7 +126,7 @@ WrittenFile errors_file(const Prepared& prepared, FrameKind kind) {
     if (stated) add_mm(fields, *pose.measured.standard_error_m);
     table.rows.push_back({0, std::move(fields)});
   }
-  return {"errors.csv", to_text(table)};
+  return {"errors.csv", csv_text(table)};
 }
 
 }  // namespace demecal::inline preparation

@@ -224,9 +224,7 @@ WrittenFile standstills_file(const Recordings& recordings, const RecordedContact
           fmt::format("{:.3f}", one.at.duration_s), mm_cell(one.place_m.x()), mm_cell(one.place_m.y()),
           mm_cell(one.place_m.z()), mm_cell(one.from_contact_m), mm_cell(one.moved_m)}});
   }
-  std::ostringstream text;
-  write_csv(text, table);
-  return {"standstills.csv", text.str()};
+  return {"standstills.csv", csv_text(table)};
 }
 
 }  // namespace demecal::inline preparation

@@ -11,10 +11,10 @@
 
 #include "effects/effect.hpp"
 #include "errors/check.hpp"
-#include "fitting/declared_model.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
 
 namespace demecal::inline programs {
 namespace {
@@ -44,10 +44,6 @@ void leave_out_effects(Posterior& posterior, const std::vector<Effect>& effects,
   for (ParameterId& id : posterior.ids) {
     if (id.kind == ParameterId::Kind::effect) id.index = place(id);
   }
-}
-
-bool is_number_of_tool(const ParameterId& id) {
-  return id.kind == ParameterId::Kind::tool_translation || id.kind == ParameterId::Kind::tool_rotation;
 }
 
 /// Takes the tool point as it stands: nothing of it is wrong.
@@ -129,7 +125,7 @@ CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified
     using Kind = ParameterId::Kind;
     if (id.kind == Kind::effect) return false;
     if (id.kind == Kind::base_translation || id.kind == Kind::base_rotation) return true;
-    if (is_number_of_tool(id)) return !model.tool_identified || (id.kind == Kind::tool_rotation && !turned);
+    if (id.is_of_tool()) return !model.tool_identified || (id.kind == Kind::tool_rotation && !turned);
     const bool along_first = id.link == LinkParameter::theta || id.link == LinkParameter::d;
     return registration && id.index == 0 && (along_first || whole_first);
   });

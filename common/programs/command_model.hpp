@@ -9,8 +9,8 @@
 
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
-#include "fitting/posterior.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline programs {

@@ -14,16 +14,8 @@
 namespace demecal::inline programs {
 namespace {
 
-constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
 constexpr double kNear = 1.0;  ///< rad or m: a solution this near to the last one is taken without looking further
 constexpr double kSignRounding = 1e-6;  ///< rad, of signs and quadrants
-
-/// The `index`-th number of van der Corput's sequence, in (0, 1) for index >= 1.
-double radical_inverse(int index, int base) {
-  double value = 0.0, digit = 1.0 / base;
-  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
-  return value;
-}
 
 bool limited(const Joint& joint) {
   return !joint.endless && joint.lower < joint.upper;
@@ -80,7 +72,7 @@ JointVector search_start(const Chain& arm, int index) {
       lower = joint.lower;
       upper = joint.upper;
     }
-    start[i] = lower + (upper - lower) * radical_inverse(index, kPrimes[static_cast<std::size_t>(i)]);
+    start[i] = lower + (upper - lower) * spread_share(index, static_cast<std::size_t>(i));
   }
   return start;
 }

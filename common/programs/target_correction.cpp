@@ -7,10 +7,10 @@
 #include <cstddef>
 
 #include "data/data_set.hpp"
-#include "fitting/posterior.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/posterior.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "prediction/corrected_robot.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "effects/effect.hpp"
-#include "fitting/posterior.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/posterior.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"

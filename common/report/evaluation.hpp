@@ -14,7 +14,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
-#include "fitting/posterior.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/report.hpp"

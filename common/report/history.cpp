@@ -27,12 +27,6 @@ CsvRow written(const HistoryRow& row) {
            on_one_line(row.worker)}};
 }
 
-std::string csv_of(const CsvTable& table) {
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
-}
-
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 const std::string kHistoryFile = "history.csv";
 
@@ -102,7 +96,7 @@ std::string history_csv(const std::vector<HistoryRow>& rows) {
   table.columns = {"joint",       "island",      "generation",     "best_fitness", "median_fitness",
                    "best_length", "evaluations", "migrants_taken", "worker"};
   for (const HistoryRow& row : rows) table.rows.push_back(written(row));
-  return csv_of(table);
+  return csv_text(table);
 }
 
 std::string distal_csv(const std::vector<DistalEntry>& steps) {
@@ -113,7 +107,7 @@ std::string distal_csv(const std::vector<DistalEntry>& steps) {
                           {std::to_string(step.joint), std::to_string(step.generation), step.expression,
                            fmt::format("{}", step.index_mm2.value_or(kNotANumber))}});
   }
-  return csv_of(table);
+  return csv_text(table);
 }
 
 std::string fronts_csv(const std::vector<EvolvedCorrection>& fronts) {
@@ -126,7 +120,7 @@ std::string fronts_csv(const std::vector<EvolvedCorrection>& fronts) {
          {std::to_string(one.joint + 1), std::to_string(formula.size()), fmt::format("{}", one.mean_abs_error_rad),
           fmt::format("{}", one.bound_rad), std::to_string(one.jumps), to_string(formula)}});
   }
-  return csv_of(table);
+  return csv_text(table);
 }
 
 FitnessHistory fitness_of(const std::vector<HistoryRow>& rows) {
@@ -216,9 +210,7 @@ std::string pose_errors_csv(const Report& report) {
     if (warm) row.fields.push_back(cell(pose.place.temperature_celsius));
     if (timed) row.fields.push_back(cell(pose.place.time_s));
   }
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
+  return csv_text(table);
 }
 
 }  // namespace demecal::inline report

@@ -7,9 +7,9 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/parameter_space.hpp"
 #include "fitting/row_sums.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/parameter_space.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 
@@ -20,7 +20,7 @@ constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divi
 
 std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const CorrectedRobot& robot,
                                   const FitOptions& options) {
-  std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared, options);
+  std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared);
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
   for (ParameterId& id : contact_parameters(problem.data, problem.fitted)) ids.push_back(std::move(id));
   return ids;

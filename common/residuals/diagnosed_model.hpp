@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"

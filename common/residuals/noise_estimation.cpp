@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "effects/arm_state.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 #include "residuals/noise.hpp"
 #include "residuals/smooth_corrections.hpp"
 

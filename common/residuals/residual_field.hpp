@@ -11,8 +11,8 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal::inline residuals {
 

@@ -18,10 +18,6 @@
 namespace demecal::inline scheduling {
 namespace {
 
-std::string reason(int number) {
-  return std::generic_category().message(number);
-}
-
 /// The file, locked, or -1 with errno.
 int open_locked(const std::string& path, int more_flags) {
   // Workers that this program starts must not inherit the lock.
@@ -73,7 +69,7 @@ JournalFile::JournalFile(std::string path) : path_(std::move(path)) {
   if (file_ < 0 && errno == EWOULDBLOCK)
     throw InputError({path_, 0}, "",
                      "another demecal writes its journal there: wait for its end, or choose another folder");
-  if (file_ < 0) throw InputError({path_, 0}, "", "the journal cannot be opened: " + reason(errno));
+  if (file_ < 0) throw InputError({path_, 0}, "", "the journal cannot be opened: " + system_reason(errno));
   struct stat status {};
   ::fstat(file_, &status);
   size_ = static_cast<std::size_t>(status.st_size);
@@ -136,7 +132,7 @@ void JournalFile::remove() {
 }
 
 void JournalFile::fail(const std::string& what, int number) const {
-  throw std::runtime_error(path_ + ": the journal " + what + ": " + reason(number));
+  throw std::runtime_error(path_ + ": the journal " + what + ": " + system_reason(number));
 }
 
 std::uint32_t crc32c(std::string_view bytes) {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "errors/input_error.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/parameter_space.hpp"
 #include "structure/structured_arm.hpp"
 
 namespace demecal::inline structure {
@@ -128,7 +128,7 @@ Genome shortened(Genome structure, StructureEvaluator& evaluate, int rows) {
 }
 
 std::vector<ParameterId> ids_of(const DataSet& data, const DeclaredModel& declared) {
-  return free_parameters(data, {.registration = declared.registration, .tool = declared.tool}, {});
+  return free_parameters(data, {.registration = declared.registration, .tool = declared.tool});
 }
 
 StructureFreedom freedom_of(const std::vector<ParameterId>& ids) {

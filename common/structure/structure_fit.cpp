@@ -15,12 +15,9 @@
 namespace demecal::inline structure {
 namespace {
 
-constexpr double kMountedOtherwise_rad = 0.1;
 constexpr double kSingular = 1e-6;  // of columns of unit length
 constexpr double kFirstDamping = 1e-6, kMostDamping = 1e3;
 constexpr int kMostSteps = 20;
-// What arms are built to: amounts far beyond it belong to base or tool, which no pose may tell apart from them.
-constexpr double kPrior_m = 5e-3, kPrior_rad = 17.5e-3;
 constexpr double kSettled = 1e-8;  // of the cost
 
 double row_weight(const StructureProblem& problem, const MeasurementRows& rows, int row) {
@@ -57,7 +54,8 @@ Eigen::VectorXd prior_weights(const StructureProblem& problem, const StructureFi
   const double level = std::sqrt(fit.cost / freedom);
   std::vector<double> weights;
   for (const GeneSection& section : fit.arm.genome) {
-    for (const Gene& gene : section) weights.push_back(level / (gene.rotates ? kPrior_rad : kPrior_m));
+    for (const Gene& gene : section)
+      weights.push_back(level / (gene.rotates ? kMakersDeviation_rad : kMakersDeviation_m));
   }
   return Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }

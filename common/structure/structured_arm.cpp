@@ -96,8 +96,6 @@ void turn(Eigen::Isometry3d& frame, const Eigen::Vector3d& shift, const Eigen::V
   frame.linear() = rotation_of(by) * frame.linear();
 }
 
-constexpr double kParallel_rad = 0.02;  // where d cannot be distinguished from that of the next joint
-
 /// The numbers that lead from one axis to the next: Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta), whichever convention
 /// keeps them in one joint or in two.
 struct Passage {
@@ -214,7 +212,7 @@ CorrectedRobot equivalent_robot(const StructuredArm& arm) {
     const Passage nominal{joint.theta_rad, joint.d_m, link.a_m, link.alpha_rad, link.beta_rad};
     const Eigen::Isometry3d all = nominal.pose() * inserted;
     const Eigen::Vector3d point = all.translation(), axis = all.linear().col(2);
-    const bool parallel = near_parallel_to_next(arm.robot.chain, static_cast<int>(i), kParallel_rad);
+    const bool parallel = near_parallel_to_next(arm.robot.chain, static_cast<int>(i), kNearParallel_rad);
     const Passage passage = parallel ? by_plane(point, axis, nominal) : by_normal(point, axis, nominal);
     joint.theta_rad = passage.theta_rad;
     joint.d_m = passage.d_m;

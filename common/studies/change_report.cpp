@@ -176,9 +176,7 @@ std::string check_history_csv(const std::vector<CheckRecord>& records) {
                           {on_one_line(one.date), one.verdict, number_text(one.strain), number_text(one.strain_limit),
                            number_text(one.error_mm), std::to_string(one.poses), on_one_line(one.cause),
                            on_one_line(one.data), on_one_line(one.model)}});
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
+  return csv_text(table);
 }
 
 std::vector<CheckRecord> read_check_history(const std::string& text, const std::string& file) {

@@ -125,9 +125,7 @@ std::string study_csv(const Study& study) {
     fields.push_back(fmt::format("{:.3f}", run.wall_s));
     table.rows.push_back({0, std::move(fields)});
   }
-  std::ostringstream text;
-  write_csv(text, table);
-  return text.str();
+  return csv_text(table);
 }
 
 std::string to_json(const Study& study, int indent) {

@@ -16,7 +16,6 @@
 namespace demecal::inline symbolic {
 namespace {
 
-constexpr int kDeepestNesting = 256;              // the parser calls itself, and text comes from strangers
 constexpr double kLargestWrittenExponent = 64.0;  // as written
 constexpr double kLargestPower = 4096.0;          // of powers of powers
 

@@ -10,8 +10,8 @@
 
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/parameter_space.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/candidates.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline updating {

@@ -10,6 +10,7 @@
 
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
+#include "kinematics/units.hpp"
 #include "primitives/primitive.hpp"
 
 namespace demecal::inline updating {
@@ -31,8 +32,7 @@ constexpr int kGrid = 721;  ///< places of a range
 /// Whole turns, rad, that bring the middle of `range` nearest to that of `other`.
 double turns_between(const Interval& range, const Interval& other, bool revolute) {
   if (!revolute) return 0.0;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  return kTurn * std::round((other.lower + other.upper - range.lower - range.upper) / 2.0 / kTurn);
+  return kTurn_rad * std::round((other.lower + other.upper - range.lower - range.upper) / 2.0 / kTurn_rad);
 }
 
 /// The formula of theta at theta + shift.

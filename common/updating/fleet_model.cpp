@@ -12,9 +12,9 @@
 
 #include "calibration/calibration.hpp"
 #include "errors/input_error.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/parameter_space.hpp"
 #include "updating/fleet_curves.hpp"
 #include "updating/fleet_numbers.hpp"
 

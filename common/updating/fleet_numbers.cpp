@@ -9,7 +9,7 @@
 #include <string>
 
 #include "fitting/fit.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal::inline updating {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "effects/effect.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline updating {

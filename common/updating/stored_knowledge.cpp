@@ -33,7 +33,7 @@ std::vector<ParameterId> numbers_of(const CalibratedModel& model, const Correcte
                                     const DeclaredModel& declared) {
   DeclaredModel placed = declared;
   placed.registration = placed.tool = true;
-  std::vector<ParameterId> ids = free_parameters(data, placed, {});
+  std::vector<ParameterId> ids = free_parameters(data, placed);
   if (model.posterior) {
     for (const ParameterId& id : model.posterior->ids) {
       const bool new_link = id.kind == ParameterId::Kind::link && std::ranges::find(ids, id) == ids.end();
@@ -163,8 +163,7 @@ void StoredKnowledge::believe_numbers(const CalibratedModel& model, const DataSe
   for (Eigen::Index i = 0; i < n; ++i) {
     const ParameterId& id = ids_[static_cast<std::size_t>(i)];
     if (is_place(id)) {
-      const double usual =
-          id.kind == ParameterId::Kind::tool_translation || id.kind == ParameterId::Kind::tool_rotation ? kTool : kBase;
+      const double usual = id.is_of_tool() ? kTool : kBase;
       stated_(i, i) = usual * usual;
       continue;
     }

@@ -11,7 +11,7 @@
 
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline updating {
@@ -170,10 +170,10 @@ std::vector<std::size_t> without_gross(const LeftOut& found, const NewRows& rows
 
 RowScales first_scales(const DataSet& data, const CorrectedRobot& placed, const std::vector<std::size_t>& poses,
                        const std::optional<PredictionInterval>& interval) {
-  constexpr double kSmallest = 1e-8, kMountedOtherwise_rad = 0.1;
+  constexpr double kSmallest = 1e-8;
   const auto observations = observe(data, poses, placed);
   RowScales scales = median_deviations(data, placed, observations);
-  if (root_mean_squares(data, placed, observations)[kOrientation] > kMountedOtherwise_rad) scales[kOrientation] = 0.0;
+  if (mounted_otherwise(data, placed, observations)) scales[kOrientation] = 0.0;
   if (interval && scales[kPosition] > 0.0) {
     const double stated = std::max(kSmallest, std::hypot(interval->noise_m, interval->model_error_m));
     const double share = std::min(1.0, stated / scales[kPosition]);

@@ -7,9 +7,9 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "fitting/declared_model.hpp"
-#include "fitting/observation.hpp"
-#include "fitting/posterior.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "updating/stored_knowledge.hpp"
 

@@ -113,9 +113,8 @@ DrawnJoint drawn(const UrdfJoint& joint, const std::optional<Eigen::Isometry3d>&
                  std::vector<std::string>& notes) {
   DrawnJoint made{.name = joint.name, .origin = joint.origin, .axis = joint.axis};
   set_limits(joint, made.row, notes);
-  constexpr double kTurn = 2.0 * std::numbers::pi;
   if (before) made.origin = origin_of(*before * pose_of(joint.origin), joint.origin);
-  if (made.origin.rpy_rad.cwiseAbs().maxCoeff() > kTurn) made.origin = origin_of(pose_of(made.origin));
+  if (made.origin.rpy_rad.cwiseAbs().maxCoeff() > kTurn_rad) made.origin = origin_of(pose_of(made.origin));
   return made;
 }
 

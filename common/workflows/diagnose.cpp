@@ -20,10 +20,10 @@
 #include "diagnosis/loop.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
-#include "fitting/declared_model.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/make_report.hpp"
@@ -38,7 +38,7 @@ bool determines(const DataSet& data, const DeclaredModel& declared) {
   for (const std::size_t pose : poses_of(data, PoseSet::calibration)) {
     measured += static_cast<std::size_t>(rows_of(data.poses[pose]).total());
   }
-  return measured >= 2 * free_parameters(data, declared, {}).size();
+  return measured >= 2 * free_parameters(data, declared).size();
 }
 
 Preparation start_of(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {

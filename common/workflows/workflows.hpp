@@ -26,7 +26,7 @@
 #include "evolution/archipelago.hpp"
 #include "evolution/building_blocks.hpp"
 #include "evolution/population.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
 #include "report/make_report.hpp"

@@ -13,10 +13,6 @@
 namespace demecal::inline yaml {
 namespace {
 
-std::string reason(int number) {
-  return std::generic_category().message(number);
-}
-
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, const std::string& why) {
   throw InputError({path.string(), 0}, "", what + ": " + why);
 }
@@ -25,12 +21,12 @@ std::string reason(int number) {
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot be read", reason(EISDIR));
+  if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot be read", system_reason(EISDIR));
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(path, "cannot be read", reason(errno));
+  if (!stream) fail(path, "cannot be read", system_reason(errno));
   std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) fail(path, "cannot be read", reason(errno));
+  if (stream.bad()) fail(path, "cannot be read", system_reason(errno));
   return bytes;
 }
 
@@ -44,7 +40,7 @@ void write_file(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream stream(unfinished, std::ios::binary);
   stream << bytes;
   stream.close();
-  if (!stream) fail(path, "cannot be written", reason(errno));
+  if (!stream) fail(path, "cannot be written", system_reason(errno));
   std::error_code renaming_fault;
   std::filesystem::rename(unfinished, path, renaming_fault);
   if (renaming_fault) fail(path, "cannot be written", renaming_fault.message());

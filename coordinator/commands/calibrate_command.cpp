@@ -26,7 +26,7 @@
 #include "dds/dds_transport.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "protocol/messages.hpp"
 #include "report/figures.hpp"
 #include "report/make_report.hpp"

@@ -16,9 +16,9 @@
 #include "data_files/robot_file.hpp"
 #include "drafting/planned_files.hpp"
 #include "effects/catalogue.hpp"
-#include "fitting/declared_model.hpp"
 #include "html/page.hpp"
 #include "languages/languages.hpp"
+#include "parameters/declared_model.hpp"
 #include "planning/plan.hpp"
 #include "studies/plan_report.hpp"
 #include "terminal/report_text.hpp"
@@ -128,7 +128,7 @@ ExitCode run(const PlanCommand& command) {
   return ExitCode::done;
 }
 
-CLI::Validator words_of(std::vector<std::string> words) {
+CLI::Validator one_of(std::vector<std::string> words) {
   return {[words = std::move(words)](const std::string& word) -> std::string {
             if (std::find(words.begin(), words.end(), word) != words.end()) return {};
             return fmt::format("'{}' is none of: {}", word, fmt::join(words, " "));
@@ -155,11 +155,11 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
                    "LIST of what the model will contain, registration always (default: "
                    "registration,tool,joint_offset,geometry)")
       ->delimiter(',')
-      ->check(words_of(declared_words()));
+      ->check(one_of(declared_words()));
   const auto kinds = effect_kinds();
   command->add_option("--detect", request->detect, "LIST of kinds of effects that the poses shall tell apart besides")
       ->delimiter(',')
-      ->check(words_of({kinds.begin(), kinds.end()}));
+      ->check(one_of({kinds.begin(), kinds.end()}));
   command->add_option("--cell", request->cell_file, "CELL.yaml: room for the arm, instrument, targets, noise");
   command
       ->add_option("--contacts", request->contacts,

@@ -38,7 +38,7 @@ int status_of(Refusal::Kind kind) {
 }
 
 /// JSON of texts that may hold any bytes.
-std::string text_of(const Json& json) {
+std::string to_string(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -107,7 +107,7 @@ ServiceAnswer JobService::answer_checked(const ServiceRequest& request) {
   const JobId id{request.user, path[1]};
   queue_.record(id);
   if (path.size() == 3 && path[2] == "terminal")
-    return {.body = text_of({{"text", folders_.terminal(id, kMostOfTerminal)}})};
+    return {.body = to_string({{"text", folders_.terminal(id, kMostOfTerminal)}})};
   if (path.size() == 4 && path[2] == "results") return result(id, request);
   refuse_unknown();
 }
@@ -132,11 +132,11 @@ std::string JobService::list(const std::string& user) const {
                     {"files", options_.files_each},
                     {"bytes_of_job", options_.bytes_each},
                     {"bytes_of_yaml", options_.yaml_bytes}};
-  return text_of({{"demecal_jobs", 1},
-                  {"user", user},
-                  {"signs_in", options_.signs_in},
-                  {"limits", limits},
-                  {"jobs", std::move(jobs)}});
+  return to_string({{"demecal_jobs", 1},
+                    {"user", user},
+                    {"signs_in", options_.signs_in},
+                    {"limits", limits},
+                    {"jobs", std::move(jobs)}});
 }
 
 std::string JobService::comparison(const std::string& user) const {

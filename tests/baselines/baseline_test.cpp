@@ -115,7 +115,7 @@ TEST(Baselines, CountTheirNumbersAndFitTheCalibrationPosesAlone) {
   const RegisteredArm arm = registered_arm(data, kBaseAndTool);
   EXPECT_EQ(arm.parameters, 9);
   EXPECT_EQ(baseline("linear_joints").fit(arm).parameters, 9 + 12);
-  const int links = static_cast<int>(free_parameters(data, {.joint_offset = true, .geometry = true}, {}).size());
+  const int links = static_cast<int>(free_parameters(data, {.joint_offset = true, .geometry = true}).size());
   EXPECT_EQ(baseline("fourier_2").fit(arm).parameters, 9 + 5 * links);
   EXPECT_EQ(baseline("geometry").fit(arm).parameters, 9 + links);
 

@@ -69,9 +69,7 @@ TEST(Csv, RoundTripsWhateverTheFieldsHold) {
         for (std::uint64_t i = bits() % 5; i > 0; --i) field += letters[bits() % letters.size()];
       }
     }
-    std::ostringstream text;
-    write_csv(text, table);
-    const CsvTable back = table_of(text.str());
+    const CsvTable back = table_of(csv_text(table));
     EXPECT_EQ(back.columns, table.columns);
     ASSERT_EQ(back.rows.size(), table.rows.size());
     for (std::size_t row = 0; row < 5; ++row) {

@@ -8,6 +8,7 @@
 
 #include "kinematics/forward.hpp"
 #include "mistaken_case.hpp"
+#include "parameters/declared_model.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
@@ -43,7 +44,7 @@ double largest_change(const TrialFit& fit, const Trial& trial) {
       const bool is_length = parameter == LinkParameter::d || parameter == LinkParameter::a;
       const double change =
           fit.chain.joints[joint].parameter(parameter) - trial.chain.joints[joint].parameter(parameter);
-      largest = std::max(largest, std::abs(change) / (is_length ? kLinkDeviation_m : kLinkDeviation_rad));
+      largest = std::max(largest, std::abs(change) / (is_length ? kMakersDeviation_m : kMakersDeviation_rad));
     }
   }
   return largest;

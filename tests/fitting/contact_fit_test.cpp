@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/measurement.hpp"
 #include "touching_arm.hpp"
 
@@ -40,7 +40,7 @@ double rms_m(const CorrectedRobot& robot, const DataSet& data) {
 TEST(ContactFit, NeedsNoBaseAndLeavesWhereTheArmStandsAlone) {
   RandomStream stream{9201};
   const KnownArm arm = touching_arm(stream, 0.0, true, 3);
-  for (const ParameterId& id : free_parameters(arm.data, kAll, {})) {
+  for (const ParameterId& id : free_parameters(arm.data, kAll)) {
     EXPECT_NE(id.kind, ParameterId::Kind::base_translation);
     EXPECT_NE(id.kind, ParameterId::Kind::base_rotation);
     if (id.kind == ParameterId::Kind::link && id.index == 0) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fitting/known_arm.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/random_effects.hpp"
 
 namespace demecal {
@@ -63,7 +63,7 @@ TEST(EffectColumns, AreTheTwistsThatDifferencesShow) {
     KnownArm arm = heavy_arm(stream, chain);
     arm.truth.effects = random_effects(arm.data.robot, stream, 0.02, 2);
     measure_anyhow(arm, stream, {}, 3);
-    std::vector<ParameterId> ids = free_parameters(arm.data, kAll, {});
+    std::vector<ParameterId> ids = free_parameters(arm.data, kAll);
     for (ParameterId& id : effect_parameters(arm.truth)) ids.push_back(std::move(id));
     const ParameterSpace space(arm.truth, ids);
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(space.size());

@@ -6,7 +6,7 @@
 
 #include "errors/input_error.hpp"
 #include "fitting/known_arm.hpp"
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal {
 namespace {

@@ -87,7 +87,7 @@ inline KnownArm perfect_arm(const Chain& nominal, Frame frame) {
 
 /// Puts random errors, 1 mm and 2 mrad of standard deviation, into the links that `declared` frees.
 inline void misbuild(KnownArm& arm, RandomStream& stream, const DeclaredModel& declared) {
-  for (const ParameterId& id : free_parameters(arm.data, declared, {})) {
+  for (const ParameterId& id : free_parameters(arm.data, declared)) {
     if (id.kind != ParameterId::Kind::link) continue;
     arm.truth.chain.joints[static_cast<std::size_t>(id.index)].parameter(id.link) +=
         (id.is_angle() ? 2e-3 : 1e-3) * stream.normal();

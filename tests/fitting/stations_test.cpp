@@ -8,7 +8,7 @@
 
 #include "errors/input_error.hpp"
 #include "fitting/known_arm.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 
 namespace demecal {
 namespace {
@@ -82,7 +82,7 @@ TEST(Stations, MoveRowsAsDifferencesShow) {
   const DataSet joined = joined_stations(
       {measured_at(arm, stream, "A", 20, true), measured_at(arm, stream, "B", 20, true)}, StationTools::own);
   const Fit fit = fit_of(joined);
-  const ParameterSpace space(fit.robot, free_parameters(joined, kAll, {}));
+  const ParameterSpace space(fit.robot, free_parameters(joined, kAll));
   const RowScales scales{2.0, 0.5, 0.0};
   const Eigen::VectorXd change = Eigen::VectorXd::Zero(space.size());
   int of_stations = 0;

@@ -34,7 +34,8 @@ std::map<std::string, std::string> law_files(const std::vector<Source>& tree) {
 /// Words that happen to be kinds' too, or that declare a whole kind: where they stand, and what they mean there.
 bool means_something_else(const std::string& kind, const std::string& path) {
   static const std::map<std::string, std::set<std::string>> elsewhere{
-      {"common/fitting/declared_model.cpp", {"registration", "tool", "joint_offset", "geometry"}},  // what jobs declare
+      {"common/parameters/declared_model.cpp",
+       {"registration", "tool", "joint_offset", "geometry"}},           // what jobs declare
       {"common/baselines/baseline.cpp", {"registration", "geometry"}},  // names of baselines
       {"common/data_check/finding.cpp", {"joint_offset"}},              // kinds of findings
       {"common/updating/change.cpp", {"registration"}}};                // a verdict

@@ -126,7 +126,9 @@ inline Report made_up_report() {
   report.as_evolved = report.before;
   for (const ParameterEstimate& estimate : made_up_estimates(random))
     report.parameters.push_back(parameter_entry(estimate));
-  report.unidentified = {"joint 1 d_mm and base_z_mm cannot be told apart by these poses (1 : -1 by effect)"};
+  report.unidentified = {
+      "joint 1 d_mm and base_z_mm have the same effect in these poses: only their combination is identified (1 : -1 by "
+      "effect)"};
   report.runtime.wall_s = 754.3;
   report.runtime.workers = 4;
   report.runtime.islands = 24;

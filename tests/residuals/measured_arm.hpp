@@ -35,7 +35,7 @@ inline RowMatrix random_matrix(RandomStream& stream, Eigen::Index rows, Eigen::I
 }
 
 inline ParameterSpace space_of(const KnownArm& arm, const CorrectedRobot& robot, const DeclaredModel& declared) {
-  std::vector<ParameterId> ids = free_parameters(arm.data, declared, {});
+  std::vector<ParameterId> ids = free_parameters(arm.data, declared);
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
   return {robot, ids};
 }

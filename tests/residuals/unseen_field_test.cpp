@@ -29,7 +29,7 @@ TEST(UnseenField, SaysNothingOfWhereContactsAre) {
   RandomStream stream{9401};
   const KnownArm arm = two_sockets(stream);
   const CorrectedRobot nominal = nominal_robot(arm.data);
-  const std::vector<ParameterId> ids = free_parameters(arm.data, kAll, {});
+  const std::vector<ParameterId> ids = free_parameters(arm.data, kAll);
   const ResidualField field = unseen_field(arm.data, all_poses(arm.data), nominal, ids, kUnit);
   const EffectColumns columns = columns_of({{.kind = "gain", .joint = 2}}, arm.data.robot, field);
   ASSERT_EQ(field.rows(), 33);
@@ -45,7 +45,7 @@ TEST(UnseenField, HasColumnsOfTheErrorsAboutTheContactsMean) {
   constexpr double kStep = 1e-6;
   RandomStream stream{9402};
   const KnownArm arm = two_sockets(stream);
-  const std::vector<ParameterId> ids = free_parameters(arm.data, kAll, {});
+  const std::vector<ParameterId> ids = free_parameters(arm.data, kAll);
   const ParameterSpace space(nominal_robot(arm.data), ids);
   const ResidualField field = unseen_field(arm.data, all_poses(arm.data), space.reference(), ids, kUnit);
   const auto residual_of = [&](const Eigen::VectorXd& change) {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "errors/input_error.hpp"
-#include "fitting/declared_model.hpp"
 #include "lacking_numbers.hpp"
+#include "parameters/declared_model.hpp"
 #include "updating/change.hpp"
 
 namespace demecal {

@@ -9,7 +9,7 @@
 
 #include "data/data_set.hpp"
 #include "explanations/error_budget.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 
 namespace demecal::bench {
 

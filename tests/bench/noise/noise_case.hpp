@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 
 namespace demecal::bench {
 

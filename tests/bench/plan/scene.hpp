@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 #include "planning/candidates.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"

@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 
 std::vector<std::string> names(const DataSet& data, const DeclaredModel& declared) {
   std::vector<std::string> result;
-  for (const ParameterId& id : free_parameters(data, declared, {})) result.push_back(id.name());
+  for (const ParameterId& id : free_parameters(data, declared)) result.push_back(id.name());
   return result;
 }
 

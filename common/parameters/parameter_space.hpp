@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "fitting/declared_model.hpp"
-#include "fitting/fit.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 
 /// The robot at one value of the vector.
 struct ModelPoint {
@@ -107,4 +106,4 @@ std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobia
 /// Where contacts are is nobody's question: the directions of the arm's numbers alone.
 void leave_out_contacts(std::vector<UnidentifiedDirection>& directions);
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

@@ -1,4 +1,4 @@
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
@@ -12,7 +12,7 @@
 
 #include "errors/check.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 namespace {
 
 /// How far parameters may usually move: links by about a millimetre or what turns half a metre of arm as far; base and
@@ -171,4 +171,4 @@ void leave_out_contacts(std::vector<UnidentifiedDirection>& directions) {
   std::erase_if(directions, [](const UnidentifiedDirection& direction) { return direction.parts.empty(); });
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

@@ -11,13 +11,13 @@
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
 #include "expression/bound.hpp"
-#include "fitting/declared_model.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 
 /// A shape that a joint's correction could hold more or less of, in rad of theta in rad.
 struct CorrectionTerm {
@@ -125,4 +125,4 @@ WorkspaceError workspace_error(const Posterior& posterior, const PredictionInter
                                const CorrectedRobot& robot, std::span<const Interval> measured, bool placed,
                                RandomStream random);
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

@@ -1,5 +1,5 @@
 // What poses cannot see is found, named and held.
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ TEST(Identifiable, NamesTheRedundanciesOfBaseAndFirstJointAndOfToolAndLast) {
   EXPECT_EQ(fit.rank, 30);  // 4 per revolute joint and 6: Everett, Driels and Mooring 1987
   EXPECT_EQ(fit.unidentified.size(), 6u);
   const auto both = [](const char* one, const char* other) {
-    return Contains(AllOf(HasSubstr(one), HasSubstr(other), HasSubstr(" cannot be told apart by these poses")));
+    return Contains(AllOf(HasSubstr(one), HasSubstr(other), HasSubstr(" have the same effect in these poses")));
   };
   EXPECT_THAT(sentences(fit), both("joint 1 d_mm", "base_z_mm"));
   EXPECT_THAT(sentences(fit), both("joint 1 theta_deg", "base_rz_deg"));

@@ -1,5 +1,5 @@
 // Quantiles of scores: what split conformal prediction promises, for every distribution and with repeats.
-#include "fitting/posterior.hpp"
+#include "parameters/posterior.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 
 #include <cmath>
 #include <map>
@@ -8,7 +8,7 @@
 #include "effects/arm_state.hpp"
 #include "prediction/measurement.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 namespace {
 
 /// Visits the rows in use: visit(row among the used, row among all, its scale). Returns how many there are.
@@ -106,6 +106,10 @@ RowScales root_mean_squares(const DataSet& data, const CorrectedRobot& robot,
     if (count[kind] > 0) squares[kind] = std::sqrt(squares[kind] / count[kind]);
   }
   return squares;
+}
+
+bool mounted_otherwise(const DataSet& data, const CorrectedRobot& robot, const std::vector<Observation>& observations) {
+  return root_mean_squares(data, robot, observations)[kOrientation] > kMountedOtherwise_rad;
 }
 
 namespace {
@@ -211,4 +215,4 @@ RelationRows relation_rows(const DataSet& data, const ParameterSpace& space, con
   return collector.rows();
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

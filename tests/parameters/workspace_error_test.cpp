@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/posterior.hpp"
 #include "kinematics/random_arm.hpp"
+#include "parameters/posterior.hpp"
 
 namespace demecal {
 namespace {

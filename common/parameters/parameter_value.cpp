@@ -4,12 +4,12 @@
 #include <iterator>
 
 #include "errors/check.hpp"
-#include "fitting/declared_model.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/angles.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 
 using Kind = ParameterId::Kind;
 
@@ -57,4 +57,4 @@ Eigen::MatrixXd value_jacobian(const ParameterSpace& space, const ModelPoint& po
   return jacobian;
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

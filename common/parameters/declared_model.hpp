@@ -1,14 +1,21 @@
 // What the user declares the model to contain, and the numbers in it that least squares identifies.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
+#include "prediction/corrected_robot.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
+
+/// What makers' link figures usually err by, a standard deviation.
+inline constexpr double kMakersDeviation_m = 5e-3, kMakersDeviation_rad = 17.5e-3;
 
 struct DeclaredModel {
   bool registration = false;  ///< the base in the instrument's frame, 6 numbers
@@ -50,6 +57,37 @@ struct ParameterId {
   /// Whether it is an angle (rad inside, degrees at borders); otherwise it is a length (m, mm) or, of an effect,
   /// neither.
   bool is_angle() const;
+  bool is_of_base() const { return kind == Kind::base_translation || kind == Kind::base_rotation; }
+  bool is_of_tool() const { return kind == Kind::tool_translation || kind == Kind::tool_rotation; }
 };
 
-}  // namespace demecal::inline fitting
+/// A combination of parameters these poses cannot see: held where the start has it.
+struct UnidentifiedDirection {
+  double relative_singular = 0.0;  ///< its effect on the measurements over the largest effect
+  bool weak = false;               ///< seen, but less surely than a maker's figures are known: kept near nominal
+  /// Those with a share of the effect above 0.1, largest first, the whole of unit norm. The largest is positive.
+  std::vector<std::pair<ParameterId, double>> parts;
+
+  /// "joint 1 d_mm and base_z_mm have the same effect in these poses: only their combination is identified (1 : -1 by
+  /// effect)"
+  std::string sentence() const;
+};
+
+/// The parameters `declared` frees on this data: base, then links by joint, then tools by target. Where all is touched
+/// and nothing measured by an instrument, no base, and of the first joint nothing that only says where the arm stands.
+/// Geometry is, for a revolute joint, d, a, alpha, and beta in place of d on a link between near-parallel axes; for a
+/// prismatic one, whose axis has a direction but no place, the two angles theta and alpha (beta and alpha on such a
+/// link).
+std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared);
+
+/// The numbers of the places that these poses touch: nobody knows them beforehand and no model keeps them, but they are
+/// free wherever the poses are fitted, so that what they take is not believed of the arm.
+std::vector<ParameterId> contact_parameters(const DataSet& data, std::span<const std::size_t> poses);
+
+/// `robot` with a place for every contact among `ids`: its own, or else that of its poses on average.
+CorrectedRobot with_contacts_of(CorrectedRobot robot, const std::vector<ParameterId>& ids, const DataSet& data);
+
+/// Every coefficient of the robot's effects, by effect.
+std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot);
+
+}  // namespace demecal::inline parameters

@@ -1,4 +1,4 @@
-#include "fitting/posterior.hpp"
+#include "parameters/posterior.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
@@ -16,13 +16,13 @@
 
 #include "effects/arm_state.hpp"
 #include "errors/check.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 namespace {
 
 /// Of each score: its part of its group's one vote.
@@ -227,4 +227,4 @@ WorkspaceError workspace_error(const Posterior& posterior, const PredictionInter
   return {std::sqrt(squares_m2 + 3.0 * interval.model_error_m * interval.model_error_m), *at};
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

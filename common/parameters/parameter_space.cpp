@@ -1,4 +1,4 @@
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 #include <cstddef>
 #include <iterator>
@@ -10,7 +10,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 namespace {
 
 using Kind = ParameterId::Kind;
@@ -272,4 +272,4 @@ void ParameterSpace::move_tool(const ModelPoint& point, const JointVector& corre
   }
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

@@ -1,4 +1,4 @@
-#include "fitting/declared_model.hpp"
+#include "parameters/declared_model.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,10 @@
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
 #include "errors/check.hpp"
-#include "fitting/fit.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 namespace {
 
 struct DeclaredWord {
@@ -74,11 +73,10 @@ void add_prismatic(std::vector<ParameterId>& ids, int joint, bool parallel) {
   add_link(ids, joint, LinkParameter::alpha);
 }
 
-void add_links(std::vector<ParameterId>& ids, const Chain& chain, const DeclaredModel& declared,
-               double near_parallel_rad) {
+void add_links(std::vector<ParameterId>& ids, const Chain& chain, const DeclaredModel& declared) {
   for (int joint = 0; joint < chain.size(); ++joint) {
     const bool revolute = is_revolute(chain, joint);
-    const bool parallel = leads_between_parallels(chain, joint, near_parallel_rad);
+    const bool parallel = leads_between_parallels(chain, joint, kNearParallel_rad);
     if (declared.joint_offset) add_link(ids, joint, revolute ? LinkParameter::theta : LinkParameter::d);
     if (declared.geometry && revolute) add_revolute(ids, chain, joint, parallel, declared.joint_offset);
     if (declared.geometry && !revolute) add_prismatic(ids, joint, parallel);
@@ -199,8 +197,7 @@ std::vector<ParameterId> effect_parameters(const CorrectedRobot& robot) {
   return ids;
 }
 
-std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared,
-                                         const FitOptions& options) {
+std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredModel& declared) {
   std::vector<ParameterId> ids;
   const bool placed = has_instrument(data) || !has_contacts(data);
   if (declared.registration && placed) {
@@ -210,7 +207,7 @@ std::vector<ParameterId> free_parameters(const DataSet& data, const DeclaredMode
       for (int motion = 0; motion < 6; ++motion)
         ids.push_back({.kind = Kind::station, .index = motion, .target = station});
   }
-  add_links(ids, data.robot.chain, declared, options.near_parallel_rad);
+  add_links(ids, data.robot.chain, declared);
   if (!placed) std::erase_if(ids, [&](const ParameterId& id) { return is_where_the_arm_stands(id, data.robot.chain); });
   if (declared.tool) add_tools(ids, data);
   return ids;
@@ -247,7 +244,8 @@ std::string UnidentifiedDirection::sentence() const {
     names += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i].first.name();
     ratios += (i == 0 ? "" : " : ") + ratio_text(parts[i].second / parts[0].second);
   }
-  return names + (weak ? " can hardly" : " cannot") + " be told apart by these poses (" + ratios + " by effect)" + kept;
+  return names + (weak ? " have nearly" : " have") +
+         " the same effect in these poses: only their combination is identified (" + ratios + " by effect)" + kept;
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters

@@ -1,10 +1,10 @@
 // The parameter vector: every derivative against central differences.
-#include "fitting/parameter_space.hpp"
+#include "parameters/parameter_space.hpp"
 
 #include <gtest/gtest.h>
 
 #include "fitting/known_arm.hpp"
-#include "fitting/observation.hpp"
+#include "parameters/observation.hpp"
 
 namespace demecal {
 namespace {
@@ -32,7 +32,7 @@ class EveryColumn : public ::testing::TestWithParam<Chain> {
  protected:
   RandomStream stream_{91};
   KnownArm arm_ = measured_arm(stream_, GetParam());
-  ParameterSpace space_{arm_.truth, free_parameters(arm_.data, kAll, {})};
+  ParameterSpace space_{arm_.truth, free_parameters(arm_.data, kAll)};
 };
 INSTANTIATE_TEST_SUITE_P(ParameterSpace, EveryColumn,
                          ::testing::Values(parallel_arm(), modified_arm(), seven_joint_arm(), stanford_arm()));

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "fitting/parameter_space.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline parameters {
 
 /// The kinds of rows: position (points measured or touched), orientation, distance, in the order they stand in.
 inline constexpr std::size_t kPosition = 0, kOrientation = 1, kDistance = 2, kRowKinds = 3;
@@ -62,6 +62,13 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
 RowScales root_mean_squares(const DataSet& data, const CorrectedRobot& robot,
                             const std::vector<Observation>& observations);
 
+/// Orientations this far off the model's tool are of a target that is mounted otherwise.
+inline constexpr double kMountedOtherwise_rad = 0.1;
+
+/// Whether measured orientations are of a target that is mounted otherwise than the robot's tool: 0.1 rad off, rms.
+/// They then tell nothing of the arm.
+bool mounted_otherwise(const DataSet& data, const CorrectedRobot& robot, const std::vector<Observation>& observations);
+
 /// Known minus placed, over what is known's own uncertainty: rows of unit variance. Derivative by the changes.
 struct RelationRows {
   Eigen::VectorXd residual;
@@ -72,4 +79,4 @@ struct RelationRows {
 /// several sets have counts as one all the same: their rows share its uncertainty.
 RelationRows relation_rows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point);
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline parameters
