@@ -1,4 +1,4 @@
-// The folder a calibration leaves: model.yaml, report.json, report.html and, where formulas were evolved, history.csv;
+// The folder a calibration leaves: model, report, tables of poses and, where formulas were evolved, of their evolution;
 // and which files of a folder are demecal's own.
 #pragma once
 

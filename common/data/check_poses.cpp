@@ -86,6 +86,16 @@ void check_targets(std::span<const MeasuredPose> poses, const std::map<std::stri
   }
 }
 
+void require_something_measured(std::span<const MeasuredPose> poses, const ColumnName& contact,
+                                const std::string& file) {
+  for (const MeasuredPose& pose : poses) {
+    if (!pose.contact.empty() || pose.position_m || pose.orientation || !pose.distances_m.empty()) continue;
+    throw InputError({file, pose.line}, "",
+                     "column " + contact.name + " is empty and nothing else was measured: every " +
+                         "row names what the tool touches, or has measured columns");
+  }
+}
+
 void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file) {
   for (const MeasuredPose& pose : poses) {
     for (std::size_t i = 0; i < chain.joints.size(); ++i) check_limits(pose, chain.joints[i], i, file);

@@ -251,17 +251,6 @@ void name_repeats(std::vector<MeasuredPose>& poses) {
   }
 }
 
-/// A row that touches nothing must have been measured otherwise.
-void require_something_measured(std::span<const MeasuredPose> poses, const ColumnName& contact,
-                                const std::string& file) {
-  for (const MeasuredPose& pose : poses) {
-    if (!pose.contact.empty() || pose.position_m || pose.orientation || !pose.distances_m.empty()) continue;
-    throw InputError({file, pose.line}, "",
-                     "column " + contact.name + " is empty and nothing else was measured: every " +
-                         "row names what the tool touches, or has measured columns");
-  }
-}
-
 }  // namespace
 
 Quantity joint_quantity(const Joint& joint) {

@@ -28,6 +28,10 @@ void check_targets(std::span<const MeasuredPose> poses, const std::map<std::stri
 /// No joint stands further outside its limits than a controller's tolerance explains.
 void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file);
 
+/// Throws InputError at the first row that neither touches anything nor was measured otherwise; `contact` is the column
+/// that says what rows touch.
+void require_something_measured(std::span<const MeasuredPose> poses, const ColumnName& contact,
+                                const std::string& file);
 /// Poses of one id have equal joints and serve one set: otherwise validation would judge what calibration has seen.
 void check_repeats(std::span<const MeasuredPose> poses, const std::string& file);
 

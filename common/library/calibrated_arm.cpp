@@ -19,6 +19,7 @@
 #include "expression/bound.hpp"
 #include "expression/text.hpp"
 #include "kinematics/chain.hpp"
+#include "kinematics/units.hpp"
 #include "languages/languages.hpp"
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
@@ -95,6 +96,12 @@ std::vector<double> CalibratedArm::correct(const JointCommand& command) const {
   const Chain& chain = commands.nominal.chain;
   const Stop stop = to_stop(command, chain);
   return to_deg_or_mm(correct_target({}, commands, stop).command, chain);
+}
+
+double CalibratedArm::error95_mm(const JointCommand& command) const {
+  const CommandModel commands = to_command_model(implementation_->model);
+  const std::optional<double> radius_m = error95_m(commands, to_stop(command, commands.nominal.chain));
+  return radius_m ? millimetres(*radius_m) : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string CalibratedArm::correct_program(const std::string& text, const std::string& file,

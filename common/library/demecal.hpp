@@ -171,6 +171,10 @@ class CalibratedArm {
   /// the arm's own base: neither the instrument's place nor its errors are corrected. Where that cannot be reached
   /// (singular poses, fewer than 6 joints) as near as it can be, the position first.
   std::vector<double> correct(const JointCommand& command) const;
+  /// The radius that holds the real tool point 95 % of the time about where predict() has it at `command`, or correct()
+  /// sends it (k = 2): by the covariance of the model and its own error, without measurement noise, without what is not
+  /// known of the instrument's place, and larger outside what was measured. NaN where the model does not state it.
+  double error95_mm(const JointCommand& command) const;
   /// The text of a robot program with its targets corrected, as `demecal apply` does: what is not known to get better
   /// stays as it is. `file` names the program's language by its ending. `warnings`, where given, are added to.
   std::string correct_program(const std::string& text, const std::string& file,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -54,7 +55,7 @@ void take_tool(CommandModel& model, const Eigen::Vector3d& tool_m) {
   std::erase_if(model.robot.effects, is_of_tool);
   model.tool_identified = false;
   if (!model.posterior) return;
-  model.posterior = model.posterior->without(is_number_of_tool);
+  model.posterior = model.posterior->without(std::mem_fn(&ParameterId::is_of_tool));
   leave_out_effects(*model.posterior, before, is_of_tool);
 }
 

@@ -111,6 +111,12 @@ std::string joint_label(int joint) {
   return "joint " + std::to_string(joint + 1);
 }
 
+std::optional<double> error95_m(const CommandModel& model, const Stop& stop) {
+  if (!model.posterior || !model.interval) return std::nullopt;
+  return real_radius95_m(*model.interval, *model.posterior, model.robot, stop,
+                         extrapolation(model.nominal.chain, model.measured, stop.joints));
+}
+
 CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop) {
   CorrectedTarget corrected;
   corrected.stop = stop;
@@ -124,9 +130,7 @@ CorrectedTarget correct_target(const Target& target, const CommandModel& model, 
   corrected.residual_m = solution.position_residual_m;
   corrected.residual_rad = solution.orientation_residual_rad;
   corrected.command_tool = model.nominal_tool(corrected.command);
-  if (model.posterior && model.interval)
-    corrected.error95_m = real_radius95_m(*model.interval, *model.posterior, model.robot, stop,
-                                          extrapolation(model.nominal.chain, model.measured, stop.joints));
+  corrected.error95_m = error95_m(model, stop);
   if (target.is_pose()) settle_position(target, model, goal.translation(), corrected);
   return corrected;
 }

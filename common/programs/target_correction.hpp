@@ -52,6 +52,10 @@ struct CorrectedTarget {
   }
 };
 
+/// The radius that holds the real tool point about where the model has it at that stop, 95 % of the time, m; larger
+/// outside what was measured. Nothing where the model does not state it.
+std::optional<double> error95_m(const CommandModel& model, const Stop& stop);
+
 /// Sends the target, whose nominal joints and circumstances are `stop`, to where model(command) = nominal: as far as
 /// the model's posterior determines the correction (see determined_part()), and without large joint motions near
 /// singular joints (see nearby_command()). A direction of position that is left is a remark, one of orientation a note.

@@ -10,6 +10,8 @@
 
 #include "fitting/levenberg_marquardt.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline structure {

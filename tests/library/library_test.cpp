@@ -127,6 +127,27 @@ TEST(LibraryCalibration, SaysOfEveryPoseHowFarItIsOffAndHowFarThatWasToBeExpecte
   EXPECT_GE(within, 34U);
 }
 
+TEST(LibraryCalibration, SaysHowFarOffTheCorrectedToolMayBe) {
+  const Arm nominal(short_arm());
+  const CalibratedArm arm = calibrate(Measurements(nominal, measured_short_arm()), fitted_only());
+  constexpr int kCommands = 200;
+  int within = 0;
+  double wider_by = 0.0;
+  for (int i = 0; i < kCommands; ++i) {
+    const JointCommand command{{90 * std::sin(3.1 * i), 50 * std::cos(1.9 * i), 70 * std::sin(0.7 * i)}};
+    std::vector<double> real = arm.correct(command);
+    real[1] += 0.5e-3 * 57.29577951308232;
+    const auto at = nominal.pose(real).position_mm, meant = nominal.pose(command.joints).position_mm;
+    const double off_mm = std::hypot(at[0] - meant[0], at[1] - meant[1], at[2] - meant[2]);
+    within += off_mm <= arm.error95_mm(command) ? 1 : 0;
+    const JointCommand beyond{{command.joints[0], 120, command.joints[2]}};
+    wider_by += (arm.error95_mm(beyond) - arm.error95_mm(command)) / kCommands;
+  }
+  EXPECT_GE(within, kCommands * 9 / 10);
+  EXPECT_GT(wider_by, 0.0) << "joint 2 was measured within 60 deg";
+  EXPECT_LT(arm.error95_mm({{0, 0, 0}}), 0.2) << "1 mm would hold everything";
+}
+
 TEST(LibraryCalibration, PredictsWhereTheToolReallyIs) {
   const std::vector<PoseMeasurement> poses = measured_short_arm();
   const CalibratedArm arm = calibrate(Measurements(Arm(short_arm()), poses), fitted_only());

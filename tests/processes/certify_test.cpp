@@ -186,6 +186,24 @@ TEST(Certify, SaysWhatIsWrongWithFieldsAndTolerances) {
   EXPECT_TRUE(has(date.err, "'3 March': certificate.date must be a day written as 2026-01-31")) << date.err;
 }
 
+TEST(Certify, RefusesTheModelOfAnotherArmAsEvaluateDoes) {
+  Certified robot;
+  std::string arm = robot.text("data/robot.yaml");
+  const std::string upper_arm = "a_mm: 650,";
+  ASSERT_TRUE(has(arm, upper_arm)) << arm;
+  arm.replace(arm.find(upper_arm), upper_arm.size(), "a_mm: 690,");
+  std::ofstream(robot.path("data/robot.yaml")) << arm;
+  const Ended certified = robot.certify("1");
+  EXPECT_EQ(certified.code, 11);
+  EXPECT_TRUE(has(certified.err, "is not the arm that the model corrects (PUMA 761): described as it is"))
+      << certified.err;
+  EXPECT_TRUE(has(certified.err, "up to 40 mm from there")) << certified.err;
+  EXPECT_EQ(robot.text("signed/certificate.html"), "");
+  const std::vector<std::string> evaluate{"evaluate", robot.path("out/model.yaml"), robot.path("data/dataset.yaml")};
+  EXPECT_EQ(run("demecal", evaluate).code, 11);
+  EXPECT_EQ(run("demecal", {evaluate[0], evaluate[1], evaluate[2], "--force"}).code, 0);
+}
+
 TEST(Certify, NeverOverwritesFilesThatAreNotOurs) {
   Certified robot;
   std::filesystem::create_directories(robot.path("signed"));
