@@ -16,6 +16,7 @@
 #include "effects/effect.hpp"
 #include "errors/input_error.hpp"
 #include "evolution/archipelago.hpp"
+#include "monitor/paced_events.hpp"
 #include "monitor/watched.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
@@ -28,7 +29,6 @@ using Stage = LoopNews::Stage;
 using EventClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kShutdownTimeout{300};
-constexpr double kShareOfNote = 0.05;  // less of a change in what a worker waited is not recorded
 
 std::uint64_t new_calibration() {
   const auto moment = std::chrono::system_clock::now().time_since_epoch().count();
@@ -152,12 +152,7 @@ void EventLog::on_workers_end() {
 
 void EventLog::on_worker(const WorkerStatus& status) {
   const auto known = workers_.find(status.worker);
-  if (known != workers_.end()) {
-    WorkerStatus before = known->second;
-    const double change = std::abs(status.waited_share - before.waited_share);
-    before.waited_share = status.waited_share;
-    if (before == status && change < kShareOfNote) return;
-  }
+  if (known != workers_.end() && !is_news(status, known->second)) return;
   workers_[status.worker] = status;
   file_.note(status);
 }

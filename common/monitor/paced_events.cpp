@@ -10,7 +10,6 @@ namespace demecal::inline monitor {
 namespace {
 
 constexpr double kFigures_s = 1.0;
-constexpr double kShareOfNote = 0.05;  // less of a change in what a worker waited is not told
 constexpr std::size_t kMostPaced = 20000;
 
 std::string key_of(const Progress& progress) {
@@ -19,6 +18,13 @@ std::string key_of(const Progress& progress) {
 }
 
 }  // namespace
+
+bool is_news(const WorkerStatus& status, const WorkerStatus& before) {
+  constexpr double kShareOfNote = 0.05;
+  WorkerStatus waited = before;
+  waited.waited_share = status.waited_share;
+  return !(waited == status) || std::abs(status.waited_share - before.waited_share) >= kShareOfNote;
+}
 
 std::vector<PacedLine> PacedEvents::take(const Message& message, double now_s) {
   watched_.take(message, now_s);
@@ -32,7 +38,7 @@ std::vector<PacedLine> PacedEvents::take(const Message& message, double now_s) {
   const std::string line = event_line(message, now_s);
   if (line.empty()) return lines;
   if (std::holds_alternative<Control>(message) || std::holds_alternative<LoopNews>(message)) {
-    for (auto& [island, paced] : islands_) tell(paced, now_s, lines);
+    for (auto& [island, paced] : islands_) emit(paced, now_s, lines);
   }
   lines.push_back({line, status == nullptr ? "" : "worker " + status->worker});
   return lines;
@@ -41,9 +47,9 @@ std::vector<PacedLine> PacedEvents::take(const Message& message, double now_s) {
 std::vector<PacedLine> PacedEvents::due(double now_s) {
   std::vector<PacedLine> lines;
   for (auto& [island, paced] : islands_) {
-    if (now_s - paced.told_s >= interval_s_) tell(paced, now_s, lines);
+    if (now_s - paced.told_s >= interval_s_) emit(paced, now_s, lines);
   }
-  if (now_s - figures_told_s_ >= kFigures_s) tell_figures(now_s, lines);
+  if (now_s - figures_told_s_ >= kFigures_s) emit_figures(now_s, lines);
   return lines;
 }
 
@@ -54,31 +60,26 @@ void PacedEvents::take_progress(const Progress& progress, double now_s, std::vec
   paced.latest = progress;
   paced.latest.before.clear();
   paced.is_new = true;
-  if (is_first || now_s - paced.told_s >= interval_s_) tell(paced, now_s, lines);
+  if (is_first || now_s - paced.told_s >= interval_s_) emit(paced, now_s, lines);
   if (islands_.size() > kMostPaced) islands_.erase(islands_.begin());
 }
 
 bool PacedEvents::is_repeated(const WorkerStatus& status) {
   const auto known = workers_.find(status.worker);
   if (known == workers_.end() && workers_.size() > kMostPaced) workers_.clear();
-  if (known != workers_.end()) {
-    WorkerStatus before = known->second;
-    const double change = std::abs(status.waited_share - before.waited_share);
-    before.waited_share = status.waited_share;
-    if (before == status && change < kShareOfNote) return true;
-  }
+  if (known != workers_.end() && !is_news(status, known->second)) return true;
   workers_[status.worker] = status;
   return false;
 }
 
-void PacedEvents::tell(Paced& paced, double now_s, std::vector<PacedLine>& lines) const {
+void PacedEvents::emit(Paced& paced, double now_s, std::vector<PacedLine>& lines) const {
   if (!paced.is_new) return;
   paced.is_new = false;
   paced.told_s = now_s;
   lines.push_back({event_line(paced.latest, now_s), key_of(paced.latest)});
 }
 
-void PacedEvents::tell_figures(double now_s, std::vector<PacedLine>& lines) {
+void PacedEvents::emit_figures(double now_s, std::vector<PacedLine>& lines) {
   const WatchedRun* run = watched_.run();
   if (run == nullptr || !run->has_data()) return;
   figures_told_s_ = now_s;

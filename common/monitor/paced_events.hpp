@@ -12,6 +12,10 @@
 
 namespace demecal::inline monitor {
 
+/// Whether a worker's status says what the one before did not; less of a change in what it waited than 5 % is nothing
+/// new.
+bool is_news(const WorkerStatus& status, const WorkerStatus& before);
+
 /// A line as event_line() gives it, and what it is the latest state of: an island, a worker, the figures of a run.
 /// Empty of what happens once.
 struct PacedLine {
@@ -44,8 +48,8 @@ class PacedEvents {
 
   void take_progress(const Progress& progress, double now_s, std::vector<PacedLine>& lines);
   bool is_repeated(const WorkerStatus& status);
-  void tell(Paced& paced, double now_s, std::vector<PacedLine>& lines) const;
-  void tell_figures(double now_s, std::vector<PacedLine>& lines);
+  void emit(Paced& paced, double now_s, std::vector<PacedLine>& lines) const;
+  void emit_figures(double now_s, std::vector<PacedLine>& lines);
 
   double interval_s_;
   Watched watched_;

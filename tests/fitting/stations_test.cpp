@@ -13,7 +13,7 @@
 namespace demecal {
 namespace {
 
-constexpr double kExact_m = 1e-7;
+constexpr double kExactStation_m = 1e-7;
 
 /// What a station measured of `arm` without noise; base and tool are its own.
 DataSet measured_at(const KnownArm& arm, RandomStream& stream, const std::string& name, int poses, bool orientation) {
@@ -56,7 +56,7 @@ TEST(Stations, OfAWrongArmAreFittedAsOneToTheLastDigit) {
     ASSERT_EQ(joined.poses.size(), 75U);
     const Fit fit = fit_of(joined);
     EXPECT_EQ(fit.status, FitStatus::converged) << fit.sentence;
-    EXPECT_LT(largest_miss_m(fit.robot, joined), kExact_m);
+    EXPECT_LT(largest_miss_m(fit.robot, joined), kExactStation_m);
   }
 }
 
@@ -69,7 +69,7 @@ TEST(Stations, AreSeenAgainByTheModelAloneAndTogether) {
   const std::vector<Station> found = stations_as_found(fit.robot, joined);
   ASSERT_EQ(found.size(), 2U);
   for (const DataSet& data : {a, b, joined}) {
-    EXPECT_LT(largest_miss_m(seen_from_stations(fit.robot, found, data), data), kExact_m) << data.name;
+    EXPECT_LT(largest_miss_m(seen_from_stations(fit.robot, found, data), data), kExactStation_m) << data.name;
   }
   const DataSet other = measured_at(arm, stream, "D", 30, false);
   EXPECT_THROW(seen_from_stations(fit.robot, found, joined_stations({a, other}, StationTools::own)), InputError);
