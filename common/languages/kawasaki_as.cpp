@@ -53,9 +53,8 @@ class AsReader {
     }
     for (const LocationLiteral& literal : statements_.literals()) read_literal(literal);
     for (const auto& [begin, what] : statements_.computed()) {
-      program_.unknown_motions.push_back(begin);
-      skip_target(program_, {.name = "", .place = text_.place(begin)},
-                  '\'' + what + "' is computed when the program runs");
+      note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
+                          '\'' + what + "' is computed when the program runs");
     }
     statements_.note_approaches(text_, program_);
     finish();

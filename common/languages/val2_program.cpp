@@ -164,9 +164,8 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
     note_offset(program, text_.place(approach.begin), approach.name, approach.distance_mm);
   program.unknown_motions = indexed_;
   for (const auto& [begin, what] : computed_) {
-    program.unknown_motions.push_back(begin);
-    skip_target(program, {.name = "", .place = text_.place(begin)},
-                '\'' + what + "' is computed when the program runs");
+    note_unknown_motion(program, begin, {.name = "", .place = text_.place(begin)},
+                        '\'' + what + "' is computed when the program runs");
   }
 }
 

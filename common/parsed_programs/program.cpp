@@ -113,9 +113,13 @@ void skip_target(Program& program, const Target& target, const std::string& why)
   program.uncorrected.push_back({target.place, target.name, why + "; it is left as it is"});
 }
 
+void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why) {
+  program.unknown_motions.push_back(begin);
+  skip_target(program, target, why);
+}
+
 void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm) {
-  constexpr double kClose_mm = 100.0;  ///< within which an arm's error changes little
-  if (distance_mm && std::abs(*distance_mm) <= kClose_mm) return;
+  if (distance_mm && std::abs(*distance_mm) <= kCloseToPoint_mm) return;
   const std::string where = distance_mm
                                 ? "a place " + std::to_string(std::lround(std::abs(*distance_mm))) + " mm away from it"
                                 : "a place at a distance from it that is not known";

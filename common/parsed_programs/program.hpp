@@ -173,6 +173,13 @@ std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<con
 /// Says in `program` why this target cannot be corrected.
 void skip_target(Program& program, const Target& target, const std::string& why);
 
+/// Says in `program` that the motion at `begin` of the text goes to a place that is none of its targets, and why it is
+/// none: what is known of the joints ends there.
+void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why);
+
+/// Within which an arm's error changes little.
+inline constexpr double kCloseToPoint_mm = 100.0;
+
 /// Says in `program` that a place so far from the target of this name (nothing: it is not known how far) is given the
 /// target's correction; not where it is close by.
 void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm);
