@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -54,11 +55,27 @@ class FanucReader {
       at = read_position(at, text_.skip_spaces(text_.word_end(at)));
     }
     changes_.mark(program_.targets);
-    program_.unknown_motions = motions_.elsewhere();
+    end_at_motions_elsewhere();
     return std::move(program_);
   }
 
  private:
+  /// Where motions go to none of the targets; positions that are not in the file are said.
+  void end_at_motions_elsewhere() {
+    program_.unknown_motions = motions_.elsewhere();
+    std::set<std::string> corrected;
+    for (const Target& target : program_.targets) corrected.insert(target.name);
+    for (const auto& [number, uses] : motions_.uses()) {
+      const std::string name = "P[" + std::to_string(number) + ']';
+      if (corrected.contains(name)) continue;
+      for (const TargetUse& use : uses) {
+        program_.unknown_motions.push_back(use.begin);
+        if (!given_.contains(number))
+          skip_target(program_, {.name = name, .place = text_.place(use.begin)}, "it is not given in this file");
+      }
+    }
+  }
+
   /// Past the line that is this section's heading; the end where there is none.
   std::size_t section(std::string_view heading) const {
     for (std::size_t begin = 0; begin < code_.size();) {
@@ -80,6 +97,7 @@ class FanucReader {
     const int number = position_number(text_, open);
     Target target{.name = "P[" + std::to_string(number) + ']', .place = text_.place(begin)};
     if (number < 0) text_.fail(open, close + 1 - open, "must be the number of a position");
+    given_.insert(number);
     const auto [first, last] = first_group(brace + 1, end);
     make_target(number, components(first, last), std::move(target));
     return end;
@@ -232,6 +250,7 @@ class FanucReader {
   Program program_;
   FanucMotions motions_;
   ChangedNames changes_{text_};
+  std::set<int> given_;  ///< the numbers of all positions of the file
 };
 
 std::string fanuc_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

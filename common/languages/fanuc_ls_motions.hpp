@@ -24,6 +24,9 @@ class FanucMotions {
   /// Where motions go elsewhere than to a position alone.
   const std::vector<std::size_t>& elsewhere() const { return elsewhere_; }
 
+  /// The motions to each position.
+  const std::map<int, std::vector<TargetUse>>& uses() const { return uses_; }
+
   /// Why position `number` is not what the arm is sent to; empty: it is, as far as the instructions tell.
   std::string not_sent_to(int number) const;
 

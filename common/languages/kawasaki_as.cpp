@@ -148,6 +148,8 @@ class AsReader {
   /// Gives targets their frames and motions, and takes those out that are no places to go to.
   void finish() {
     const StatedFrames frames = statements_.frames([&](const std::string& name) { return tool(name); });
+    note_untold_locations(
+        text_, statements_.uses(), [&](const std::string& name) { return statements_.not_sent_to(name); }, program_);
     std::vector<Target> targets = std::exchange(program_.targets, {});
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });

@@ -61,6 +61,8 @@ class AsStatements {
     if (moves_base_) set_frame(frames, {"BASE", Eigen::Isometry3d::Identity(), "the base is moved by BASE"});
     return frames;
   }
+  /// The motions to every location, by its key.
+  const std::map<std::string, std::vector<TargetUse>>& uses() const { return uses_; }
   /// The motions to a location of this key.
   std::vector<TargetUse> uses(const std::string& name) const;
 

@@ -69,12 +69,6 @@ bool is_motion_of_val2(const std::string& word) {
   return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
 }
 
-/// Whether the indices of a name are numbers.
-bool has_known_indices(const std::string& name) {
-  const std::size_t open = name.find('[');
-  return open == std::string::npos || name.find_first_not_of("0123456789, ]", open + 1) == std::string::npos;
-}
-
 }  // namespace
 
 void Val2Statements::read_line(std::size_t begin, std::size_t end) {
@@ -107,7 +101,6 @@ void Val2Statements::read_motion(const std::string& word, std::size_t statement,
   }
   const bool line = word == "moves" || word == "movest" || word == "appros";
   uses_[location_key(name)].push_back({statement, line ? Motion::line : Motion::joints, {}});
-  if (!has_known_indices(name)) indexed_.push_back(statement);
   if (!word.starts_with("appro")) return;
   std::size_t distance = std::min(last + 1, end);
   const std::string_view number = text_.trimmed(distance, end);
@@ -147,6 +140,8 @@ StatedFrames Val2Statements::frames(const Program& program, const ControllerData
 
 void Val2Statements::complete(Program& program, const ControllerData& controller) const {
   const StatedFrames stated = frames(program, controller);
+  note_untold_locations(
+      text_, uses_, [&](const std::string& name) { return changes_.why(name); }, program);
   std::erase_if(program.targets, [&](const Target& target) {
     return std::find(tools_.begin(), tools_.end(), lower_name(target)) != tools_.end();
   });
@@ -162,7 +157,6 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
   changes_.mark(program.targets);
   for (const Approach& approach : approaches_)
     note_offset(program, text_.place(approach.begin), approach.name, approach.distance_mm);
-  program.unknown_motions = indexed_;
   for (const auto& [begin, what] : computed_) {
     note_unknown_motion(program, begin, {.name = "", .place = text_.place(begin)},
                         '\'' + what + "' is computed when the program runs");

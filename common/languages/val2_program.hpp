@@ -44,7 +44,6 @@ class Val2Statements {
   };
   std::vector<Approach> approaches_{};
   std::vector<std::pair<std::size_t, std::string>> computed_{};  ///< destinations that are no locations
-  std::vector<std::size_t> indexed_{};                           ///< motions to locations with computed indices
 };
 
 }  // namespace demecal::inline languages

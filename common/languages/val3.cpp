@@ -47,8 +47,8 @@ class Val3Reader {
 
   Program read() {
     for (const auto& [begin, what] : statements_.computed())
-      skip_target(program_, {.name = "", .place = text_.place(begin)},
-                  "a motion goes to '" + what + "', which is computed when the program runs");
+      note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
+                          "a motion goes to '" + what + "', which is computed when the program runs");
     say_what_is_not_given();
     for (const Val3Value& value : values_) {
       const bool of_joints = value.type == "jointRx";
@@ -56,9 +56,11 @@ class Val3Reader {
       Target target{.name = value.name, .place = text_.place(value.begin)};
       const auto cells = of_joints ? numbers(value, kJointAttributes, joint_units(arm_), target)
                                    : numbers(value, kPointAttributes, point_units(), target);
-      if (!cells) continue;
-      if (const std::string why = statements_.changed(value.name); !why.empty()) {
-        skip_target(program_, target, why);
+      const std::string why = statements_.changed(value.name);
+      if (cells && !why.empty()) skip_target(program_, target, why);
+      if (!cells || !why.empty()) {
+        for (const Val3Motion& motion : statements_.motions(value.name))
+          program_.unknown_motions.push_back(motion.begin);
         continue;
       }
       of_joints ? static_cast<void>(target.joints = *cells) : take_point(value, *cells, target);
@@ -76,9 +78,14 @@ class Val3Reader {
       given.insert(value.name);
       given.insert(value.name.substr(0, value.name.find('[')));
     }
-    for (const auto& [name, begin] : statements_.moved_to()) {
-      if (!given.contains(name))
-        skip_target(program_, {.name = name, .place = text_.place(begin)}, "it is not given in this program");
+    for (const auto& [name, motions] : statements_.motions()) {
+      const bool is_given = given.contains(name), one = name.find('[') != std::string::npos;
+      for (const Val3Motion& motion : motions) {
+        if (!is_given)
+          note_unknown_motion(program_, motion.begin, {.name = name, .place = text_.place(motion.begin)},
+                              "it is not given in this program");
+        if (is_given && !one) program_.unknown_motions.push_back(motion.begin);
+      }
     }
   }
 

@@ -145,7 +145,6 @@ void Val3Statements::read_goal(const Argument& argument, const Val3Motion& motio
   }
   if (goal.name.empty()) return;
   motions_[goal.name].push_back(motion);
-  moved_to_.try_emplace(goal.name, motion.begin);
 }
 
 /// NAME, NAME[index], and what is taken of it; no name where it is one of the program's own or a number.

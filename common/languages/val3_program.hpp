@@ -54,8 +54,8 @@ class Val3Statements {
   std::vector<Val3Motion> motions(const std::string& name) const;
   /// Why the value need not be that of the data when it is used, as "the program changes it"; empty: it is.
   std::string changed(const std::string& name) const;
-  /// All values that motions go to, and where the first of each stands; of a computed index the name without it.
-  const std::map<std::string, std::size_t>& moved_to() const { return moved_to_; }
+  /// All motions to values, or near them, by the values' names; of a computed index the name without it.
+  const std::map<std::string, std::vector<Val3Motion>>& motions() const { return motions_; }
   /// Where motions go to what is computed, and what that is.
   const std::map<std::size_t, std::string>& computed() const { return computed_; }
 
@@ -88,7 +88,6 @@ class Val3Statements {
   bool any_ = false;
   std::map<std::string, std::vector<Val3Motion>> motions_;
   std::map<std::string, std::string> changed_;
-  std::map<std::string, std::size_t> moved_to_;
   std::map<std::size_t, std::string> computed_;
 };
 

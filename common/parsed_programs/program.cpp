@@ -102,7 +102,9 @@ void take_uses(const std::vector<TargetUse>& uses, Target& target) {
   target.order = first->begin;
   target.frames = first->frames;
   target.motion = Motion::line;
+  target.further_motions.clear();
   for (const TargetUse& use : uses) {
+    if (use.begin != first->begin) target.further_motions.push_back(use.begin);
     if (use.motion == Motion::joints) target.motion = Motion::joints;
     if (!same_tool(use.frames, first->frames)) target.frames.unknown_tool = "it is moved to with different tools";
     if (!same_frame(use.frames, first->frames)) target.frames.unknown_frame = "it is moved to in different frames";
@@ -116,6 +118,12 @@ void skip_target(Program& program, const Target& target, const std::string& why)
 void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why) {
   program.unknown_motions.push_back(begin);
   skip_target(program, target, why);
+}
+
+void end_at_motions_to(const Target& target, Program& program) {
+  program.unknown_motions.push_back(target.order);
+  program.unknown_motions.insert(program.unknown_motions.end(), target.further_motions.begin(),
+                                 target.further_motions.end());
 }
 
 void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm) {

@@ -57,7 +57,8 @@ struct Target {
   std::vector<Cell> orientation{};
   ArmHint hint{};
   Motion motion = Motion::joints;
-  std::size_t order = 0;  ///< targets are visited by this, then in the order of the text
+  std::size_t order = 0;                       ///< targets are visited by this, then in the order of the text
+  std::vector<std::size_t> further_motions{};  ///< bytes at which the program moves to it again
   StatedFrames frames{};
   /// Why the robot may be sent elsewhere than to these numbers, which are then left as they are; empty: it is not.
   std::string not_sent_to{};
@@ -176,6 +177,9 @@ void skip_target(Program& program, const Target& target, const std::string& why)
 /// Says in `program` that the motion at `begin` of the text goes to a place that is none of its targets, and why it is
 /// none: what is known of the joints ends there.
 void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why);
+
+/// That motions to it go to none of the program's targets, as it is taken out of them.
+void end_at_motions_to(const Target& target, Program& program);
 
 /// Within which an arm's error changes little.
 inline constexpr double kCloseToPoint_mm = 100.0;

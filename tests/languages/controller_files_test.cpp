@@ -89,7 +89,8 @@ TEST(FanucLs, LeavesWhatIsNoPlaceToGoTo) {
   EXPECT_THAT(left("L P[1] 100mm/sec FINE Offset,PR[2]", pose), ElementsAre(HasSubstr("register or an offset")));
   EXPECT_THAT(left("L P[R[3]] 100mm/sec FINE Tool_Offset", pose), ElementsAre(HasSubstr("a motion may go by it")));
   EXPECT_THAT(left("J PR[1:home] 100% FINE", pose), ElementsAre(HasSubstr("the motion goes to a register")));
-  EXPECT_THAT(left("C P[7]\n    :  P[1] 100mm/sec FINE INC", pose), ElementsAre(HasSubstr("a motion goes by it")));
+  EXPECT_THAT(left("C P[7]\n    :  P[1] 100mm/sec FINE INC", pose),
+              ElementsAre(HasSubstr("a motion goes by it"), HasSubstr("P[7]: it is not given in this file")));
   EXPECT_THAT(left("L P[1] 1mm/sec FINE",
                    "P[1]{\n GP1:\n X = ******** mm, Y = 1 mm, Z = 1 mm, W = 1 deg, P = 1 deg, R = 1 deg\n};"),
               ElementsAre(HasSubstr("it is not taught")));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "kinematics/random_arm.hpp"
 #include "languages/reading_checks.hpp"
@@ -87,6 +88,82 @@ TEST(UntoldPlaces, OfRelativeMotionsOfKrlHaveTheCorrectionOfThePlaceBefore) {
   EXPECT_THAT(said("LIN XP1\nLIN_REL {Z 90}\nLIN XP1\nSLIN_REL {Z 90}\n", 8), IsEmpty());
   EXPECT_THAT(said("PTP_REL {A1 10}\n", 5), HasSubstr("not known"));
   EXPECT_THAT(said("LIN_REL XP1\n", 5), HasSubstr("not known"));
+}
+
+// Other languages
+
+TEST(UntoldPlaces, OfVal3AreReported) {
+  const std::string data =
+      "<Data name=\"j\" type=\"jointRx\"><Value j1=\"1\" j2=\"2\" j3=\"3\" j4=\"4\" j5=\"5\" j6=\"6\"/></Data>"
+      "<Data name=\"k\" type=\"jointRx\"><Value j1=\"1\"/></Data>"
+      "<Program name=\"start\"><Code><![CDATA[begin\nmovej(j,flange,m)\n";
+  const auto of = [&](const std::string& motion) { return data + motion + "\nend]]></Code></Program>\n"; };
+  expect_untold(WrittenIn::val3, of("movej(jLost,flange,m)"), 3, "jLost[0]: it is not given in this program");
+  expect_untold(WrittenIn::val3, of("movej(j,flange,m)\nmovel(pLost[4],flange,m)"), 4, "pLost[4]: it is not given");
+  expect_untold(WrittenIn::val3, of("movel(pLost,flange,m)\nmovel(pLost,flange,m)"), 4, "pLost[0]: it is not given");
+  expect_untold(WrittenIn::val3, of("movel(appro(pLost,tr),flange,m)"), 3, "pLost[0]: it is not given");
+  expect_untold(WrittenIn::val3, of("movel(compose(a,b,c),flange,m)"), 3, "which is computed when the program runs");
+  expect_untold(WrittenIn::val3, of("movej(j[n],flange,m)"), 3, "");
+  const std::string bad = of("movej(k,flange,m)"), changed = of("movej(j,flange,m)\nj.j1=3");
+  EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, bad, "p", wrist_arm()), bad, 3)) << "it leaves numbers out";
+  EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, changed, "p", wrist_arm()), changed, 3));
+  const std::string told = of("movej(j,flange,m)");
+  EXPECT_THAT(read_program(WrittenIn::val3, told, "p", wrist_arm()).unknown_motions, IsEmpty());
+}
+
+TEST(UntoldPlaces, OfYaskawaAreReported) {
+  const std::string job =
+      "//POS\n///POSTYPE BASE\n///RECTAN\nC00001=1,2,3,4,5,6\nP00003=1,2,3,4,5,6\n//INST\nNOP\nMOVJ C00001\n";
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL C00002\nEND\n", 9, "C2: it is not given in this file");
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL C00001\nMOVJ P007\nMOVJ P007\nEND\n", 11, "P7: it is not given");
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL P[I001]\nEND\n", 9, "which is computed when the program runs");
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL LP001\nEND\n", 9, "which is computed when the program runs");
+  for (const char* motion : {"IMOV P003", "SFTON P001\nMOVL C00001", "SMOVL C00001", "SET P003 P004\nMOVL P003"}) {
+    const std::string text = job + motion + "\nEND\n";
+    EXPECT_TRUE(ends_in_line(read_program(WrittenIn::yaskawa_jbi, text, "p", wrist_arm()), text,
+                             std::string_view(motion).find('\n') == std::string_view::npos ? 9 : 10))
+        << motion;
+  }
+  EXPECT_THAT(read_program(WrittenIn::yaskawa_jbi, job + "MOVL P003 V=5.0 +MOVJ EC00001\nEND\n", "p", wrist_arm())
+                  .unknown_motions,
+              IsEmpty());
+}
+
+TEST(UntoldPlaces, OfFanucAreReported) {
+  const auto of = [](const std::string& motions, const std::string& positions = "") {
+    return "/MN\n  1:J P[1] 100% FINE ;\n" + motions + "/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n J1= 1 deg, J2= 2 deg, " +
+           "J3= 3 deg, J4= 4 deg, J5= 5 deg, J6= 6 deg\n};\n" + positions + "/END\n";
+  };
+  expect_untold(WrittenIn::fanuc_ls, of("  2:L P[4] 9mm/sec FINE ;\n"), 3, "P[4]: it is not given in this file");
+  expect_untold(WrittenIn::fanuc_ls, of("  2:J P[1] 9% FINE ;\n  3:J P[4:up] 9% FINE ;\n"), 4, "P[4]: it is not given");
+  const std::string untaught =
+      of("  2:L P[4] 9mm/sec FINE ;\n",
+         "P[4]{\n GP1:\n UF : 0, UT : 0,\n X = ******** mm, Y = 1 mm, Z = 1 mm, W = 1 deg, P = 1 deg, R = 1 deg\n};\n");
+  EXPECT_TRUE(ends_in_line(read_program(WrittenIn::fanuc_ls, untaught, "p", wrist_arm()), untaught, 3));
+  EXPECT_THAT(read_program(WrittenIn::fanuc_ls, of(""), "p", wrist_arm()).unknown_motions, IsEmpty());
+}
+
+TEST(UntoldPlaces, OfAsAndVal2AreReported) {
+  const std::string as = ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n";
+  const std::string val2 = ".LOCATIONS\np 1 0 0 0 1 0 0 0 1 10 20 30\n.END\n.PROGRAM a\n";
+  for (const auto& [language, head, motion] :
+       {std::tuple{WrittenIn::kawasaki_as, as, " LMOVE "}, std::tuple{WrittenIn::val2, val2, " MOVES "}}) {
+    expect_untold(language, head + motion + "lost\n", 5, "lost: it is not given as numbers in this program");
+    expect_untold(language, head + motion + "p\n" + motion + "#lost[2]\n", 6, "#lost[2]: it is not given as numbers");
+    EXPECT_THAT(read_program(language, head + motion + "p\n", "p", wrist_arm()).unknown_motions, IsEmpty());
+  }
+  expect_untold(WrittenIn::kawasaki_as, as + " LAPPRO lost,50\n", 5, "lost: it is not given as numbers");
+  expect_untold(WrittenIn::val2, val2 + " APPRO lost,50\n", 5, "lost: it is not given as numbers");
+  expect_untold(WrittenIn::kawasaki_as, as + " POINT lost = TRANS(x,2,3,4,5,6)\n LMOVE lost\n", 6, "lost: ");
+}
+
+TEST(UntoldPlaces, AreThoseOfNamesThatStandInTwoFiles) {
+  const ProgramSource source({{"a.src", "PTP XP1\nLIN XP2\n"},
+                              {"a.dat", "E6POS XP1={X 1,Y 2,Z 3,A 4,B 5,C 6}\nE6POS XP2={X 1,Y 2,Z 3,A 4,B 5,C 6}\n"},
+                              {"b.dat", "E6POS XP1={X 9,Y 2,Z 3,A 4,B 5,C 6}\n"}});
+  const Program program = read_program(row_of(WrittenIn::krl), source, wrist_arm());
+  ASSERT_THAT(program.targets, SizeIs(1));
+  EXPECT_TRUE(ends_in_line(program, source.text(), 1));
 }
 
 }  // namespace
