@@ -15,12 +15,6 @@
 namespace demecal::inline parsed_programs {
 namespace {
 
-/// The last setting before `offset`; null where there is none.
-const KnownFrame* last_before(const std::map<std::size_t, KnownFrame>& settings, std::size_t offset) {
-  const auto after = settings.lower_bound(offset);
-  return after == settings.begin() ? nullptr : &std::prev(after)->second;
-}
-
 bool same_tool(const StatedFrames& one, const StatedFrames& other) {
   if (one.unknown_tool != other.unknown_tool || one.tool.has_value() != other.tool.has_value()) return false;
   return !one.tool || one.tool->isApprox(*other.tool, 1e-9);
@@ -87,13 +81,6 @@ void set_frame(StatedFrames& frames, const KnownFrame& frame) {
   frames.frame = frame.name;
   frames.unknown_frame = frame.unknown;
   frames.base_from_frame = frame.pose;
-}
-
-StatedFrames FrameSettings::at(std::size_t offset) const {
-  StatedFrames frames;
-  if (const KnownFrame* tool = last_before(tools_, offset)) set_tool(frames, *tool);
-  if (const KnownFrame* frame = last_before(frames_, offset)) set_frame(frames, *frame);
-  return frames;
 }
 
 void take_uses(const std::vector<TargetUse>& uses, Target& target) {

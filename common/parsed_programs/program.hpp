@@ -140,17 +140,6 @@ void declare(std::map<Key, KnownFrame>& declared, const Key& key, const KnownFra
 void set_tool(StatedFrames& frames, const KnownFrame& tool);
 void set_frame(StatedFrames& frames, const KnownFrame& frame);
 
-/// Settings that hold from where they stand to the next.
-class FrameSettings {
- public:
-  void tool_from(std::size_t begin, const KnownFrame& tool) { tools_.insert_or_assign(begin, tool); }
-  void frame_from(std::size_t begin, const KnownFrame& frame) { frames_.insert_or_assign(begin, frame); }
-  StatedFrames at(std::size_t offset) const;
-
- private:
-  std::map<std::size_t, KnownFrame> tools_, frames_;
-};
-
 /// One motion to a target.
 struct TargetUse {
   std::size_t begin = 0;  ///< of the motion in the text
