@@ -170,6 +170,8 @@ class FanucReader {
     of_joints ? joint_target(target, joints) : pose_target(target, parts, components);
     if (target.joints.empty() && target.position.empty()) return;
     motions_.complete(number, target);
+    if (target.is_pose())
+      target.not_sent_to = motions_.stopped_by(text_, number, word_of(components, "uf"), word_of(components, "ut"));
     program_.targets.push_back(std::move(target));
   }
 
@@ -230,6 +232,8 @@ class FanucReader {
       if (number == "0") return KnownFrame{word + " 0", Eigen::Isometry3d::Identity(), ""};
       if (lower_case(number) == "f") return KnownFrame::computed(word);
       const std::string name = word + ' ' + number;
+      const std::string changed = changes_.why((word == "UF" ? "UFRAME[" : "UTOOL[") + number + ']');
+      if (!changed.empty()) return KnownFrame{name, Eigen::Isometry3d::Identity(), name + " is not known: " + changed};
       return word == "UF" ? controller_.frame(number, name) : controller_.tool(number, name);
     };
     if (!frame.empty()) set_frame(target.frames, known("UF", frame));
