@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinematics/random_arm.hpp"
 #include "languages/reading_checks.hpp"
 
@@ -105,6 +107,98 @@ TEST(KrlFlow, SaysOnceWhichOtherRoutinesAreBelieved) {
   EXPECT_THAT(remarks("GRIP(1)\n$TOOL=$NULLFRAME\n" + base_of(1) + kLine), IsEmpty()) << "both are set after it";
   EXPECT_THAT(remarks("GRIP(1)\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}\n"), IsEmpty()) << "joints are in no frame";
   EXPECT_THAT(remarks("BAS(#INITMOV,0)\nPULSE($OUT[1],TRUE,1)\n$OUT[2]=F(3)\n" + kLine), IsEmpty());
+}
+
+// AS and VAL II, whose statements of the kind are the same
+
+struct LocationLanguage {
+  WrittenIn language;
+  std::string points;  ///< p, q and the tools a and b, 100 and 200 mm long
+};
+
+const std::vector<LocationLanguage>& location_languages() {
+  static const std::vector<LocationLanguage> all{
+      {WrittenIn::kawasaki_as, ".TRANS\np 1 2 3 4 5 6\nq 1 2 3 4 5 6\na 0 0 100 0 0 0\nb 0 0 200 0 0 0\n.END\n"},
+      {WrittenIn::val2,
+       ".LOCATIONS\np 1 0 0 0 1 0 0 0 1 1 2 3\nq 1 0 0 0 1 0 0 0 1 1 2 3\na 1 0 0 0 1 0 0 0 1 0 0 100\nb 1 0 0 0 1 0 0 "
+       "0 1 0 0 200\n.END\n"}};
+  return all;
+}
+
+/// The length in mm of the tool with which `name` is reached, as a word, "unset", or why it is unknown.
+std::string tool_at(const LocationLanguage& in, const std::string& program, const std::string& name) {
+  const std::string motion = in.language == WrittenIn::val2 ? "MOVES" : "LMOVE";
+  std::string text = ".PROGRAM m\n" + program + ".END\n" + in.points;
+  for (std::size_t at = 0; (at = text.find("GO ", at)) != std::string::npos; at += 3)
+    if (text[at - 1] == ' ') text.replace(at, 2, motion);
+  for (const Target& target : read_program(in.language, text, "p", wrist_arm()).targets) {
+    if (target.name != name) continue;
+    if (!target.frames.unknown_tool.empty()) return target.frames.unknown_tool;
+    return target.frames.tool ? std::to_string(std::lround(1e3 * target.frames.tool->translation().z())) : "unset";
+  }
+  return "no target";
+}
+
+TEST(LocationFlow, FollowsProgramsThatSetTheTool) {
+  for (const LocationLanguage& in : location_languages()) {
+    SCOPED_TRACE(to_string(in.language));
+    const auto of = [&](const std::string& program, const std::string& name = "p") {
+      return tool_at(in, program, name);
+    };
+    const std::string sub = ".END\n.PROGRAM sub\n TOOL b\n";
+    EXPECT_EQ(of(" TOOL a\n GO p\n TOOL b\n GO q\n"), "100");
+    EXPECT_EQ(of(" TOOL a\n GO p\n TOOL b\n GO q\n", "q"), "200");
+    EXPECT_EQ(of(" TOOL a\n GO q\n CALL sub\n GO p\n" + sub), "200");
+    EXPECT_EQ(of(" TOOL a\n GO q\n CALL other\n GO p\n" + sub), "100");
+    EXPECT_EQ(of(" GO p\n TOOL a\n"), "TOOL is set only after a motion to it");
+    EXPECT_EQ(of(" GO p\n CALL sub\n GO p\n" + sub), "it is moved to with different tools");
+    EXPECT_EQ(of(" CALL sub\n GO p\n" + sub), "200");
+    const std::string depends = "TOOL depends on the path that the program takes here";
+    EXPECT_EQ(of(" TOOL a\n IF x THEN\n TOOL b\n END\n GO p\n"), depends);
+    EXPECT_EQ(of(" TOOL a\n IF x THEN\n TOOL b\n ELSE\n TOOL b\n END\n GO p\n"), "200");
+    EXPECT_EQ(of(" TOOL a\n10 GO p\n TOOL b\n IF x GOTO 10\n"), depends);
+    EXPECT_EQ(of(" TOOL a\n FOR i = 1 TO 3\n GO p\n TOOL b\n END\n"), depends);
+    EXPECT_EQ(of(" TOOL a\n CASE x OF\n VALUE 1:\n TOOL b\n END\n GO p\n"), depends);
+    EXPECT_EQ(of(" GO p\n"), "unset");
+    EXPECT_EQ(of(" TOOL a\n GO p\n TOOL b\n GO p\n"), "it is moved to with different tools");
+  }
+}
+
+TEST(LocationFlow, SaysOnceWhichOtherProgramsAreBelieved) {
+  for (const LocationLanguage& in : location_languages()) {
+    const std::string motion = in.language == WrittenIn::val2 ? " MOVES p\n" : " LMOVE p\n";
+    const auto remarks = [&](const std::string& program) {
+      return read_program(in.language, ".PROGRAM m\n" + program + ".END\n" + in.points, "p", wrist_arm()).remarks;
+    };
+    const auto said = remarks(" CALL grip\n" + motion + " CALL grip\n" + motion);
+    ASSERT_THAT(said, SizeIs(1));
+    EXPECT_EQ(said[0].place.line, 2u);
+    EXPECT_THAT(said[0].sentence, HasSubstr("grip is not in the files given"));
+    EXPECT_THAT(remarks(motion + " CALL grip\n"), IsEmpty());
+  }
+}
+
+TEST(LocationFlow, TakesTheBaseFromTheControllersData) {
+  const Eigen::Isometry3d base(Eigen::Translation3d(0.5, 0, 0));
+  for (const LocationLanguage& in : location_languages()) {
+    SCOPED_TRACE(to_string(in.language));
+    const bool as = in.language == WrittenIn::kawasaki_as;
+    const auto read = [&](const std::string& program, const ControllerData& controller) {
+      const std::string motion = as ? " LMOVE p\n" : " MOVES p\n";
+      const ProgramSource source(".PROGRAM m\n" + program + motion + ".END\n" + in.points, "p");
+      return read_program(row_of(in.language), source, wrist_arm(), controller).targets.at(0).frames;
+    };
+    const std::string moved = as ? " BASE fixture\n" : " BASE dx,dy\n", key = as ? "fixture" : "base";
+    EXPECT_THAT(read(moved, {}).unknown_frame, HasSubstr("--frames"));
+    EXPECT_TRUE(read(moved, {.frames = {{key, base}}}).base_from_frame.isApprox(base));
+    EXPECT_EQ(read(moved, {.frames = {{key, base}}}).unknown_frame, "");
+    EXPECT_TRUE(read("", {.frames = {{"base", base}}}).base_from_frame.isApprox(base)) << "the program sets none";
+    EXPECT_TRUE(read(as ? " BASE NULL\n" : " BASE\n", {.frames = {{"base", base}}})
+                    .base_from_frame.isApprox(Eigen::Isometry3d::Identity()));
+  }
+  const ProgramSource named(".PROGRAM m\n BASE q\n LMOVE p\n.END\n" + location_languages()[0].points, "p");
+  const Program program = read_program(row_of(WrittenIn::kawasaki_as), named, wrist_arm());
+  for (const Target& target : program.targets) EXPECT_NE(target.name, "q") << "a correction would move the base";
 }
 
 }  // namespace
