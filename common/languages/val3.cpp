@@ -50,6 +50,8 @@ class Val3Reader {
       note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
                           "a motion goes to '" + what + "', which is computed when the program runs");
     say_what_is_not_given();
+    note_what_is_nearby();
+    note_calls();
     for (const Val3Value& value : values_) {
       const bool of_joints = value.type == "jointRx";
       if (!of_joints && value.type != "pointRx") continue;
@@ -71,6 +73,39 @@ class Val3Reader {
   }
 
  private:
+  void note_what_is_nearby() {
+    for (const Val3Nearby& nearby : statements_.nearby())
+      note_offset(program_, text_.place(nearby.begin), nearby.name,
+                  nearby.offset.empty() ? nearby.distance_mm : offset_mm(nearby.offset));
+  }
+
+  /// The length of a value of the data that displaces; nothing where it turns, is not given or is changed.
+  std::optional<double> offset_mm(const std::string& name) const {
+    const auto value =
+        std::ranges::find_if(values_, [&](const Val3Value& one) { return one.type == "trsf" && one.name == name; });
+    if (value == values_.end() || !statements_.changed(name).empty()) return std::nullopt;
+    const auto pose = transform(*value);
+    if (!pose || !pose->linear().isApprox(Eigen::Matrix3d::Identity(), 1e-9)) return std::nullopt;
+    return 1e3 * pose->translation().norm();
+  }
+
+  /// Says once which programs may change the data, and are not here.
+  void note_calls() {
+    std::vector<std::string> names;
+    for (const auto& [begin, name] : statements_.calls_elsewhere()) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    if (names.empty()) return;
+    constexpr std::size_t kNamed = 3;
+    std::string list = names.front();
+    for (std::size_t i = 1; i < std::min(names.size(), kNamed); ++i) list += ", " + names[i];
+    if (names.size() > kNamed) list += " and " + std::to_string(names.size() - kNamed) + " more";
+    program_.remarks.push_back({text_.place(statements_.calls_elsewhere().begin()->first), "",
+                                "the programs that are called, " + list +
+                                    ", are not in the files given: points, frames and tools are taken as the data have "
+                                    "them; --with FILE takes programs in"});
+  }
+
   /// Says where programs move to values that no data file gives.
   void say_what_is_not_given() {
     std::set<std::string> given;

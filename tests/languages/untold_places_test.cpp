@@ -102,7 +102,8 @@ TEST(UntoldPlaces, OfVal3AreReported) {
   expect_untold(WrittenIn::val3, of("movej(j,flange,m)\nmovel(pLost[4],flange,m)"), 4, "pLost[4]: it is not given");
   expect_untold(WrittenIn::val3, of("movel(pLost,flange,m)\nmovel(pLost,flange,m)"), 4, "pLost[0]: it is not given");
   expect_untold(WrittenIn::val3, of("movel(appro(pLost,tr),flange,m)"), 3, "pLost[0]: it is not given");
-  expect_untold(WrittenIn::val3, of("movel(compose(a,b,c),flange,m)"), 3, "which is computed when the program runs");
+  expect_untold(WrittenIn::val3, of("movel(compose(a,b,c),flange,m)"), 3, "a[0]: it is not given in this program");
+  expect_untold(WrittenIn::val3, of("movel(compose(a,b,c)+d,flange,m)"), 3, "which is computed when the program runs");
   expect_untold(WrittenIn::val3, of("movej(j[n],flange,m)"), 3, "");
   const std::string bad = of("movej(k,flange,m)"), changed = of("movej(j,flange,m)\nj.j1=3");
   EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, bad, "p", wrist_arm()), bad, 3)) << "it leaves numbers out";
