@@ -65,9 +65,9 @@ void KrlStatements::read_destination(std::size_t motion, std::size_t begin, std:
   // Robots are sent to where they stand, so that they have met their path.
   if (whole && (name == "$axis_act" || name == "$pos_act")) return;
   const TextPlace place = text_.place(begin);
-  const bool said = std::ranges::any_of(program_.uncorrected, [&](const Remark& remark) {
-    return remark.place.line == place.line && remark.place.file == place.file;
-  });
+  const bool said = code_[begin] == '{' && std::ranges::any_of(program_.uncorrected, [&](const Remark& remark) {
+                      return remark.place.line == place.line && remark.place.file == place.file;
+                    });
   if (said) return;  // by who read the aggregate
   std::size_t first = begin;
   const std::string written(text_.trimmed(first, whole ? name_end : stop));

@@ -75,6 +75,12 @@ TEST(UntoldPlaces, AuxiliaryPointsOfCirclesOfKrlAreReportedAlone) {
   EXPECT_FALSE(ends_in_line(program, text, 5)) << "where the arm comes to is told";
 }
 
+TEST(UntoldPlaces, BothPointsOfACircleOfKrlAreReported) {
+  const std::string said = said_in_line(read_program(WrittenIn::krl, kKrl + "CIRC XP5, XP6\n", "p", wrist_arm()), 5);
+  EXPECT_THAT(said, HasSubstr("'XP5'"));
+  EXPECT_THAT(said, HasSubstr("'XP6'"));
+}
+
 TEST(UntoldPlaces, OfRelativeMotionsOfKrlHaveTheCorrectionOfThePlaceBefore) {
   const auto said = [](const std::string& motions, std::size_t line) {
     const std::string text = kKrl + motions;
