@@ -210,19 +210,19 @@ class Corrector {
 };
 
 /// A motion to a target, the first or another.
-struct Visit {
+struct ProgramVisit {
   std::size_t order = 0, target = 0;
   bool again = false;
 };
 
 /// In the order in which targets are visited.
-std::vector<Visit> visits(const Program& program) {
-  std::vector<Visit> all;
+std::vector<ProgramVisit> visits(const Program& program) {
+  std::vector<ProgramVisit> all;
   for (std::size_t i = 0; i < program.targets.size(); ++i) {
     all.push_back({program.targets[i].order, i});
     for (const std::size_t order : program.targets[i].further_motions) all.push_back({order, i, true});
   }
-  std::ranges::stable_sort(all, {}, &Visit::order);
+  std::ranges::stable_sort(all, {}, &ProgramVisit::order);
   return all;
 }
 
