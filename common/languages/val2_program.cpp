@@ -81,7 +81,7 @@ void Val2Statements::read_line(std::size_t begin, std::size_t end) {
   const std::size_t argument = std::min(text_.skip_spaces(word_end), end);
   if (is_motion_of_val2(word)) return read_motion(word, begin, argument, end);
   if (word == "set") return read_set(argument, end);
-  if (word == "here") return changes_.changed(location_name(text_, argument, end), begin);
+  if (word == "here") return changes_.recorded(location_name(text_, argument, end), begin);
   if (word != "tool" && word != "base") return;
   std::string named = lower_case(code.substr(word_end, end - word_end));
   std::erase_if(named, [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; });

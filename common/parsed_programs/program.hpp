@@ -62,6 +62,8 @@ struct Target {
   StatedFrames frames{};
   /// Why the robot may be sent elsewhere than to these numbers, which are then left as they are; empty: it is not.
   std::string not_sent_to{};
+  /// That reason is only that the program records in it where the arm stands.
+  bool only_recorded = false;
   std::optional<ApproachSigns> approach{};  ///< where the file says it
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 

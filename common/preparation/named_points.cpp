@@ -80,7 +80,7 @@ std::vector<NamedPoint> named_points(const Program& program, PointKind kind, con
 
 void require_kept_numbers(const Program& program, std::size_t target) {
   const Target& point = program.targets[target];
-  if (point.not_sent_to.empty()) return;
+  if (point.not_sent_to.empty() || point.only_recorded) return;
   throw InputError({program.file_name(point.place.file), point.place.line}, point.name,
                    point.not_sent_to +
                        ": its numbers need not be those at which it was measured; name points that the program leaves "

@@ -34,7 +34,7 @@ enum class PointKind { joints, poses };
 std::vector<NamedPoint> named_points(const Program& program, PointKind kind, const std::string& points);
 
 /// Throws InputError where the program changes the target or hands it on, so that its numbers need not be those at
-/// which it was measured.
+/// which it was measured; one in which it records where the arm stands has those.
 void require_kept_numbers(const Program& program, std::size_t target);
 
 /// Where a target of a pose has the tool point, base frame. Throws InputError where its frame is not known.

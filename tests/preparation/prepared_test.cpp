@@ -195,12 +195,14 @@ TEST(Prepared, RefusesPointsThatTheProgramChanges) {
   };
   EXPECT_EQ(told(" MOVE #cp[1]\n SET x = #cp[1]\n"), "");
   EXPECT_EQ(told(" HERE #other\n"), "");
-  EXPECT_THAT(told(" HERE #cp[2]\n"), AllOf(HasSubstr("'#cp[2]': line 2 changes it when the program runs"),
-                                            HasSubstr("need not be those at which it was measured")));
+  EXPECT_EQ(told(" HERE #cp[2]\n"), "") << "where the arm stood is what was measured";
+  EXPECT_THAT(told(" HERE #cp[2]\n SET #cp[2] = #x\n"), HasSubstr("'#cp[2]': line 2 changes it"));
+  EXPECT_THAT(told(" SET #cp[2] = #x\n"), AllOf(HasSubstr("'#cp[2]': line 2 changes it when the program runs"),
+                                                HasSubstr("need not be those at which it was measured")));
   EXPECT_THAT(told(" SET #cp[n] = #x\n"), HasSubstr("line 2 changes it"));
-  EXPECT_THAT(told(" HERE mcp[3]\n"), HasSubstr("'mcp[3]': line 2 changes it"));
+  EXPECT_THAT(told(" SET mcp[3] = x\n"), HasSubstr("'mcp[3]': line 2 changes it"));
   const Program frame = point_file(
-                            ".PROGRAM m\n HERE p[2]\n.END\n.LOCATIONS\np[1] 1 0 0 0 1 0 0 0 1 500 0 0\n"
+                            ".PROGRAM m\n SET p[2] = x\n.END\n.LOCATIONS\np[1] 1 0 0 0 1 0 0 0 1 500 0 0\n"
                             "p[2] 1 0 0 0 1 0 0 0 1 900 0 0\np[3] 1 0 0 0 1 0 0 0 1 500 300 0\n.END\n",
                             arm.robot.chain, "f.v2")
                             .program;
@@ -213,7 +215,11 @@ TEST(Prepared, TakesProgrammedPosesInTheFrameThatTheirProgramStates) {
   RawMeasurements raw = raw_of(arm);
   raw.sets[0].poses = point_file(arm.val2_poses("mcp"), arm.robot.chain, "mcp.v2");
   const Prepared plain = prepare_measurements(raw);
-  const std::string moved = ".PROGRAM b\n BASE 100,-20,5,30\n.END\n" + arm.val2_poses("mcp");
+  const auto with_base = [&](const std::string& base) {
+    std::string text = arm.val2_poses("mcp");
+    return text.insert(text.find(" MOVE"), base);
+  };
+  const std::string moved = with_base(" BASE 100,-20,5,30\n");
   raw.sets[0].poses = point_file(moved, arm.robot.chain, "mcp.v2");
   const Prepared based = prepare_measurements(raw);
   const Eigen::Isometry3d world_from_base =
@@ -226,7 +232,7 @@ TEST(Prepared, TakesProgrammedPosesInTheFrameThatTheirProgramStates) {
   const std::vector<Eigen::Vector3d> errors_m = differences(based, FrameKind::three_points);
   for (std::size_t i = 0; i < errors_m.size(); ++i)
     EXPECT_LT((stated_point(written.targets.at(i)) - (based.poses[i].nominal_m - errors_m[i])).norm(), 1e-4);
-  raw.sets[0].poses = point_file(".PROGRAM b\n BASE x,y,z\n.END\n" + arm.val2_poses("mcp"), arm.robot.chain, "mcp.v2");
+  raw.sets[0].poses = point_file(with_base(" BASE x,y,z\n"), arm.robot.chain, "mcp.v2");
   EXPECT_THAT(complaint([&] { prepare_measurements(raw); }), HasSubstr("BASE is computed when the program runs"));
 }
 
