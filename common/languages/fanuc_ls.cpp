@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -54,11 +55,27 @@ class FanucReader {
       at = read_position(at, text_.skip_spaces(text_.word_end(at)));
     }
     changes_.mark(program_.targets);
-    program_.unknown_motions = motions_.elsewhere();
+    end_at_motions_elsewhere();
     return std::move(program_);
   }
 
  private:
+  /// Where motions go to none of the targets; positions that are not in the file are said.
+  void end_at_motions_elsewhere() {
+    program_.unknown_motions = motions_.elsewhere();
+    std::set<std::string> corrected;
+    for (const Target& target : program_.targets) corrected.insert(target.name);
+    for (const auto& [number, uses] : motions_.uses()) {
+      const std::string name = "P[" + std::to_string(number) + ']';
+      if (corrected.contains(name)) continue;
+      for (const TargetUse& use : uses) {
+        program_.unknown_motions.push_back(use.begin);
+        if (!given_.contains(number))
+          skip_target(program_, {.name = name, .place = text_.place(use.begin)}, "it is not given in this file");
+      }
+    }
+  }
+
   /// Past the line that is this section's heading; the end where there is none.
   std::size_t section(std::string_view heading) const {
     for (std::size_t begin = 0; begin < code_.size();) {
@@ -80,6 +97,7 @@ class FanucReader {
     const int number = position_number(text_, open);
     Target target{.name = "P[" + std::to_string(number) + ']', .place = text_.place(begin)};
     if (number < 0) text_.fail(open, close + 1 - open, "must be the number of a position");
+    given_.insert(number);
     const auto [first, last] = first_group(brace + 1, end);
     make_target(number, components(first, last), std::move(target));
     return end;
@@ -152,6 +170,8 @@ class FanucReader {
     of_joints ? joint_target(target, joints) : pose_target(target, parts, components);
     if (target.joints.empty() && target.position.empty()) return;
     motions_.complete(number, target);
+    if (target.is_pose())
+      target.not_sent_to = motions_.stopped_by(text_, number, word_of(components, "uf"), word_of(components, "ut"));
     program_.targets.push_back(std::move(target));
   }
 
@@ -212,6 +232,8 @@ class FanucReader {
       if (number == "0") return KnownFrame{word + " 0", Eigen::Isometry3d::Identity(), ""};
       if (lower_case(number) == "f") return KnownFrame::computed(word);
       const std::string name = word + ' ' + number;
+      const std::string changed = changes_.why((word == "UF" ? "UFRAME[" : "UTOOL[") + number + ']');
+      if (!changed.empty()) return KnownFrame{name, Eigen::Isometry3d::Identity(), name + " is not known: " + changed};
       return word == "UF" ? controller_.frame(number, name) : controller_.tool(number, name);
     };
     if (!frame.empty()) set_frame(target.frames, known("UF", frame));
@@ -232,6 +254,7 @@ class FanucReader {
   Program program_;
   FanucMotions motions_;
   ChangedNames changes_{text_};
+  std::set<int> given_;  ///< the numbers of all positions of the file
 };
 
 std::string fanuc_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

@@ -17,13 +17,27 @@ bool is_blank(char letter) {
   return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
 }
 
+/// Past the number of a line.
+std::size_t after_line_number(std::string_view code, std::size_t begin) {
+  while (begin < code.size() && (is_blank(code[begin]) || is_digit(code[begin]) || code[begin] == ':')) ++begin;
+  return begin;
+}
+
+/// "7" of "[7:up]" that opens at or after `begin`; empty where it is no number.
+std::string bracketed_number(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::size_t open = text.code().find('[', begin);
+  const int number = open < end ? position_number(text, open) : -1;
+  return number < 0 ? "" : std::to_string(number);
+}
+
 /// "  12:  P[3]=LPOS" and "P[3,2:y]=...", also behind IF.
 void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes) {
   const std::string_view code = text.code().substr(0, end);
-  while (begin < end && (is_blank(code[begin]) || is_digit(code[begin]) || code[begin] == ':')) ++begin;
+  begin = after_line_number(code, begin);
   if (begin < end && code[begin] == '!') return;  // a remark
   for (std::size_t at = begin; at < end; ++at) {
-    if (!text.begins_word(at) || text.word_at(at) != "p") continue;
+    const std::string word = text.begins_word(at) ? text.word_at(at) : "";
+    if (word != "p" && word != "uframe" && word != "utool") continue;
     const std::size_t open = text.skip_spaces(text.word_end(at));
     if (open >= end || code[open] != '[') continue;
     std::size_t close = open;
@@ -34,7 +48,7 @@ void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, C
     const std::size_t sign = close < end ? text.skip_spaces(close + 1) : end;
     if (sign >= end || code[sign] != '=') continue;
     const std::size_t index_end = std::min(code.find_first_of(":,", open), close);
-    changes.changed("P[" + std::string(code.substr(open + 1, index_end - open - 1)) + ']', at);
+    changes.changed(word + '[' + std::string(code.substr(open + 1, index_end - open - 1)) + ']', at);
   }
 }
 
@@ -56,14 +70,78 @@ void FanucMotions::read(const ProgramText& text, std::size_t begin, std::size_t 
     const std::size_t stop = std::min(text.code().find(';', begin), end);
     read_statement(text, begin, stop);
     find_changes(text, begin, stop, changes);
+    read_way(text, begin, stop);
     begin = stop + 1;
   }
+  selected_.finish();
+}
+
+/// What tells the way through the instructions, and the frame and tool that they select.
+void FanucMotions::read_way(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::string_view code = text.code().substr(0, end);
+  begin = after_line_number(code, begin);
+  if (begin >= end) return;
+  const std::string word = text.begins_word(begin) ? text.word_at(begin) : "";
+  const std::size_t comma = std::min(code.find(',', begin), end);
+  if (word == "if" && lower_case(code.substr(begin)).find("then") != std::string::npos)
+    return selected_.open(begin, FrameFlow::Block::branch);
+  if (word == "else" && comma >= end) return selected_.alternative(begin, true);
+  if (word == "for") return selected_.open(begin, FrameFlow::Block::loop);
+  if (word == "endif" || word == "endfor") return selected_.close(begin);
+  if (word == "end" || word == "abort") return selected_.leave_routine(begin);
+  if (word == "lbl") return selected_.label(begin, bracketed_number(text, begin, end));
+  const bool conditional = word == "if" || word == "select" || word == "else" || code[begin] == '=';
+  const std::size_t action = conditional ? std::min(comma + 1, end) : begin;
+  read_action(text, std::min(text.skip_spaces(action), end), end, conditional);
+}
+
+void FanucMotions::read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional) {
+  if (begin >= end || !text.begins_word(begin)) return;
+  const std::string word = text.word_at(begin);
+  const std::size_t next = text.skip_spaces(text.word_end(begin));
+  if (word == "jmp") {
+    const std::string to = bracketed_number(text, begin, end);
+    jumps_anywhere_ = jumps_anywhere_ || to.empty();
+    return selected_.jump(begin, to, !conditional);
+  }
+  const bool tool = word == "utool_num", frame = word == "uframe_num", calls = word == "call";
+  if (!calls && (!(tool || frame) || next >= end || text.code()[next] != '=')) return;
+  std::size_t value = std::min(next + 1, end);
+  const std::string_view number = text.trimmed(value, end);
+  const bool told = !calls && !number.empty() && std::all_of(number.begin(), number.end(), is_digit);
+  const KnownFrame selected{"selected", Eigen::Isometry3d::Identity(), told ? std::string(number) : "computed"};
+  if (conditional) selected_.open(begin, FrameFlow::Block::branch);
+  if (tool || calls) selected_.set_tool(begin, selected);
+  if (frame || calls) selected_.set_frame(begin, selected);
+  if (conditional) selected_.close(begin);
+}
+
+std::string FanucMotions::stopped_by(const ProgramText& text, int number, const std::string& frame,
+                                     const std::string& tool) const {
+  const auto found = uses_.find(number);
+  if (found == uses_.end() || jumps_anywhere_) return "";
+  const auto differs = [](const std::string& selected, const std::string& own) {
+    const auto is_number = [](const std::string& word) {
+      return !word.empty() && std::all_of(word.begin(), word.end(), is_digit);
+    };
+    return is_number(selected) && is_number(own) && selected != own;
+  };
+  for (const TargetUse& use : found->second) {
+    const StatedFrames selected = selected_.at(use.begin).frames;
+    const bool other_frame = differs(selected.unknown_frame, frame), other_tool = differs(selected.unknown_tool, tool);
+    if (!other_frame && !other_tool) continue;
+    return "line " + std::to_string(text.place(use.begin).line) + " moves to it with " +
+           (other_frame ? "UFRAME_NUM=" + selected.unknown_frame + ", and its UF is " + frame
+                        : "UTOOL_NUM=" + selected.unknown_tool + ", and its UT is " + tool) +
+           ": the controller stops there with an error";
+  }
+  return "";
 }
 
 /// "  12:L P[3] 100mm/sec FINE INC", its line number and line breaks included.
 void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code().substr(0, end);
-  while (begin < end && (is_blank(code[begin]) || is_digit(code[begin]) || code[begin] == ':')) ++begin;
+  begin = after_line_number(code, begin);
   constexpr std::string_view kLines = "lca";
   const std::string kind = lower_case(code.substr(begin, std::min<std::size_t>(1, end - begin)));
   const bool line = !kind.empty() && kLines.find(kind) != std::string_view::npos;

@@ -1,4 +1,5 @@
-// FANUC .LS: which motions of the program's instructions name which positions, and how.
+// FANUC .LS: which motions of the program's instructions name which positions, how, and with which frame and tool
+// selected.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "parsed_programs/changed_names.hpp"
+#include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -24,19 +26,30 @@ class FanucMotions {
   /// Where motions go elsewhere than to a position alone.
   const std::vector<std::size_t>& elsewhere() const { return elsewhere_; }
 
+  /// The motions to each position.
+  const std::map<int, std::vector<TargetUse>>& uses() const { return uses_; }
+
   /// Why position `number` is not what the arm is sent to; empty: it is, as far as the instructions tell.
   std::string not_sent_to(int number) const;
+
+  /// Why the controller stops where it moves to a pose with these numbers of frame and tool (UF, UT), since others are
+  /// selected there (UFRAME_NUM, UTOOL_NUM); empty: it does not, or what is selected is not certain.
+  std::string stopped_by(const ProgramText& text, int number, const std::string& frame, const std::string& tool) const;
 
   /// Gives the position its place among the motions, and whether lines lead to it.
   void complete(int number, Target& target) const;
 
  private:
   void read_statement(const ProgramText& text, std::size_t begin, std::size_t end);
+  void read_way(const ProgramText& text, std::size_t begin, std::size_t end);
+  void read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional);
 
   std::map<int, std::vector<TargetUse>> uses_;
   std::vector<std::size_t> to_registers_, elsewhere_;
   std::map<int, std::string> not_sent_to_;
-  std::string computed_numbers_{};  ///< why no position is certain; empty: all are
+  FrameFlow selected_{"UTOOL_NUM", "UFRAME_NUM"};  ///< the numbers, as why frames are unknown
+  bool jumps_anywhere_ = false;                    ///< to a label whose number is computed
+  std::string computed_numbers_{};                 ///< why no position is certain; empty: all are
 };
 
 /// The number of a position whose bracket opens at `open`: 3 of [3] and of [3:name]; nothing, -1, where it is no

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -53,12 +54,12 @@ class AsReader {
     }
     for (const LocationLiteral& literal : statements_.literals()) read_literal(literal);
     for (const auto& [begin, what] : statements_.computed()) {
-      program_.unknown_motions.push_back(begin);
-      skip_target(program_, {.name = "", .place = text_.place(begin)},
-                  '\'' + what + "' is computed when the program runs");
+      note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
+                          '\'' + what + "' is computed when the program runs");
     }
     statements_.note_approaches(text_, program_);
     finish();
+    statements_.way().note_calls_elsewhere(text_, program_);
     return std::move(program_);
   }
 
@@ -68,7 +69,10 @@ class AsReader {
     end = begin + line.size();
     if (line.empty() || line.starts_with(".*")) return;
     if (line.front() == '.' && (line.size() < 2 || !is_digit(line[1]))) {
-      section_ = section_of(lower_case(line.substr(0, line.find_first_of(" \t("))));
+      const std::size_t word = std::min(line.find_first_of(" \t("), line.size());
+      section_ = section_of(lower_case(line.substr(0, word)));
+      const bool begins = section_ == AsSection::program;
+      statements_.way().begin_program(text_, begin, begins ? program_name(text_, text_.skip_spaces(begin + word)) : "");
       return;
     }
     if (section_ == AsSection::program) statements_.read_line(text_, begin, end);
@@ -134,6 +138,11 @@ class AsReader {
     return here || kept == controller_.tools.end() ? location(name) : std::optional(kept->second);
   }
 
+  std::optional<Eigen::Isometry3d> kept_frame(const std::string& name) const {
+    const auto kept = controller_.frames.find(name);
+    return kept == controller_.frames.end() ? std::nullopt : std::optional(kept->second);
+  }
+
   /// The pose of the only location of this name.
   std::optional<Eigen::Isometry3d> location(const std::string& name) const {
     const Target* found = nullptr;
@@ -148,13 +157,23 @@ class AsReader {
 
   /// Gives targets their frames and motions, and takes those out that are no places to go to.
   void finish() {
-    const StatedFrames frames = statements_.frames([&](const std::string& name) { return tool(name); });
-    std::vector<Target> targets = std::exchange(program_.targets, {});
+    statements_.way().finish();
+    std::map<std::string, std::optional<Eigen::Isometry3d>> tools;
+    const AsStatements::Lookup lookup{[&](const std::string& name) {
+                                        const auto [found, fresh] = tools.try_emplace(name);
+                                        if (fresh) found->second = tool(name);
+                                        return found->second;
+                                      },
+                                      [&](const std::string& name) { return kept_frame(name); }};
+    const StatedFrames frames = statements_.frames(lookup);
+    note_untold_locations(
+        text_, statements_.uses(), [&](const std::string& name) { return statements_.not_sent_to(name); }, program_);
+    std::vector<Target> targets = program_.targets, kept;
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
     for (Target& target : targets) {
       const std::string name = location_key(target.name);
-      if (!name.empty() && statements_.is_tool(name)) continue;
+      if (!name.empty() && statements_.is_frame(name)) continue;
       std::string why = name.empty() ? "" : statements_.not_sent_to(name);
       if (why.empty() && target.is_pose() && !statements_.sets_configuration().empty())
         why = "the program sets the arm's configuration (" + statements_.sets_configuration() +
@@ -164,12 +183,14 @@ class AsReader {
         for (const TargetUse& use : statements_.uses(name)) program_.unknown_motions.push_back(use.begin);
         continue;
       }
-      target.frames = frames;
+      const bool pose = target.is_pose();
+      target.frames = name.empty() ? statements_.frames_at(target.order, pose, lookup) : frames;
       std::vector<TargetUse> uses = name.empty() ? std::vector<TargetUse>{} : statements_.uses(name);
-      for (TargetUse& use : uses) use.frames = frames;
+      for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
-      program_.targets.push_back(std::move(target));
+      kept.push_back(std::move(target));
     }
+    program_.targets = std::move(kept);
   }
 
   ProgramText text_;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "uwrist", "dwrist"};
 
+const std::string kSystemTool = "of .SYSDATA";  ///< no location's name, for it has a blank
+
 /// Motions to a location; those whose names begin with J and HMOVE move joint by joint.
 bool is_motion(const std::string& word) {
   constexpr std::array<std::string_view, 9> kMotions{"jmove",  "lmove",  "hmove",  "xmove", "c1move",
@@ -34,6 +36,7 @@ bool is_sum(std::string_view argument) {
 }  // namespace
 
 void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
+  way_.read_line(text, begin, end);
   begin = text.skip_spaces(begin);
   while (begin < end && is_digit(text.code()[begin])) ++begin;  // a label
   begin = text.skip_spaces(begin);
@@ -52,8 +55,9 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
   }
   if (word == "tool" || word == "base") {
     std::size_t first = std::min(argument, end);
-    const std::string named = location_key(text.trimmed(first, end));
-    word == "tool" ? static_cast<void>(tools_.insert(named)) : static_cast<void>(moves_base_ |= named != "null");
+    const std::string written = location_key(text.trimmed(first, end)), named = written.empty() ? "null" : written;
+    (word == "tool" ? tools_ : bases_).insert(named);
+    word == "tool" ? way_.tool(begin, named) : way_.base(begin, named);
   }
 }
 
@@ -68,8 +72,8 @@ void AsStatements::read_system_line(const ProgramText& text, std::size_t begin, 
     moved = moved || !cell || cell->value != 0.0;
     at = std::max(stop, at + 1);
   }
-  if (word == "base") moves_base_ = moves_base_ || moved;
-  if (word == "tool" && moved) tools_.insert("of .SYSDATA");
+  if (word == "base") system_base_ = system_base_ || moved;
+  if (word == "tool" && moved) tools_.insert(kSystemTool);
 }
 
 void AsStatements::read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end) {
@@ -151,6 +155,54 @@ std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text,
     at = stop + 1;
   }
   return literal;
+}
+
+KnownFrame AsStatements::tool_of(const std::string& word, const Lookup& lookup) const {
+  if (word == "null") return {"flange", Eigen::Isometry3d::Identity(), ""};
+  const auto pose = word == kSystemTool ? std::nullopt : lookup.tool(word);
+  return pose ? KnownFrame{word, *pose, ""} : KnownFrame::computed("TOOL");
+}
+
+KnownFrame AsStatements::base_of(const std::string& word, const Lookup& lookup) const {
+  if (word == "null") return {"base", Eigen::Isometry3d::Identity(), ""};
+  const auto pose = lookup.base(word);
+  if (pose) return {word, *pose, ""};
+  return {word, Eigen::Isometry3d::Identity(),
+          "the base is moved by BASE, and --frames gives no frame '" + word + "' that says where to"};
+}
+
+StatedFrames AsStatements::frames(const Lookup& lookup) const {
+  StatedFrames frames;
+  if (tools_.size() == 1) set_tool(frames, tool_of(*tools_.begin(), lookup));
+  if (tools_.size() > 1) set_tool(frames, {"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
+  std::set<std::string> bases = bases_;
+  if (system_base_ || (bases.empty() && lookup.base("base"))) bases.insert("base");
+  if (bases.size() == 1) set_frame(frames, base_of(*bases.begin(), lookup));
+  if (bases.size() > 1) set_frame(frames, {"BASE", Eigen::Isometry3d::Identity(), "several bases are set by BASE"});
+  return frames;
+}
+
+StatedFrames AsStatements::frames_at(std::size_t motion, bool of_pose, const Lookup& lookup) {
+  StatedFrames held = frames(lookup);
+  const LocationFrames::Words words = way_.at(motion, of_pose);
+  const auto unset = [](const std::string& what) {
+    return KnownFrame{what, Eigen::Isometry3d::Identity(), what + " is set only after a motion to it"};
+  };
+  if (!words.tool.unknown.empty()) {
+    set_tool(held, {"TOOL", Eigen::Isometry3d::Identity(), words.tool.unknown});
+  } else if (!words.tool.word.empty()) {
+    set_tool(held, tool_of(words.tool.word, lookup));
+  } else if (!tools_.empty()) {
+    set_tool(held, tools_.contains(kSystemTool) ? tool_of(kSystemTool, lookup) : unset("TOOL"));
+  }
+  if (!words.base.unknown.empty()) {
+    set_frame(held, {"BASE", Eigen::Isometry3d::Identity(), words.base.unknown});
+  } else if (!words.base.word.empty()) {
+    set_frame(held, base_of(words.base.word, lookup));
+  } else if (!bases_.empty()) {
+    set_frame(held, system_base_ || lookup.base("base") ? base_of("base", lookup) : unset("BASE"));
+  }
+  return held;
 }
 
 std::string AsStatements::not_sent_to(const std::string& name) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "languages/location_frames.hpp"
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
@@ -45,26 +47,26 @@ class AsStatements {
   std::string not_sent_to(const std::string& name) const;
   /// Why poses are not reached in a configuration that can be told; empty: nothing sets one.
   const std::string& sets_configuration() const { return sets_configuration_; }
-  /// Whether TOOL names this location, so that nothing moves to it.
-  bool is_tool(const std::string& name) const { return tools_.contains(name); }
-  /// The frames of all locations; `location` finds the pose of one by its key.
-  template <typename Find>
-  StatedFrames frames(const Find& location) const {
-    StatedFrames frames;
-    if (tools_.size() == 1) {
-      const std::string& name = *tools_.begin();
-      const std::optional<Eigen::Isometry3d> pose = name == "null" ? Eigen::Isometry3d::Identity() : location(name);
-      set_tool(frames, pose ? KnownFrame{name == "null" ? "flange" : name, *pose, ""} : KnownFrame::computed("TOOL"));
-    } else if (tools_.size() > 1) {
-      set_tool(frames, {"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
-    }
-    if (moves_base_) set_frame(frames, {"BASE", Eigen::Isometry3d::Identity(), "the base is moved by BASE"});
-    return frames;
-  }
+  /// Whether TOOL or BASE names this location, so that nothing moves to it.
+  bool is_frame(const std::string& name) const { return tools_.contains(name) || bases_.contains(name); }
+
+  /// What locations that TOOL and BASE name are; `base` is also asked for "base", what the controller keeps.
+  struct Lookup {
+    std::function<std::optional<Eigen::Isometry3d>(const std::string&)> tool, base;
+  };
+  /// The frames of a location that no motion names: those that serve all of them.
+  StatedFrames frames(const Lookup& lookup) const;
+  /// The frames of a motion.
+  StatedFrames frames_at(std::size_t motion, bool of_pose, const Lookup& lookup);
+  LocationFrames& way() { return way_; }
+  /// The motions to every location, by its key.
+  const std::map<std::string, std::vector<TargetUse>>& uses() const { return uses_; }
   /// The motions to a location of this key.
   std::vector<TargetUse> uses(const std::string& name) const;
 
  private:
+  KnownFrame tool_of(const std::string& word, const Lookup& lookup) const;
+  KnownFrame base_of(const std::string& word, const Lookup& lookup) const;
   struct Approach {
     std::size_t begin;
     std::string name;
@@ -84,7 +86,9 @@ class AsStatements {
   std::map<std::string, std::vector<TargetUse>> uses_;
   std::map<std::string, std::string> not_sent_to_;
   std::set<std::string> tools_;
-  bool moves_base_ = false;
+  std::set<std::string> bases_;
+  bool system_base_ = false;  ///< .SYSDATA moves the base
+  LocationFrames way_;
   std::string sets_configuration_{};
 };
 

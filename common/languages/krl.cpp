@@ -70,12 +70,13 @@ class KrlReader {
       aggregate(list, context, name, 1);
       at += list.size - 1;
     }
-    const KrlFrames frames(text_, controller_);
+    KrlFrames frames(text_, controller_);
     for (Target& target : program_.targets) {
       const std::string carried = std::exchange(target.frames.unknown_frame, "");
       frames.complete(target);
       if (!carried.empty()) target.frames.unknown_frame = carried;
     }
+    frames.note_calls_believed(program_);
     const KrlStatements statements(text_, program_);
     return std::move(program_);
   }

@@ -80,31 +80,18 @@ bool is_line(const std::string& word) {
 
 KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
-  forget_between_files();
-  text.for_each_word([&](std::size_t begin, std::size_t end) { read_statement(begin, end); });
-}
-
-/// Lets nothing that another file sets hold in a file before it sets its own.
-void KrlFrames::forget_between_files() {
-  const std::size_t files = text_.source().files().size();
-  std::vector<std::set<std::size_t>> setting(2);  // files that set tools, and bases
-  text_.for_each_word([&](std::size_t begin, std::size_t end) {
-    const std::string word = lower_case(text_.code().substr(begin, end - begin));
-    const bool both = word == "bas" || word == "fdat_act";
-    if (both || word == "$tool") setting[0].insert(text_.source().file_at(begin));
-    if (both || word == "$base") setting[1].insert(text_.source().file_at(begin));
-  });
-  const auto set_elsewhere = [](const std::set<std::size_t>& of, std::size_t file) {
-    return of.size() > of.count(file);
-  };
-  const auto unknown = [](const std::string& what) {
-    return KnownFrame{what, Eigen::Isometry3d::Identity(), what + " is set in another file of the program"};
-  };
-  for (std::size_t file = 0; file < files; ++file) {
-    const std::size_t begin = text_.source().begin(file);
-    if (set_elsewhere(setting[0], file)) settings_.tool_from(begin, unknown("$TOOL"));
-    if (set_elsewhere(setting[1], file)) settings_.frame_from(begin, unknown("$BASE"));
+  const std::string_view code = text.code();
+  std::size_t file = text.source().files().size();
+  for (std::size_t begin = 0; begin < code.size();) {
+    const std::size_t end = std::min(code.find('\n', begin), code.size());
+    if (text.source().file_at(begin) != file) {
+      file = text.source().file_at(begin);
+      flow_.begin_routine(begin, "", file);
+    }
+    read_line(begin, end);
+    begin = end + 1;
   }
+  flow_.finish();
 }
 
 /// TOOL_DATA[n]={...}, BASE_DATA[n]={...} and FDAT NAME={...}.
@@ -184,7 +171,7 @@ void KrlFrames::read_assignment(bool of_tool, std::size_t begin, std::size_t nex
   const bool whole = text_.next(next) == '=' && text_.next(text_.skip_spaces(next) + 1) != '=';
   if (!part && !whole) return;
   const KnownFrame frame = part ? KnownFrame::computed(what) : assigned(text_.skip_spaces(next) + 1, what);
-  of_tool ? settings_.tool_from(begin, frame) : settings_.frame_from(begin, frame);
+  of_tool ? flow_.set_tool(begin, frame) : flow_.set_frame(begin, frame);
 }
 
 /// BAS(#TOOL, n) and BAS(#BASE, n).
@@ -203,12 +190,12 @@ void KrlFrames::read_bas(std::size_t begin, std::size_t open) {
   const bool of_tool = word == "tool";
   const KnownFrame frame = number ? numbered(of_tool, frame_number(number->value))
                                   : KnownFrame::computed(of_tool ? "the tool of BAS" : "the base of BAS");
-  of_tool ? settings_.tool_from(begin, frame) : settings_.frame_from(begin, frame);
+  of_tool ? flow_.set_tool(begin, frame) : flow_.set_frame(begin, frame);
 }
 
 void KrlFrames::apply_data(std::size_t begin, const FrameNumbers& numbers) {
-  settings_.tool_from(begin, tool_of(numbers));
-  settings_.frame_from(begin, base_of(numbers));
+  flow_.set_tool(begin, tool_of(numbers));
+  flow_.set_frame(begin, base_of(numbers));
 }
 
 void KrlFrames::read_motion(const std::string& word, std::size_t begin, std::size_t next) {
@@ -217,7 +204,7 @@ void KrlFrames::read_motion(const std::string& word, std::size_t begin, std::siz
   const std::size_t line_end = std::min(text_.code().find('\n', begin), text_.code().size());
   for (std::size_t points = points_of_krl_motion(word); points > 0 && next < line_end; --points) {
     const std::string name = text_.skip_spaces(next) < line_end ? text_.word_at(next) : "";
-    if (!name.empty()) uses_[name].push_back({begin, motion, settings_.at(begin)});
+    if (!name.empty()) uses_[name].push_back({begin, motion, {}});
     next = next_krl_argument(text_.code(), next, line_end);
   }
 }
@@ -230,27 +217,40 @@ void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
     const std::string name = text_.word_at(text_.skip_spaces(end) + 1);
     const auto data = data_of_.find(name);
     if (data != data_of_.end()) return apply_data(begin, data->second);
-    settings_.tool_from(begin, KnownFrame::computed("the tool of FDAT_ACT"));
-    settings_.frame_from(begin, KnownFrame::computed("the base of FDAT_ACT"));
+    flow_.set_tool(begin, KnownFrame::computed("the tool of FDAT_ACT"));
+    flow_.set_frame(begin, KnownFrame::computed("the base of FDAT_ACT"));
   }
   if (points_of_krl_motion(word) > 0) read_motion(word, begin, end);
 }
 
-void KrlFrames::complete(Target& target) const {
+/// What holds for a motion, of a pose or of joints.
+StatedFrames KrlFrames::held(std::size_t begin, bool by_pose) {
+  const FrameFlow::Held found = flow_.at(begin);
+  if (found.call && by_pose) believed_.insert(*found.call);
+  return found.frames;
+}
+
+void KrlFrames::complete(Target& target) {
   const std::size_t begin = target.begin();
   const std::string name = lower_case(target.name);
   target.order = begin;
-  if (const auto uses = uses_.find(name); !name.empty() && uses != uses_.end()) return take_uses(uses->second, target);
+  if (const auto uses = uses_.find(name); !name.empty() && uses != uses_.end()) {
+    for (TargetUse& use : uses->second) use.frames = held(use.begin, target.is_pose());
+    return take_uses(uses->second, target);
+  }
   const auto after = motions_.upper_bound(begin);
   const std::size_t line = text_.place(begin).line;
-  if (name.empty() && after != motions_.begin() && text_.place(std::prev(after)->first).line == line) {
-    target.motion = std::prev(after)->second;
-  }
-  target.frames = settings_.at(begin);
+  const bool in_motion = name.empty() && after != motions_.begin() && text_.place(std::prev(after)->first).line == line;
+  if (in_motion) target.motion = std::prev(after)->second;
   const auto data = name.starts_with('x') ? data_of_.find('f' + name.substr(1)) : data_of_.end();
+  target.frames = held(begin, target.is_pose() && in_motion);
   if (data == data_of_.end()) return;
   set_tool(target.frames, tool_of(data->second));
   set_frame(target.frames, base_of(data->second));
+}
+
+void KrlFrames::note_calls_believed(Program& program) const {
+  if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 
 }  // namespace demecal::inline languages

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -13,14 +15,15 @@ namespace demecal::inline languages {
 
 /// What holds where: $TOOL and $BASE set to numbers or to TOOL_DATA[n] and BASE_DATA[n] of the file, BAS(#TOOL, n),
 /// FDAT_ACT, and for targets that no motion of the file names, the FDAT that goes with them by name (XP1 and FP1).
-/// Number 0 is the flange and the base. What one file sets is unknown in the others of the program, since nothing here
-/// follows which is run first.
+/// Number 0 is the flange and the base. Branches, loops, jumps and calls of routines of the files are followed.
 class KrlFrames {
  public:
   KrlFrames(const ProgramText& text, const ControllerData& controller);
 
   /// Completes a target that was read, by its name and place.
-  void complete(Target& target) const;
+  void complete(Target& target);
+  /// Says once which calls of other files' routines were taken to leave tool and base as they are.
+  void note_calls_believed(Program& program) const;
 
  private:
   struct FrameNumbers {
@@ -30,9 +33,13 @@ class KrlFrames {
     bool operator==(const FrameNumbers&) const = default;
   };
 
-  void forget_between_files();
   void read_data(std::size_t begin, std::size_t end);
+  void read_line(std::size_t begin, std::size_t end);
+  bool read_routine(const std::string& word, std::size_t begin, std::size_t next, std::size_t line_end);
+  bool read_control(const std::string& word, std::size_t end, std::size_t next);
+  void read_call(const std::string& word, std::size_t begin, std::size_t end, bool statement);
   void read_statement(std::size_t begin, std::size_t end);
+  StatedFrames held(std::size_t begin, bool by_pose);
   void read_assignment(bool of_tool, std::size_t begin, std::size_t next);
   void read_bas(std::size_t begin, std::size_t open);
   void read_motion(const std::string& word, std::size_t begin, std::size_t next);
@@ -46,7 +53,9 @@ class KrlFrames {
   const ControllerData& controller_;
   std::map<int, KnownFrame> tool_data_, base_data_;
   std::map<std::string, FrameNumbers> data_of_;  ///< by the FDAT's name
-  FrameSettings settings_;
+  FrameFlow flow_{"$TOOL", "$BASE"};
+  std::map<std::size_t, std::string> calls_;  ///< of routines, where they stand
+  std::set<std::size_t> believed_;            ///< calls that targets' frames were believed through
   std::map<std::string, std::vector<TargetUse>> uses_;
   std::map<std::size_t, Motion> motions_;  ///< where each begins
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
+#include <string>
 
 #include "data/text.hpp"
 
@@ -26,29 +29,77 @@ std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::siz
 }
 
 KrlStatements::KrlStatements(const ProgramText& text, Program& program)
-    : text_(text), code_(text.code()), changes_(text) {
+    : text_(text), code_(text.code()), program_(program), changes_(text) {
   for (const Target& target : program.targets) {
     numbers_.insert(target.begin());
     if (!target.name.empty()) names_.insert(lower_case(target.name));
   }
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     read_name(begin, end);
-    if (goes_elsewhere(begin, end)) program.unknown_motions.push_back(begin);
+    if (begin == 0 || (code_[begin - 1] != '.' && code_[begin - 1] != '#')) read_motion(begin, end);
   });
   changes_.mark(program.targets);
 }
 
-/// Whether a motion begins here that goes to what has no numbers, or by them.
-bool KrlStatements::goes_elsewhere(std::size_t begin, std::size_t end) const {
+/// Says where a motion goes to what has no numbers, or by numbers.
+void KrlStatements::read_motion(std::size_t begin, std::size_t end) {
   const std::string word = lower_case(code_.substr(begin, end - begin));
-  const bool relative = word.ends_with("_rel") && points_of_krl_motion(word.substr(0, word.size() - 4)) > 0;
-  if (points_of_krl_motion(word) == 0) return relative;
   const std::size_t line_end = std::min(code_.find('\n', begin), code_.size());
-  std::size_t last = text_.skip_spaces(end);
-  if (points_of_krl_motion(word) > 1) last = text_.skip_spaces(next_krl_argument(code_, last, line_end));
-  if (last >= line_end || code_[last] == '{') return false;
-  const std::size_t after = text_.skip_spaces(after_index(text_.word_end(last), line_end));
-  return !names_.contains(text_.word_at(last)) || (after < line_end && code_[after] == ':');
+  if (word.ends_with("_rel") && points_of_krl_motion(word.substr(0, word.size() - 4)) > 0)
+    return read_relative(begin, std::min(text_.skip_spaces(end), line_end), line_end);
+  std::size_t points = points_of_krl_motion(word);
+  for (std::size_t at = end; points > 0 && at < line_end; at = next_krl_argument(code_, at, line_end), --points)
+    read_destination(begin, std::min(text_.skip_spaces(at), line_end), line_end, points == 1);
+}
+
+/// A point that the motion at `motion` goes to (`last`) or only by.
+void KrlStatements::read_destination(std::size_t motion, std::size_t begin, std::size_t line_end, bool last) {
+  if (last) moved_mm_ = 0.0;
+  if (begin >= line_end || is_point(begin)) return;
+  const std::size_t stop = std::min(next_krl_argument(code_, begin, line_end) - 1, line_end);
+  const std::size_t name_end = after_index(text_.word_end(begin), line_end), after = text_.skip_spaces(name_end);
+  const bool whole = after >= stop || (text_.begins_word(after) && after > name_end);
+  const std::string name = text_.word_at(begin);
+  if (whole && names_.contains(name)) return;
+  if (last) program_.unknown_motions.push_back(motion);
+  // Robots are sent to where they stand, so that they have met their path.
+  if (whole && (name == "$axis_act" || name == "$pos_act")) return;
+  const TextPlace place = text_.place(begin);
+  const bool said = code_[begin] == '{' && std::ranges::any_of(program_.uncorrected, [&](const Remark& remark) {
+                      return remark.place.line == place.line && remark.place.file == place.file;
+                    });
+  if (said) return;  // by who read the aggregate
+  std::size_t first = begin;
+  const std::string written(text_.trimmed(first, whole ? name_end : stop));
+  skip_target(program_, {.name = whole ? written : "", .place = place},
+              "the motion goes to '" + written.substr(0, 40) + "', which " +
+                  (whole ? "is no point that this program gives as numbers (--with FILE takes in another of its files)"
+                         : "is computed when the program runs"));
+}
+
+/// What a motion goes by, added to what motions before it went by since the last that goes to a place.
+void KrlStatements::read_relative(std::size_t motion, std::size_t begin, std::size_t line_end) {
+  program_.unknown_motions.push_back(motion);
+  double square_mm2 = begin < line_end && code_[begin] == '{' ? 0.0 : std::nan("");
+  const BracketItem list = square_mm2 == 0.0 ? read_list(text_, begin, '{') : BracketItem{};
+  for (const BracketItem& item : list.items) {
+    const std::size_t name_end = std::min(text_.word_end(item.begin), item.begin + item.size);
+    const std::string axis = lower_case(code_.substr(item.begin, name_end - item.begin));
+    std::size_t value = name_end;
+    const std::string_view number = text_.trimmed(value, item.begin + item.size);
+    const auto cell = cell_at(code_, value, number.size(), {});
+    if (cell && cell->value == 0.0) continue;
+    const bool length = cell && (axis == "x" || axis == "y" || axis == "z");
+    square_mm2 += length ? cell->value * cell->value : std::nan("");
+  }
+  moved_mm_ += std::sqrt(square_mm2);
+  if (moved_mm_ <= kCloseToPoint_mm) return;
+  const std::string distance =
+      std::isfinite(moved_mm_) ? std::to_string(std::lround(moved_mm_)) + " mm" : "by an amount that is not known";
+  program_.remarks.push_back({text_.place(motion), "",
+                              "the motion goes " + distance +
+                                  " away from the last place that is told, with the correction of that place, which "
+                                  "need not be right there"});
 }
 
 std::size_t KrlStatements::after_index(std::size_t end, std::size_t line_end) const {

@@ -19,7 +19,7 @@ std::size_t points_of_krl_motion(std::string_view word);
 std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::size_t end);
 
 /// The numbers of a point are those that the robot is sent to where every statement that names it gives it numbers,
-/// moves to it or copies it to another.
+/// moves to it or copies it to another. Motions to anything else are said in the program.
 class KrlStatements {
  public:
   /// `text` must outlive this.
@@ -34,7 +34,9 @@ class KrlStatements {
   };
 
   void read_name(std::size_t begin, std::size_t end);
-  bool goes_elsewhere(std::size_t begin, std::size_t end) const;
+  void read_motion(std::size_t begin, std::size_t end);
+  void read_destination(std::size_t motion, std::size_t begin, std::size_t line_end, bool last);
+  void read_relative(std::size_t motion, std::size_t begin, std::size_t line_end);
   std::size_t after_index(std::size_t end, std::size_t line_end) const;
   bool is_declaration(const Place& place) const;
   /// Whether the aggregate at `begin` gives a point all its numbers.
@@ -44,7 +46,9 @@ class KrlStatements {
 
   const ProgramText& text_;
   std::string_view code_;
+  Program& program_;
   ChangedNames changes_;
+  double moved_mm_ = 0.0;          ///< by relative motions since the last to a place; no number: unknown
   std::set<std::string> names_;    ///< of targets, in small letters
   std::set<std::size_t> numbers_;  ///< where those of targets begin
 };

@@ -121,6 +121,7 @@ void leave_ambiguous_names(Program& program) {
   std::vector<Target> kept;
   for (Target& target : program.targets) {
     if (const std::string* other = other_file(target)) {
+      end_at_motions_to(target, program);
       skip_target(program, target,
                   "a target of this name stands in " + *other +
                       ", too, and which is meant where is "

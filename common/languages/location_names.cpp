@@ -1,10 +1,26 @@
 #include "languages/location_names.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "data/text.hpp"
 
 namespace demecal::inline languages {
+namespace {
+
+/// The name without its indices, a bracket open where there are some: "p[" of "p[1]".
+std::string array_of(const std::string& name) {
+  const std::size_t open = name.find('[');
+  return open == std::string::npos ? name : name.substr(0, open + 1);
+}
+
+/// Whether the indices of a name are numbers.
+bool has_known_indices(const std::string& name) {
+  const std::size_t open = name.find('[');
+  return open == std::string::npos || name.find_first_not_of("0123456789, ]", open + 1) == std::string::npos;
+}
+
+}  // namespace
 
 std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code();
@@ -31,6 +47,26 @@ std::vector<std::string> location_names(const ProgramText& text, std::size_t beg
     at = name.empty() ? at + 1 : at + name.size();
   }
   return found;
+}
+
+void note_untold_locations(const ProgramText& text, const std::map<std::string, std::vector<TargetUse>>& uses,
+                           const std::function<std::string(const std::string&)>& why, Program& program) {
+  std::set<std::string> given;
+  for (const Target& target : program.targets) {
+    given.insert(location_key(target.name));
+    given.insert(array_of(location_key(target.name)));
+  }
+  for (const auto& [name, motions] : uses) {
+    const bool known = has_known_indices(name);
+    const bool is_given = given.contains(known ? name : array_of(name));
+    const std::string reason = is_given ? "" : why(name);
+    for (const TargetUse& use : motions) {
+      if (is_given && !known) program.unknown_motions.push_back(use.begin);
+      if (is_given) continue;
+      note_unknown_motion(program, use.begin, {.name = name, .place = text.place(use.begin)},
+                          reason.empty() ? "it is not given as numbers in this program" : reason);
+    }
+  }
 }
 
 std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end) {

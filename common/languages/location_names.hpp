@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
@@ -17,6 +20,10 @@ std::string location_name(const ProgramText& text, std::size_t begin, std::size_
 std::string location_key(std::string_view name);
 /// All names that stand in [begin, end), those of functions and words included.
 std::vector<std::string> location_names(const ProgramText& text, std::size_t begin, std::size_t end);
+/// Says in `program` where motions go to locations that are none of its targets; `why` gives a reason by the key, or
+/// nothing. A computed index may be any of an array.
+void note_untold_locations(const ProgramText& text, const std::map<std::string, std::vector<TargetUse>>& uses,
+                           const std::function<std::string(const std::string&)>& why, Program& program);
 /// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.
 std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end);
 

@@ -118,9 +118,8 @@ void RapidStatements::goes_elsewhere(const TextRange& range) {
   std::size_t begin = range.begin;
   std::string what(text_.trimmed(begin, range.end));
   what = what.substr(0, what.find('\\'));
-  program_.unknown_motions.push_back(begin);
-  skip_target(program_, {.name = "", .place = text_.place(begin)},
-              '\'' + what + "' is not given as numbers in this program");
+  note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
+                      '\'' + what + "' is not given as numbers in this program");
 }
 
 std::size_t RapidStatements::after_parts(std::size_t end) const {

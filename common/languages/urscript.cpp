@@ -129,8 +129,7 @@ class UrReader {
 
   /// Says why a motion goes to none of the targets.
   void elsewhere(const Target& target, const std::string& why) {
-    program_.unknown_motions.push_back(use_.begin);
-    skip_target(program_, target, why);
+    note_unknown_motion(program_, use_.begin, target, why);
   }
 
   /// The word that begins at or after `offset`.

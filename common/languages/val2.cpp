@@ -71,7 +71,11 @@ class Val2Reader {
     end = begin + line.size();
     if (line.starts_with('.') && (line.size() < 2 || !is_digit(line[1]))) {
       finish();
-      in_locations_ = lower_case(line.substr(0, line.find_first_of(" \t"))) == ".locations";
+      const std::size_t word = std::min(line.find_first_of(" \t"), line.size());
+      const std::string heading = lower_case(line.substr(0, word));
+      in_locations_ = heading == ".locations";
+      const bool begins = heading == ".program";
+      statements_.way().begin_program(text_, begin, begins ? program_name(text_, text_.skip_spaces(begin + word)) : "");
       return;
     }
     if (!in_locations_) return statements_.read_line(begin, end);

@@ -69,16 +69,11 @@ bool is_motion_of_val2(const std::string& word) {
   return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
 }
 
-/// Whether the indices of a name are numbers.
-bool has_known_indices(const std::string& name) {
-  const std::size_t open = name.find('[');
-  return open == std::string::npos || name.find_first_not_of("0123456789, ]", open + 1) == std::string::npos;
-}
-
 }  // namespace
 
 void Val2Statements::read_line(std::size_t begin, std::size_t end) {
   const std::string_view code = text_.code();
+  way_.read_line(text_, begin, end);
   begin = statement_of(text_, begin, end);
   if (begin >= end || !text_.begins_word(begin)) return;
   const std::size_t word_end = std::min(text_.word_end(begin), end);
@@ -86,11 +81,13 @@ void Val2Statements::read_line(std::size_t begin, std::size_t end) {
   const std::size_t argument = std::min(text_.skip_spaces(word_end), end);
   if (is_motion_of_val2(word)) return read_motion(word, begin, argument, end);
   if (word == "set") return read_set(argument, end);
-  if (word == "here") return changes_.changed(location_name(text_, argument, end), begin);
+  if (word == "here") return changes_.recorded(location_name(text_, argument, end), begin);
   if (word != "tool" && word != "base") return;
   std::string named = lower_case(code.substr(word_end, end - word_end));
   std::erase_if(named, [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; });
+  if (named.empty()) named = word == "tool" ? "null" : "0";
   (word == "tool" ? tools_ : bases_).push_back(named);
+  word == "tool" ? way_.tool(begin, named) : way_.base(begin, named);
 }
 
 void Val2Statements::read_motion(const std::string& word, std::size_t statement, std::size_t begin, std::size_t end) {
@@ -107,7 +104,6 @@ void Val2Statements::read_motion(const std::string& word, std::size_t statement,
   }
   const bool line = word == "moves" || word == "movest" || word == "appros";
   uses_[location_key(name)].push_back({statement, line ? Motion::line : Motion::joints, {}});
-  if (!has_known_indices(name)) indexed_.push_back(statement);
   if (!word.starts_with("appro")) return;
   std::size_t distance = std::min(last + 1, end);
   const std::string_view number = text_.trimmed(distance, end);
@@ -128,25 +124,64 @@ void Val2Statements::read_set(std::size_t begin, std::size_t end) {
   for (const std::string& part : location_names(text_, first, end)) changes_.used(part, begin);
 }
 
-StatedFrames Val2Statements::frames(const Program& program, const ControllerData& controller) const {
+KnownFrame Val2Statements::tool(const std::string& word, const Program& program, const ControllerData& controller) {
+  const auto [found, fresh] = known_tools_.try_emplace(word);
+  if (fresh)
+    found->second = changes_.why(word).empty() ? tool_of(word, program, controller) : KnownFrame::computed("TOOL");
+  return found->second;
+}
+
+KnownFrame Val2Statements::base(const std::string& word, const ControllerData& controller) {
+  const KnownFrame base = base_of(word);
+  if (base.unknown.empty()) return base;
+  if (controller.frames.contains("base")) return controller.frame("base", "BASE");
+  return {"BASE", Eigen::Isometry3d::Identity(), base.unknown + ", and --frames gives no frame 'base'"};
+}
+
+/// Of a location that no motion names: those that serve all of them.
+StatedFrames Val2Statements::frames(const Program& program, const ControllerData& controller) {
   StatedFrames frames;
   if (!tools_.empty()) {
     const auto argument = only(tools_);
-    const bool changed = argument && !changes_.why(*argument).empty();
-    set_tool(frames, changed    ? KnownFrame::computed("TOOL")
-                     : argument ? tool_of(*argument, program, controller)
-                                : KnownFrame{"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
+    set_tool(frames, argument ? tool(*argument, program, controller)
+                              : KnownFrame{"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
   }
   if (!bases_.empty()) {
     const auto argument = only(bases_);
-    set_frame(frames, argument ? base_of(*argument)
+    set_frame(frames, argument ? base(*argument, controller)
                                : KnownFrame{"BASE", Eigen::Isometry3d::Identity(), "several bases are set by BASE"});
+  } else if (controller.frames.contains("base")) {
+    set_frame(frames, controller.frame("base", "BASE"));
   }
   return frames;
 }
 
-void Val2Statements::complete(Program& program, const ControllerData& controller) const {
+StatedFrames Val2Statements::frames_at(std::size_t motion, bool of_pose, StatedFrames held, const Program& program,
+                                       const ControllerData& controller) {
+  const LocationFrames::Words words = way_.at(motion, of_pose);
+  const auto unset = [](const std::string& what) { return what + " is set only after a motion to it"; };
+  const auto why = [&](const LocationFrames::Word& one, const std::string& what) {
+    return KnownFrame{what, Eigen::Isometry3d::Identity(), one.unknown.empty() ? unset(what) : one.unknown};
+  };
+  if (!tools_.empty())
+    set_tool(held, words.tool.word.empty() ? why(words.tool, "TOOL") : tool(words.tool.word, program, controller));
+  if (bases_.empty()) return held;
+  if (!words.base.word.empty()) {
+    set_frame(held, base(words.base.word, controller));
+  } else if (words.base.unknown.empty() && controller.frames.contains("base")) {
+    set_frame(held, controller.frame("base", "BASE"));
+  } else {
+    set_frame(held, why(words.base, "BASE"));
+  }
+  return held;
+}
+
+void Val2Statements::complete(Program& program, const ControllerData& controller) {
+  way_.finish();
+  const Program read = program;
   const StatedFrames stated = frames(program, controller);
+  note_untold_locations(
+      text_, uses_, [&](const std::string& name) { return changes_.why(name); }, program);
   std::erase_if(program.targets, [&](const Target& target) {
     return std::find(tools_.begin(), tools_.end(), lower_name(target)) != tools_.end();
   });
@@ -156,17 +191,16 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
     const auto found = uses_.find(lower_name(target));
     if (found == uses_.end()) continue;
     std::vector<TargetUse> uses = found->second;
-    for (TargetUse& use : uses) use.frames = stated;
+    for (TargetUse& use : uses) use.frames = frames_at(use.begin, target.is_pose(), stated, read, controller);
     take_uses(uses, target);
   }
   changes_.mark(program.targets);
+  way_.note_calls_elsewhere(text_, program);
   for (const Approach& approach : approaches_)
     note_offset(program, text_.place(approach.begin), approach.name, approach.distance_mm);
-  program.unknown_motions = indexed_;
   for (const auto& [begin, what] : computed_) {
-    program.unknown_motions.push_back(begin);
-    skip_target(program, {.name = "", .place = text_.place(begin)},
-                '\'' + what + "' is computed when the program runs");
+    note_unknown_motion(program, begin, {.name = "", .place = text_.place(begin)},
+                        '\'' + what + "' is computed when the program runs");
   }
 }
 

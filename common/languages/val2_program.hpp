@@ -7,14 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "languages/location_frames.hpp"
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
 
-/// Tool and base hold for all points: one of each must serve them. Motions whose location has an index that is computed
-/// are tied to none.
+/// Tool and base are those that hold at the motions to a point; of one that no motion names, one must serve all.
+/// Motions whose location has an index that is computed are tied to none.
 class Val2Statements {
  public:
   /// `text` must outlive this.
@@ -25,15 +26,22 @@ class Val2Statements {
 
   /// Gives the program's targets their frames and motions, and those that it changes the reason to be left; the
   /// location that TOOL names is taken out, for nothing moves to it.
-  void complete(Program& program, const ControllerData& controller) const;
+  void complete(Program& program, const ControllerData& controller);
+  LocationFrames& way() { return way_; }
 
  private:
   void read_motion(const std::string& word, std::size_t statement, std::size_t begin, std::size_t end);
   void read_set(std::size_t begin, std::size_t end);
-  StatedFrames frames(const Program& program, const ControllerData& controller) const;
+  KnownFrame tool(const std::string& word, const Program& program, const ControllerData& controller);
+  static KnownFrame base(const std::string& word, const ControllerData& controller);
+  StatedFrames frames(const Program& program, const ControllerData& controller);
+  StatedFrames frames_at(std::size_t motion, bool of_pose, StatedFrames held, const Program& program,
+                         const ControllerData& controller);
 
   const ProgramText& text_;
   ChangedNames changes_;
+  LocationFrames way_{};
+  std::map<std::string, KnownFrame> known_tools_{};  ///< by what stands behind TOOL
   std::vector<std::string> tools_{},
       bases_{};  ///< what stands behind each instruction, without spaces, in small letters
   std::map<std::string, std::vector<TargetUse>> uses_{};
@@ -44,7 +52,6 @@ class Val2Statements {
   };
   std::vector<Approach> approaches_{};
   std::vector<std::pair<std::size_t, std::string>> computed_{};  ///< destinations that are no locations
-  std::vector<std::size_t> indexed_{};                           ///< motions to locations with computed indices
 };
 
 }  // namespace demecal::inline languages

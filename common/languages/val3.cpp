@@ -47,18 +47,22 @@ class Val3Reader {
 
   Program read() {
     for (const auto& [begin, what] : statements_.computed())
-      skip_target(program_, {.name = "", .place = text_.place(begin)},
-                  "a motion goes to '" + what + "', which is computed when the program runs");
+      note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
+                          "a motion goes to '" + what + "', which is computed when the program runs");
     say_what_is_not_given();
+    note_what_is_nearby();
+    note_calls();
     for (const Val3Value& value : values_) {
       const bool of_joints = value.type == "jointRx";
       if (!of_joints && value.type != "pointRx") continue;
       Target target{.name = value.name, .place = text_.place(value.begin)};
       const auto cells = of_joints ? numbers(value, kJointAttributes, joint_units(arm_), target)
                                    : numbers(value, kPointAttributes, point_units(), target);
-      if (!cells) continue;
-      if (const std::string why = statements_.changed(value.name); !why.empty()) {
-        skip_target(program_, target, why);
+      const std::string why = statements_.changed(value.name);
+      if (cells && !why.empty()) skip_target(program_, target, why);
+      if (!cells || !why.empty()) {
+        for (const Val3Motion& motion : statements_.motions(value.name))
+          program_.unknown_motions.push_back(motion.begin);
         continue;
       }
       of_joints ? static_cast<void>(target.joints = *cells) : take_point(value, *cells, target);
@@ -69,6 +73,39 @@ class Val3Reader {
   }
 
  private:
+  void note_what_is_nearby() {
+    for (const Val3Nearby& nearby : statements_.nearby())
+      note_offset(program_, text_.place(nearby.begin), nearby.name,
+                  nearby.offset.empty() ? nearby.distance_mm : offset_mm(nearby.offset));
+  }
+
+  /// The length of a value of the data that displaces; nothing where it turns, is not given or is changed.
+  std::optional<double> offset_mm(const std::string& name) const {
+    const auto value =
+        std::ranges::find_if(values_, [&](const Val3Value& one) { return one.type == "trsf" && one.name == name; });
+    if (value == values_.end() || !statements_.changed(name).empty()) return std::nullopt;
+    const auto pose = transform(*value);
+    if (!pose || !pose->linear().isApprox(Eigen::Matrix3d::Identity(), 1e-9)) return std::nullopt;
+    return 1e3 * pose->translation().norm();
+  }
+
+  /// Says once which programs may change the data, and are not here.
+  void note_calls() {
+    std::vector<std::string> names;
+    for (const auto& [begin, name] : statements_.calls_elsewhere()) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    if (names.empty()) return;
+    constexpr std::size_t kNamed = 3;
+    std::string list = names.front();
+    for (std::size_t i = 1; i < std::min(names.size(), kNamed); ++i) list += ", " + names[i];
+    if (names.size() > kNamed) list += " and " + std::to_string(names.size() - kNamed) + " more";
+    program_.remarks.push_back({text_.place(statements_.calls_elsewhere().begin()->first), "",
+                                "the programs that are called, " + list +
+                                    ", are not in the files given: points, frames and tools are taken as the data have "
+                                    "them; --with FILE takes programs in"});
+  }
+
   /// Says where programs move to values that no data file gives.
   void say_what_is_not_given() {
     std::set<std::string> given;
@@ -76,9 +113,14 @@ class Val3Reader {
       given.insert(value.name);
       given.insert(value.name.substr(0, value.name.find('[')));
     }
-    for (const auto& [name, begin] : statements_.moved_to()) {
-      if (!given.contains(name))
-        skip_target(program_, {.name = name, .place = text_.place(begin)}, "it is not given in this program");
+    for (const auto& [name, motions] : statements_.motions()) {
+      const bool is_given = given.contains(name), one = name.find('[') != std::string::npos;
+      for (const Val3Motion& motion : motions) {
+        if (!is_given)
+          note_unknown_motion(program_, motion.begin, {.name = name, .place = text_.place(motion.begin)},
+                              "it is not given in this program");
+        if (is_given && !one) program_.unknown_motions.push_back(motion.begin);
+      }
     }
   }
 

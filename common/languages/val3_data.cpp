@@ -110,10 +110,14 @@ std::vector<Val3Value> val3_values(const ProgramText& text) {
 std::vector<Val3Code> val3_programs(const ProgramText& text) {
   std::vector<Val3Code> programs;
   std::set<std::string> locals;
+  std::string name;
   for_each_tag(text, [&](const Tag& tag, std::size_t) {
-    if (tag.name == "Program") locals.clear();
+    if (tag.name == "Program") {
+      locals.clear();
+      name = text_of(text, tag, "name");
+    }
     if (tag.name == "Parameter" || tag.name == "Local") locals.insert(text_of(text, tag, "name"));
-    if (tag.name == "Code") programs.push_back({tag.end, end_of_code(text.text(), tag.end), locals});
+    if (tag.name == "Code") programs.push_back({name, tag.end, end_of_code(text.text(), tag.end), locals});
   });
   return programs;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -14,8 +15,8 @@ bool keeps_argument(std::string_view function, std::size_t argument) {
     std::string_view function;
     std::size_t arguments;
   };
-  constexpr std::array<Kept, 8> kKept{{{"appro", 1},
-                                       {"compose", 2},
+  constexpr std::array<Kept, 8> kKept{{{"appro", 2},
+                                       {"compose", 3},
                                        {"here", 2},
                                        {"jointToPoint", 3},
                                        {"pointToJoint", 3},
@@ -66,6 +67,8 @@ Val3Statements::Val3Statements(const ProgramText& text)
     read(program.begin, program.end, "");
   }
   locals_ = nullptr;
+  for (const Val3Code& program : val3_programs(text))
+    std::erase_if(calls_elsewhere_, [&](const auto& call) { return call.second == program.name; });
 }
 
 /// Reads [begin, end); `use`: the function whose argument it is, empty where names may be assigned to.
@@ -78,6 +81,10 @@ void Val3Statements::read(std::size_t begin, std::size_t end, const std::string&
       continue;
     }
     const std::size_t open = code_.skip_spaces(code_.word_end(at));
+    if (code_.code().substr(at, code_.word_end(at) - at) == "call" && open < end) {
+      const std::size_t stop = std::min(code_.code().find_first_of("( \t\r\n", open), end);
+      calls_elsewhere_.emplace(open, code_.code().substr(open, stop - open));
+    }
     const bool call = open < end && code_.code()[open] == '(';
     at = call ? read_call(at, open, end) : read_reference(at, end, use);
   }
@@ -131,21 +138,49 @@ void Val3Statements::read_goal(const Argument& argument, const Val3Motion& motio
   Reference goal = only_reference(argument);
   const std::size_t begin = code_.skip_spaces(argument.begin);
   if (goal.name.empty() && begin < argument.end) {
-    const std::size_t word_end = std::min(code_.word_end(begin), argument.end);
-    const std::string written(text_.text().substr(begin, std::min<std::size_t>(argument.end - begin, 40)));
-    const std::size_t open = code_.skip_spaces(word_end);
     read(argument.begin, argument.end, "kept");
-    computed_.emplace(begin, written);
-    if (code_.code().substr(begin, word_end - begin) != "appro" || open >= argument.end) return;
-    const std::vector<Argument> near = arguments(open, close_of(open, argument.end));
-    if (near.empty() || only_reference(near.front()).name.empty()) return;
-    computed_.erase(begin);
-    motions_[only_reference(near.front()).name].push_back({motion.begin, Motion::joints, motion.tool});
+    if (read_nearby({begin, argument.end}, motion)) return;
+    computed_.emplace(begin, text_.text().substr(begin, std::min<std::size_t>(argument.end - begin, 40)));
     return;
   }
   if (goal.name.empty()) return;
   motions_[goal.name].push_back(motion);
-  moved_to_.try_emplace(goal.name, motion.begin);
+}
+
+/// Whether the goal is appro(...) or compose(...) of a value and nothing else.
+bool Val3Statements::read_nearby(const Argument& argument, const Val3Motion& motion) {
+  const std::size_t word_end = std::min(code_.word_end(argument.begin), argument.end);
+  const std::string_view function = code_.code().substr(argument.begin, word_end - argument.begin);
+  const std::size_t open = code_.skip_spaces(word_end), needed = function == "compose" ? 3 : 2;
+  if ((function != "appro" && function != "compose") || open >= argument.end || code_.code()[open] != '(') return false;
+  const std::size_t close = close_of(open, argument.end);
+  const std::vector<Argument> given = arguments(open, close);
+  if (given.size() != needed || code_.skip_spaces(close + 1) < argument.end) return false;
+  const std::string name = only_reference(given.front()).name;
+  if (name.empty()) return false;
+  motions_[name].push_back({motion.begin, Motion::joints, motion.tool});
+  nearby_.push_back({motion.begin, name, written_distance_mm(given.back()), only_reference(given.back()).name});
+  return true;
+}
+
+/// Of "{x, y, z, rx, ry, rz}" that is all numbers and does not turn.
+std::optional<double> Val3Statements::written_distance_mm(const Argument& offset) const {
+  const std::string_view code = code_.code();
+  const std::size_t open = code_.skip_spaces(offset.begin), close = code.find('}', open);
+  if (open >= offset.end || code[open] != '{' || close >= offset.end || code_.skip_spaces(close + 1) < offset.end)
+    return std::nullopt;
+  double square = 0.0;
+  std::size_t count = 0;
+  for (std::size_t at = open + 1; at <= close; ++count) {
+    const std::size_t stop = std::min(code.find(',', at), close);
+    std::size_t first = at;
+    const std::string_view number = code_.trimmed(first, stop);
+    const auto cell = cell_at(code, first, number.size(), {});
+    if (!cell || (count >= 3 && cell->value != 0.0)) return std::nullopt;
+    square += cell->value * cell->value;
+    at = stop + 1;
+  }
+  return count == 6 ? std::optional(std::sqrt(square)) : std::nullopt;
 }
 
 /// NAME, NAME[index], and what is taken of it; no name where it is one of the program's own or a number.

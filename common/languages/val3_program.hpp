@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ std::vector<Val3Value> val3_values(const ProgramText& text);
 
 /// What stands between <Code> and </Code> of one program.
 struct Val3Code {
+  std::string name{};
   std::size_t begin = 0, end = 0;
   std::set<std::string> locals{};  ///< the names of its parameters and local variables
 };
@@ -38,6 +40,14 @@ struct Val3Motion {
   std::size_t begin = 0;  ///< of the motion in the text
   Motion motion = Motion::joints;
   std::string tool{};  ///< "tGrip[0]"; empty: it is computed
+};
+
+/// A motion to a place near a value of the data: appro(NAME, OFFSET) or compose(NAME, FRAME, OFFSET).
+struct Val3Nearby {
+  std::size_t begin = 0;  ///< of the motion in the text
+  std::string name{};
+  std::optional<double> distance_mm{};  ///< that the offset writes, if it does not turn
+  std::string offset{};                 ///< the value that is the offset; empty: none
 };
 
 /// Reads the code of all programs. Names are those of val3_values(): "pPick[2]", and "pPick[0]" of pPick alone; an
@@ -54,8 +64,11 @@ class Val3Statements {
   std::vector<Val3Motion> motions(const std::string& name) const;
   /// Why the value need not be that of the data when it is used, as "the program changes it"; empty: it is.
   std::string changed(const std::string& name) const;
-  /// All values that motions go to, and where the first of each stands; of a computed index the name without it.
-  const std::map<std::string, std::size_t>& moved_to() const { return moved_to_; }
+  /// All motions to values, or near them, by the values' names; of a computed index the name without it.
+  const std::map<std::string, std::vector<Val3Motion>>& motions() const { return motions_; }
+  const std::vector<Val3Nearby>& nearby() const { return nearby_; }
+  /// The calls of programs that are none of these, and where they stand.
+  const std::map<std::size_t, std::string>& calls_elsewhere() const { return calls_elsewhere_; }
   /// Where motions go to what is computed, and what that is.
   const std::map<std::size_t, std::string>& computed() const { return computed_; }
 
@@ -74,6 +87,8 @@ class Val3Statements {
   std::size_t read_call(std::size_t begin, std::size_t open, std::size_t end);
   void read_motion(const std::string& word, std::size_t begin, const std::vector<Argument>& arguments);
   void read_goal(const Argument& argument, const Val3Motion& motion);
+  bool read_nearby(const Argument& argument, const Val3Motion& motion);
+  std::optional<double> written_distance_mm(const Argument& offset) const;
   Reference reference(std::size_t begin, std::size_t end) const;
   /// The reference that the argument is, and nothing else.
   Reference only_reference(const Argument& argument) const;
@@ -88,8 +103,8 @@ class Val3Statements {
   bool any_ = false;
   std::map<std::string, std::vector<Val3Motion>> motions_;
   std::map<std::string, std::string> changed_;
-  std::map<std::string, std::size_t> moved_to_;
-  std::map<std::size_t, std::string> computed_;
+  std::map<std::size_t, std::string> computed_, calls_elsewhere_;
+  std::vector<Val3Nearby> nearby_;
 };
 
 }  // namespace demecal::inline languages

@@ -175,13 +175,15 @@ class JobReader {
     const std::string word = lower_case(code_.substr(begin, text_.word_end(begin) - begin));
     if (word == "sfton") shifts_ = true;
     if (word == "sftof") shifts_ = false;
-    const bool motion = word.starts_with("mov"), coordinated = word.starts_with("smov");
+    const bool motion = word.starts_with("mov"), coordinated = word.starts_with("smov"), relative = word == "imov";
+    bool named = false;
     for (std::size_t at = begin; at < end; ++at) {
       if (!text_.begins_word(at)) continue;
       const std::size_t word_end = std::min(text_.word_end(at), end);
       const std::string key = position_name(code_.substr(at, word_end - at));
       at = word_end - 1;
       if (key.empty()) continue;
+      named = true;
       Uses& uses = uses_[key];
       if (motion && !shifts_) {
         uses.motions.push_back({begin, word == "movj" ? Motion::joints : Motion::line, {}});
@@ -192,6 +194,16 @@ class JobReader {
         uses.why = "it is used by " + word + ", which moves by it or changes it";
       }
     }
+    if (relative || coordinated || (motion && shifts_)) program_.unknown_motions.push_back(begin);
+    if (motion && !named) note_computed(std::min(text_.skip_spaces(text_.word_end(begin)), end), end);
+  }
+
+  /// Says that the motion to what stands at `begin` goes to none of the positions.
+  void note_computed(std::size_t begin, std::size_t end) {
+    const std::string_view goal = code_.substr(begin, code_.substr(0, end).find_first_of(" \t", begin) - begin);
+    note_unknown_motion(
+        program_, begin, {.name = "", .place = text_.place(begin)},
+        "the motion goes to '" + std::string(goal.substr(0, 40)) + "', which is computed when the program runs");
   }
 
   /// Makes targets of the positions, now that it is known what uses them.
@@ -206,6 +218,7 @@ class JobReader {
         position.why = "no motion of this job goes to it";
       if (!position.why.empty()) {
         skip_target(program_, target, position.why);
+        for (const TargetUse& use : uses.motions) program_.unknown_motions.push_back(use.begin);
         continue;
       }
       if (base_axes_ && target.is_pose() && target.frames.frame.empty())
@@ -214,9 +227,10 @@ class JobReader {
       program_.targets.push_back(std::move(target));
     }
     for (const auto& [key, uses] : uses_) {
-      if (uses.given || uses.motions.empty()) continue;
-      skip_target(program_, {.name = key, .place = text_.place(uses.motions.front().begin)},
-                  "it is not given in this file");
+      if (uses.given) continue;
+      for (const TargetUse& use : uses.motions)
+        note_unknown_motion(program_, use.begin, {.name = key, .place = text_.place(use.begin)},
+                            "it is not given in this file");
     }
   }
 

@@ -35,23 +35,33 @@ std::string ChangedNames::line_of(std::size_t offset) const {
   return "line " + std::to_string(place.line) + (files.size() > 1 ? " of " + files[place.file].name : "");
 }
 
-void ChangedNames::add(std::string_view name, const std::string& sentence) {
+void ChangedNames::add(std::string_view name, const std::string& sentence, bool records) {
   const auto [stem, indices] = split_name(name);
   sentences_[stem].try_emplace(indices, sentence);
+  if (!records) besides_recording_[stem].try_emplace(indices, sentence);
 }
 
 void ChangedNames::changed(std::string_view name, std::size_t offset) {
-  add(name, line_of(offset) + " changes it when the program runs");
+  add(name, line_of(offset) + " changes it when the program runs", false);
+}
+
+void ChangedNames::recorded(std::string_view name, std::size_t offset) {
+  add(name, line_of(offset) + " changes it when the program runs", true);
 }
 
 void ChangedNames::used(std::string_view name, std::size_t offset) {
-  add(name, line_of(offset) + " uses it otherwise than to move to it, and what becomes of it there is not followed");
+  add(name, line_of(offset) + " uses it otherwise than to move to it, and what becomes of it there is not followed",
+      false);
 }
 
 std::string ChangedNames::why(std::string_view name) const {
+  return find(sentences_, name);
+}
+
+std::string ChangedNames::find(const Sentences& sentences, std::string_view name) {
   const auto [stem, indices] = split_name(name);
-  const auto found = sentences_.find(stem);
-  if (stem.empty() || found == sentences_.end()) return "";
+  const auto found = sentences.find(stem);
+  if (stem.empty() || found == sentences.end()) return "";
   for (const auto& [which, sentence] : found->second) {
     if (which.empty() || indices.empty() || which == indices) return sentence;
   }
@@ -60,7 +70,9 @@ std::string ChangedNames::why(std::string_view name) const {
 
 void ChangedNames::mark(std::vector<Target>& targets) const {
   for (Target& target : targets) {
-    if (target.not_sent_to.empty()) target.not_sent_to = why(target.name);
+    if (!target.not_sent_to.empty()) continue;
+    target.not_sent_to = why(target.name);
+    target.only_recorded = !target.not_sent_to.empty() && find(besides_recording_, target.name).empty();
   }
 }
 

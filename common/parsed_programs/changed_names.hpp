@@ -22,6 +22,8 @@ class ChangedNames {
 
   /// The statement at `offset` of the text gives the name, or a part of it, another value.
   void changed(std::string_view name, std::size_t offset);
+  /// The same, with where the arm stands when it runs: what a program that was run holds then, to be measured.
+  void recorded(std::string_view name, std::size_t offset);
   /// The statement at `offset` hands the name on, or computes with it.
   void used(std::string_view name, std::size_t offset);
 
@@ -31,11 +33,14 @@ class ChangedNames {
   void mark(std::vector<Target>& targets) const;
 
  private:
-  void add(std::string_view name, const std::string& sentence);
+  /// By name, then by indices.
+  using Sentences = std::map<std::string, std::map<std::string, std::string>>;
+  static std::string find(const Sentences& sentences, std::string_view name);
+  void add(std::string_view name, const std::string& sentence, bool records);
   std::string line_of(std::size_t offset) const;
 
   const ProgramText& text_;
-  std::map<std::string, std::map<std::string, std::string>> sentences_;  ///< by name, then by indices
+  Sentences sentences_, besides_recording_;
 };
 
 }  // namespace demecal::inline parsed_programs

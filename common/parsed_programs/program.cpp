@@ -15,12 +15,6 @@
 namespace demecal::inline parsed_programs {
 namespace {
 
-/// The last setting before `offset`; null where there is none.
-const KnownFrame* last_before(const std::map<std::size_t, KnownFrame>& settings, std::size_t offset) {
-  const auto after = settings.lower_bound(offset);
-  return after == settings.begin() ? nullptr : &std::prev(after)->second;
-}
-
 bool same_tool(const StatedFrames& one, const StatedFrames& other) {
   if (one.unknown_tool != other.unknown_tool || one.tool.has_value() != other.tool.has_value()) return false;
   return !one.tool || one.tool->isApprox(*other.tool, 1e-9);
@@ -89,20 +83,15 @@ void set_frame(StatedFrames& frames, const KnownFrame& frame) {
   frames.base_from_frame = frame.pose;
 }
 
-StatedFrames FrameSettings::at(std::size_t offset) const {
-  StatedFrames frames;
-  if (const KnownFrame* tool = last_before(tools_, offset)) set_tool(frames, *tool);
-  if (const KnownFrame* frame = last_before(frames_, offset)) set_frame(frames, *frame);
-  return frames;
-}
-
 void take_uses(const std::vector<TargetUse>& uses, Target& target) {
   const auto first = std::min_element(
       uses.begin(), uses.end(), [](const TargetUse& one, const TargetUse& other) { return one.begin < other.begin; });
   target.order = first->begin;
   target.frames = first->frames;
   target.motion = Motion::line;
+  target.further_motions.clear();
   for (const TargetUse& use : uses) {
+    if (use.begin != first->begin) target.further_motions.push_back(use.begin);
     if (use.motion == Motion::joints) target.motion = Motion::joints;
     if (!same_tool(use.frames, first->frames)) target.frames.unknown_tool = "it is moved to with different tools";
     if (!same_frame(use.frames, first->frames)) target.frames.unknown_frame = "it is moved to in different frames";
@@ -113,9 +102,19 @@ void skip_target(Program& program, const Target& target, const std::string& why)
   program.uncorrected.push_back({target.place, target.name, why + "; it is left as it is"});
 }
 
+void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why) {
+  program.unknown_motions.push_back(begin);
+  skip_target(program, target, why);
+}
+
+void end_at_motions_to(const Target& target, Program& program) {
+  program.unknown_motions.push_back(target.order);
+  program.unknown_motions.insert(program.unknown_motions.end(), target.further_motions.begin(),
+                                 target.further_motions.end());
+}
+
 void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm) {
-  constexpr double kClose_mm = 100.0;  ///< within which an arm's error changes little
-  if (distance_mm && std::abs(*distance_mm) <= kClose_mm) return;
+  if (distance_mm && std::abs(*distance_mm) <= kCloseToPoint_mm) return;
   const std::string where = distance_mm
                                 ? "a place " + std::to_string(std::lround(std::abs(*distance_mm))) + " mm away from it"
                                 : "a place at a distance from it that is not known";

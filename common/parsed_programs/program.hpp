@@ -57,10 +57,13 @@ struct Target {
   std::vector<Cell> orientation{};
   ArmHint hint{};
   Motion motion = Motion::joints;
-  std::size_t order = 0;  ///< targets are visited by this, then in the order of the text
+  std::size_t order = 0;                       ///< targets are visited by this, then in the order of the text
+  std::vector<std::size_t> further_motions{};  ///< bytes at which the program moves to it again
   StatedFrames frames{};
   /// Why the robot may be sent elsewhere than to these numbers, which are then left as they are; empty: it is not.
   std::string not_sent_to{};
+  /// That reason is only that the program records in it where the arm stands.
+  bool only_recorded = false;
   std::optional<ApproachSigns> approach{};  ///< where the file says it
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 
@@ -139,17 +142,6 @@ void declare(std::map<Key, KnownFrame>& declared, const Key& key, const KnownFra
 void set_tool(StatedFrames& frames, const KnownFrame& tool);
 void set_frame(StatedFrames& frames, const KnownFrame& frame);
 
-/// Settings that hold from where they stand to the next.
-class FrameSettings {
- public:
-  void tool_from(std::size_t begin, const KnownFrame& tool) { tools_.insert_or_assign(begin, tool); }
-  void frame_from(std::size_t begin, const KnownFrame& frame) { frames_.insert_or_assign(begin, frame); }
-  StatedFrames at(std::size_t offset) const;
-
- private:
-  std::map<std::size_t, KnownFrame> tools_, frames_;
-};
-
 /// One motion to a target.
 struct TargetUse {
   std::size_t begin = 0;  ///< of the motion in the text
@@ -172,6 +164,16 @@ std::optional<std::vector<Cell>> cells_of(const ProgramText& text, std::span<con
 
 /// Says in `program` why this target cannot be corrected.
 void skip_target(Program& program, const Target& target, const std::string& why);
+
+/// Says in `program` that the motion at `begin` of the text goes to a place that is none of its targets, and why it is
+/// none: what is known of the joints ends there.
+void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why);
+
+/// That motions to it go to none of the program's targets, as it is taken out of them.
+void end_at_motions_to(const Target& target, Program& program);
+
+/// Within which an arm's error changes little.
+inline constexpr double kCloseToPoint_mm = 100.0;
 
 /// Says in `program` that a place so far from the target of this name (nothing: it is not known how far) is given the
 /// target's correction; not where it is close by.

@@ -89,8 +89,9 @@ std::vector<WrittenFile> false_targets(const RawMeasurements& raw, const Prepare
     const Target& target = text.source->program.targets[*pose.pose_target];
     std::vector<std::string>& cells = text.targets[*pose.pose_target].texts;
     cells.clear();
+    const Eigen::Vector3d in_frame_m = target.frames.base_from_frame.inverse() * false_m;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      cells.push_back(rewritten(target.position[static_cast<std::size_t>(axis)], false_m[axis]).value_or(""));
+      cells.push_back(rewritten(target.position[static_cast<std::size_t>(axis)], in_frame_m[axis]).value_or(""));
     }
   }
   std::vector<WrittenFile> files;

@@ -78,6 +78,24 @@ std::vector<NamedPoint> named_points(const Program& program, PointKind kind, con
   return found;
 }
 
+void require_kept_numbers(const Program& program, std::size_t target) {
+  const Target& point = program.targets[target];
+  if (point.not_sent_to.empty() || point.only_recorded) return;
+  throw InputError({program.file_name(point.place.file), point.place.line}, point.name,
+                   point.not_sent_to +
+                       ": its numbers need not be those at which it was measured; name points that the program leaves "
+                       "alone, or give the numbers that held as a file of their own");
+}
+
+Eigen::Vector3d point_in_base(const Program& program, std::size_t target) {
+  const Target& point = program.targets[target];
+  if (point.frames.unknown_frame.empty()) return stated_point(point);
+  throw InputError({program.file_name(point.place.file), point.place.line}, point.name,
+                   point.frames.unknown_frame +
+                       ": where the point is in the base frame is not known; give it in the "
+                       "base frame, or in one that the program states as numbers");
+}
+
 std::vector<std::vector<std::size_t>> rows_of_points(const Readings& readings, const std::vector<NamedPoint>& points,
                                                      const std::string& of_file) {
   std::vector<std::vector<std::size_t>> rows(points.size());

@@ -1,6 +1,7 @@
 // The points of a program that were measured, and which reading is of which point.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -31,6 +32,13 @@ enum class PointKind { joints, poses };
 /// point that stands twice with the same numbers counts once. Throws InputError where there are none, or where one
 /// stands twice with different numbers.
 std::vector<NamedPoint> named_points(const Program& program, PointKind kind, const std::string& points);
+
+/// Throws InputError where the program changes the target or hands it on, so that its numbers need not be those at
+/// which it was measured; one in which it records where the arm stands has those.
+void require_kept_numbers(const Program& program, std::size_t target);
+
+/// Where a target of a pose has the tool point, base frame. Throws InputError where its frame is not known.
+Eigen::Vector3d point_in_base(const Program& program, std::size_t target);
 
 /// For every point, the rows of `readings` that are of it: those that name it ("#cp[3]", "cp[3]" or "3"), or where the
 /// readings name none the row in its place. `of_file` is where the points stand. Throws InputError where a point has no

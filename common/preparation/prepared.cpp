@@ -49,10 +49,6 @@ std::optional<PosesByKey> poses_beside(const Program& program, const std::vector
   return candidates.front();
 }
 
-Eigen::Vector3d position_of(const Target& target) {
-  return {target.position[0].inside(), target.position[1].inside(), target.position[2].inside()};
-}
-
 MeasuredPose commanded(const Target& target, const RawSet& set) {
   MeasuredPose pose;
   pose.joints.resize(static_cast<Eigen::Index>(target.joints.size()));
@@ -79,6 +75,8 @@ void add_set(const RawMeasurements& raw, std::size_t entry, Prepared& prepared) 
   const auto poses = programmed_poses(set, points);
   const std::size_t first = prepared.poses.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
+    require_kept_numbers(set.joints.program, points[i].target);
+    if (poses[i]) require_kept_numbers(file_of_poses(set).program, *poses[i]);
     PreparedPose pose{.entry = entry,
                       .id = points[i].name,
                       .commanded = commanded(set.joints.program.targets[points[i].target], set),
@@ -86,7 +84,7 @@ void add_set(const RawMeasurements& raw, std::size_t entry, Prepared& prepared) 
                       .nominal_m = {},
                       .measured = average(set.readings, rows[i])};
     const Eigen::Vector3d at_joints_m = tool_position(raw.robot.chain, pose.commanded.joints);
-    pose.nominal_m = poses[i] ? position_of(file_of_poses(set).program.targets[*poses[i]]) : at_joints_m;
+    pose.nominal_m = poses[i] ? point_in_base(file_of_poses(set).program, *poses[i]) : at_joints_m;
     prepared.programmed_from_joints_m =
         std::max(prepared.programmed_from_joints_m, (pose.nominal_m - at_joints_m).norm());
     prepared.poses.push_back(std::move(pose));

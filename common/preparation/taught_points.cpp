@@ -107,13 +107,12 @@ RobotPoints robot_points(const Program& program, const std::string& points, cons
                                  found.names.size()));
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    const Target& target = program.targets[found.names[i].target];
+    require_kept_numbers(program, found.names[i].target);
     if (kind == PointKind::poses) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        found.in_base_m[i][static_cast<Eigen::Index>(axis)] = target.position[axis].inside();
-      }
+      found.in_base_m[i] = point_in_base(program, found.names[i].target);
       continue;
     }
+    const Target& target = program.targets[found.names[i].target];
     JointVector joints(robot.chain.size());
     for (Eigen::Index j = 0; j < joints.size(); ++j) joints[j] = target.joints[static_cast<std::size_t>(j)].inside();
     found.in_base_m[i] = tool_position(robot.chain, joints);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <tuple>
@@ -15,7 +14,6 @@
 
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
-#include "errors/check.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
 #include "parsed_programs/orientation.hpp"
@@ -70,6 +68,26 @@ class Corrector {
     }
     corrected.texts = cell_texts(target, corrected);
     return corrected;
+  }
+
+  /// The program moves again to a target that was corrected so, at `line`. What is said: the side that it then comes
+  /// from asks for another correction; empty: it does not.
+  std::string return_to(const Target& target, const CorrectedTarget& corrected, std::size_t line) {
+    const bool known = !corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined;
+    if (!known && target.is_pose()) {
+      forget_where_it_is();
+      return "";
+    }
+    const JointVector joints = known ? corrected.nominal : joints_of(target);
+    note_motion(joints);
+    finder_.arrive(joints, known ? target.hint.configuration : "");
+    if (!known || target.approach || signs_ == corrected.stop.approach) return "";
+    const CorrectedTarget again = correct_target(target, model_for(target), stop_at(target, joints));
+    if (again.is_uncorrected() || agree(corrected, again)) return "";
+    const PoseError difference = pose_error(corrected.command_tool, again.command_tool);
+    return "line " + std::to_string(line) + " comes to it from another side than the first motion does, and the " +
+           "corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
+           " mm: it has that of the first; a point of its own for each side tells them apart";
   }
 
   /// Where the arm comes from is not known.
@@ -191,19 +209,33 @@ class Corrector {
   std::vector<std::pair<Eigen::Vector3d, std::unique_ptr<CommandModel>>> with_tools_;
 };
 
-/// The order in which targets are visited.
-std::vector<std::size_t> visits(const Program& program) {
-  std::vector<std::size_t> order(program.targets.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
-    return program.targets[one].order < program.targets[other].order;
-  });
-  return order;
+/// A motion to a target, the first or another.
+struct ProgramVisit {
+  std::size_t order = 0, target = 0;
+  bool again = false;
+};
+
+/// In the order in which targets are visited.
+std::vector<ProgramVisit> visits(const Program& program) {
+  std::vector<ProgramVisit> all;
+  for (std::size_t i = 0; i < program.targets.size(); ++i) {
+    all.push_back({program.targets[i].order, i});
+    for (const std::size_t order : program.targets[i].further_motions) all.push_back({order, i, true});
+  }
+  std::ranges::stable_sort(all, {}, &ProgramVisit::order);
+  return all;
 }
 
 }  // namespace
 
 namespace {
+
+/// The line of a byte, from 1, in its own file.
+std::size_t line_at(std::string_view text, const Program& program, std::size_t offset) {
+  const std::size_t file = program.file_at(offset), begin = file == 0 ? 0 : program.further[file - 1].begin;
+  const std::string_view before = text.substr(std::min(begin, text.size()), offset - std::min(begin, offset));
+  return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
+}
 
 /// Whether a motion between these bytes goes to a place that is not told.
 bool goes_elsewhere(const Program& program, std::size_t from, std::size_t to) {
@@ -223,12 +255,18 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
     result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
   std::size_t last_file = 0, last_order = 0;
-  for (const std::size_t i : visits(result.program)) {
+  for (const auto& [order, i, again] : visits(result.program)) {
     const Target& target = result.program.targets[i];
-    const std::size_t file = result.program.file_at(target.order);
-    if (file != last_file || goes_elsewhere(result.program, last_order, target.order)) corrector.forget_where_it_is();
+    const std::size_t file = result.program.file_at(order);
+    if (file != last_file || goes_elsewhere(result.program, last_order, order)) corrector.forget_where_it_is();
     last_file = file;
-    last_order = target.order;
+    last_order = order;
+    if (again) {
+      const std::size_t line = line_at(text, result.program, order);
+      if (std::string sentence = corrector.return_to(target, result.targets[i], line); !sentence.empty())
+        result.warnings.push_back({target.place, target.name, std::move(sentence)});
+      continue;
+    }
     result.targets[i] = corrector.correct(target);
     for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
@@ -239,40 +277,6 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
            std::tie(other.place.file, other.place.line, other.place.column);
   });
   result.text = replaced(text, result.program, result.targets);
-  return result;
-}
-
-std::vector<std::string> corrected_files(const ProgramSource& source, const CorrectedProgram& corrected) {
-  std::vector<std::string> texts;
-  for (std::size_t file = 0; file < source.files().size(); ++file) {
-    texts.push_back(replaced(source.files()[file].text, corrected.program, corrected.targets, source.begin(file)));
-  }
-  return texts;
-}
-
-std::string replaced(std::string_view text, const Program& program, const std::vector<CorrectedTarget>& targets,
-                     std::size_t begin) {
-  std::map<std::size_t, std::pair<std::size_t, const std::string*>> changes;  // by first byte: size and new text
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    std::vector<Cell> cells = program.targets[i].is_pose() ? program.targets[i].position : program.targets[i].joints;
-    cells.insert(cells.end(), program.targets[i].orientation.begin(), program.targets[i].orientation.end());
-    for (std::size_t cell = 0; cell < targets[i].texts.size(); ++cell) {
-      const std::string& changed = targets[i].texts[cell];
-      const std::size_t at = cells[cell].begin;
-      if (!changed.empty() && at >= begin && at < begin + text.size())
-        changes[at - begin] = {cells[cell].size, &changed};
-    }
-  }
-  std::string result;
-  result.reserve(text.size() + 4 * changes.size());
-  std::size_t kept_from = 0;
-  for (const auto& [at, change] : changes) {
-    DEMECAL_CHECK(at >= kept_from, "numbers overlap at byte " << at);
-    result += text.substr(kept_from, at - kept_from);
-    result += *change.second;
-    kept_from = at + change.first;
-  }
-  result += text.substr(kept_from);
   return result;
 }
 

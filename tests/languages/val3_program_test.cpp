@@ -24,6 +24,8 @@ const std::string kData =
     "<Data name=\"f\" type=\"frame\">" +
     value("0") + value("1", "fatherId=\"f[0]\"") +
     "</Data>\n<Data name=\"t\" type=\"tool\"><Value key=\"0\" z=\"100\"/><Value key=\"1\" z=\"200\"/></Data>\n"
+    "<Data name=\"trShort\" type=\"trsf\"><Value key=\"0\" z=\"-60\"/></Data>"
+    "<Data name=\"trLong\" type=\"trsf\"><Value key=\"0\" z=\"-400\"/></Data>\n"
     "</Datas></Database>\n";
 
 std::string program_text(const std::string& code, const std::string& locals = "") {
@@ -117,10 +119,10 @@ TEST(Val3Program, LeavesPointsAndFramesThatItChanges) {
 
 TEST(Val3Program, SaysWhereMotionsGoToNothingThatIsGiven) {
   const Program program =
-      read_application("movel(compose(p[1],f,tr),t,m)\nmovej(x_j,t,m)\nmovej(pLost,t,m)\nmovej(j,t,m)\n",
+      read_application("movel(compose(p[1],f,tr)+x,t,m)\nmovej(x_j,t,m)\nmovej(pLost,t,m)\nmovej(j,t,m)\n",
                        "<Parameters><Parameter name=\"x_j\" type=\"jointRx\"/></Parameters>");
   ASSERT_EQ(program.uncorrected.size(), 3u);
-  EXPECT_THAT(program.uncorrected[0].sentence, HasSubstr("'compose(p[1],f,tr)', which is computed"));
+  EXPECT_THAT(program.uncorrected[0].sentence, HasSubstr("'compose(p[1],f,tr)+x', which is computed"));
   EXPECT_EQ(program.uncorrected[0].place.line, 4u);
   EXPECT_EQ(program.file_name(program.uncorrected[0].place.file), "start.pgx");
   EXPECT_THAT(program.uncorrected[1].sentence, HasSubstr("'x_j'"));
@@ -133,6 +135,43 @@ TEST(Val3Program, SaysWhereMotionsGoToNothingThatIsGiven) {
   EXPECT_THAT(left(without, "pA[0]"), HasSubstr("is not given"));
   expect_fault(WrittenIn::val3, program_text("a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(a(\n"), 4,
                "nested too deeply");
+}
+
+TEST(Val3Program, SaysWhereMotionsComeNearAPointOnly) {
+  const auto said = [](const std::string& code) {
+    const Program program = read_application(code);
+    return program.remarks.empty() ? std::string()
+                                   : program.remarks.front().name + ": " + program.remarks.front().sentence;
+  };
+  for (const char* motion : {"movel(appro(p,{0,0,-50,0,0,0}),t,m)\n", "movel(appro(p,{30,40,0,0,0,0}),t,m)\n",
+                             "movel(compose(p,f,{0,0,99,0,0,0}),t,m)\n"})
+    EXPECT_EQ(said(motion), "") << motion;
+  EXPECT_THAT(said("movel(appro(p,{0,0,-300,0,0,0}),t,m)\n"), HasSubstr("p[0]: a place 300 mm away from it"));
+  EXPECT_THAT(said("movel(compose(p[1],f,{0,300,400,0,0,0}),t,m)\n"), HasSubstr("p[1]: a place 500 mm away from it"));
+  EXPECT_EQ(said("movel(appro(p,trShort),t,m)\n"), "");
+  EXPECT_THAT(said("movel(appro(p,trLong),t,m)\n"), HasSubstr("p[0]: a place 400 mm away from it"));
+  EXPECT_THAT(said("trLong.z=3\nmovel(appro(p,trLong),t,m)\n"), HasSubstr("not known"));
+  EXPECT_THAT(said("movel(appro(p,trApproach),t,m)\n"), HasSubstr("distance from it that is not known"));
+  EXPECT_THAT(said("movel(appro(p,{0,0,z,0,0,0}),t,m)\n"), HasSubstr("distance from it that is not known"));
+  EXPECT_THAT(said("movel(appro(p,{0,0,-50,0,90,0}),t,m)\n"), HasSubstr("not known")) << "it is turned";
+}
+
+TEST(Val3Program, TakesMotionsToComposedPointsForMotionsNearThem) {
+  const Program program =
+      read_application("movel(compose(p[1],f,{0,0,50,0,0,0}),t[1],m)\nmovel(compose(p[1],f,tr)+1,t,m)\n");
+  ASSERT_EQ(program.uncorrected.size(), 1u);
+  EXPECT_EQ(program.uncorrected[0].place.line, 5u);
+  EXPECT_EQ(tool_z_mm(program, "p[1]"), 200.0);
+  EXPECT_EQ(find_target(program, "p[1]")->motion, Motion::joints) << "the way to a point near it ends elsewhere";
+}
+
+TEST(Val3Program, SaysOnceThatCallsOfOtherProgramsAreNotFollowed) {
+  const Program program = read_application("call grip()\nmovel(p,t,m)\ncall grip()\ncall other:open(1)\n");
+  ASSERT_EQ(program.remarks.size(), 1u);
+  EXPECT_THAT(program.remarks[0].sentence, HasSubstr("grip, other:open"));
+  EXPECT_EQ(program.remarks[0].place.line, 4u);
+  const ProgramSource both({{"a.dtx", kData}, {"start.pgx", program_text("call start()\nmovel(p,t,m)\n", "")}});
+  EXPECT_THAT(read_program(row_of(WrittenIn::val3), both, wrist_arm()).remarks, IsEmpty());
 }
 
 }  // namespace

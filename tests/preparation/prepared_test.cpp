@@ -184,6 +184,58 @@ TEST(NamedPoints, NameWhatDoesNotMatch) {
   EXPECT_THAT(named_points(again, PointKind::joints, ""), SizeIs(4));
 }
 
+TEST(Prepared, RefusesPointsThatTheProgramChanges) {
+  RandomStream stream{64, 12};
+  const MeasuredArm arm = measured_arm(stream, 4, 1e-3);
+  const auto told = [&](const std::string& statements) {
+    RawMeasurements raw = raw_of(arm);
+    raw.sets[0].joints = point_file(".PROGRAM m\n" + statements + ".END\n" + arm.val2() + arm.val2_poses("mcp"),
+                                    arm.robot.chain, "cp.v2");
+    return complaint([&] { prepare_measurements(raw); });
+  };
+  EXPECT_EQ(told(" MOVE #cp[1]\n SET x = #cp[1]\n"), "");
+  EXPECT_EQ(told(" HERE #other\n"), "");
+  EXPECT_EQ(told(" HERE #cp[2]\n"), "") << "where the arm stood is what was measured";
+  EXPECT_THAT(told(" HERE #cp[2]\n SET #cp[2] = #x\n"), HasSubstr("'#cp[2]': line 2 changes it"));
+  EXPECT_THAT(told(" SET #cp[2] = #x\n"), AllOf(HasSubstr("'#cp[2]': line 2 changes it when the program runs"),
+                                                HasSubstr("need not be those at which it was measured")));
+  EXPECT_THAT(told(" SET #cp[n] = #x\n"), HasSubstr("line 2 changes it"));
+  EXPECT_THAT(told(" SET mcp[3] = x\n"), HasSubstr("'mcp[3]': line 2 changes it"));
+  const Program frame = point_file(
+                            ".PROGRAM m\n SET p[2] = x\n.END\n.LOCATIONS\np[1] 1 0 0 0 1 0 0 0 1 500 0 0\n"
+                            "p[2] 1 0 0 0 1 0 0 0 1 900 0 0\np[3] 1 0 0 0 1 0 0 0 1 500 300 0\n.END\n",
+                            arm.robot.chain, "f.v2")
+                            .program;
+  EXPECT_THAT(complaint([&] { robot_points(frame, "p", arm.robot); }), HasSubstr("f.v2:6: 'p[2]': line 2 changes it"));
+}
+
+TEST(Prepared, TakesProgrammedPosesInTheFrameThatTheirProgramStates) {
+  RandomStream stream{64, 13};
+  const MeasuredArm arm = measured_arm(stream, 6, 1e-3);
+  RawMeasurements raw = raw_of(arm);
+  raw.sets[0].poses = point_file(arm.val2_poses("mcp"), arm.robot.chain, "mcp.v2");
+  const Prepared plain = prepare_measurements(raw);
+  const auto with_base = [&](const std::string& base) {
+    std::string text = arm.val2_poses("mcp");
+    return text.insert(text.find(" MOVE"), base);
+  };
+  const std::string moved = with_base(" BASE 100,-20,5,30\n");
+  raw.sets[0].poses = point_file(moved, arm.robot.chain, "mcp.v2");
+  const Prepared based = prepare_measurements(raw);
+  const Eigen::Isometry3d world_from_base =
+      Eigen::Translation3d(0.1, -0.02, 0.005) * Eigen::AngleAxisd(radians(30.0), Eigen::Vector3d::UnitZ());
+  for (std::size_t i = 0; i < plain.poses.size(); ++i)
+    EXPECT_LT((world_from_base * based.poses[i].nominal_m - plain.poses[i].nominal_m).norm(), 1e-12);
+  const std::vector<WrittenFile> files = false_targets(raw, based, FrameKind::three_points);
+  ASSERT_THAT(files, SizeIs(1));
+  const Program written = read_program(WrittenIn::val2, files[0].text, "corrected.v2", arm.robot.chain);
+  const std::vector<Eigen::Vector3d> errors_m = differences(based, FrameKind::three_points);
+  for (std::size_t i = 0; i < errors_m.size(); ++i)
+    EXPECT_LT((stated_point(written.targets.at(i)) - (based.poses[i].nominal_m - errors_m[i])).norm(), 1e-4);
+  raw.sets[0].poses = point_file(with_base(" BASE x,y,z\n"), arm.robot.chain, "mcp.v2");
+  EXPECT_THAT(complaint([&] { prepare_measurements(raw); }), HasSubstr("BASE is computed when the program runs"));
+}
+
 TEST(TaughtPoints, NameTheFault) {
   const RobotPoints robot = robot_points(ThreePoints{Eigen::Vector3d(0.5, 0, 0), {0.9, 0, 0}, {0.5, 0.3, 0}}, "p.yaml");
   const auto teach = [&](const std::string& rows) {

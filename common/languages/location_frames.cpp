@@ -1,0 +1,89 @@
+#include "languages/location_frames.hpp"
+
+#include <algorithm>
+
+#include "data/text.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+/// Where the word stands in [begin, end); the end where it does not.
+std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t end, std::string_view word) {
+  for (std::size_t at = begin; at < end; ++at) {
+    if (!text.begins_word(at)) continue;
+    if (text.word_at(at) == word) return at;
+    at = std::min(text.word_end(at), end) - 1;
+  }
+  return end;
+}
+
+LocationFrames::Word word_of(const std::string& unknown) {
+  const bool reason = unknown.find(' ') != std::string::npos;
+  return {reason ? "" : unknown, reason ? unknown : ""};
+}
+
+}  // namespace
+
+std::string program_name(const ProgramText& text, std::size_t begin) {
+  const std::string_view code = text.code();
+  std::size_t end = begin;
+  while (end < code.size() && (is_word_letter(code[end]) || code[end] == '.')) ++end;
+  return lower_case(code.substr(begin, end - begin));
+}
+
+void LocationFrames::begin_program(const ProgramText& text, std::size_t at, const std::string& name) {
+  flow_.begin_routine(at, name, text.source().file_at(at));
+}
+
+void LocationFrames::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
+  begin = std::min(text.skip_spaces(begin), end);
+  std::size_t digits = begin;
+  while (digits < end && is_digit(text.code()[digits])) ++digits;
+  if (digits > begin) flow_.label(begin, std::string(text.code().substr(begin, digits - begin)));
+  begin = std::min(text.skip_spaces(digits), end);
+  if (begin < end && text.begins_word(begin)) read_way(text, text.word_at(begin), begin, end);
+}
+
+void LocationFrames::read_way(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end) {
+  using Block = FrameFlow::Block;
+  if (word == "if" && find_word(text, begin, end, "then") < end) return flow_.open(begin, Block::branch);
+  if (word == "case") return flow_.open(begin, Block::selection);
+  if (word == "while" || word == "for") return flow_.open(begin, Block::loop);
+  if (word == "do") return flow_.open(begin, Block::repeated);
+  if (word == "else" || word == "any") return flow_.alternative(begin, true);
+  if (word == "value") return flow_.alternative(begin, false);
+  if (word == "end" || word == "until") return flow_.close(begin);
+  if (word == "exit") return flow_.leave_loop(begin);
+  if (word == "return") return flow_.leave_routine(begin);
+  const std::size_t to = find_word(text, begin, end, "goto"), called = find_word(text, begin, end, "call");
+  if (to < end) {
+    const bool conditional = find_word(text, begin, end, "if") < end;
+    return flow_.jump(begin, program_name(text, text.skip_spaces(text.word_end(to))), !conditional);
+  }
+  const bool reacts = word.starts_with("react") || word == "oni" || word == "onenab";
+  if (reacts) {
+    const std::size_t comma = std::min(text.code().find(',', begin), end);
+    const std::size_t name = called < end ? text.word_end(called) : std::min(comma + 1, end);
+    return flow_.call_at_any_time(program_name(text, text.skip_spaces(name)));
+  }
+  if (called < end) call(text, called, text.skip_spaces(text.word_end(called)));
+}
+
+void LocationFrames::call(const ProgramText& text, std::size_t at, std::size_t name) {
+  const std::string called = program_name(text, name);
+  if (called.empty()) return;
+  calls_[at] = std::string(text.code().substr(name, called.size()));
+  flow_.call(at, called, true);
+}
+
+LocationFrames::Words LocationFrames::at(std::size_t offset, bool of_pose) {
+  const FrameFlow::Held held = flow_.at(offset);
+  believed_ = believed_ || (of_pose && held.call);
+  return {word_of(held.frames.unknown_tool), word_of(held.frames.unknown_frame)};
+}
+
+void LocationFrames::note_calls_elsewhere(const ProgramText& text, Program& program) const {
+  if (believed_) demecal::note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
+}
+
+}  // namespace demecal::inline languages

@@ -1,0 +1,177 @@
+// Motions to places that no number of the program tells are reported, each in its line, and end what is known of the
+// joints before the next.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "kinematics/random_arm.hpp"
+#include "languages/reading_checks.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// What is said in this line (from 1): "" where nothing is, else all sentences.
+std::string said_in_line(const Program& program, std::size_t line) {
+  std::string said;
+  for (const std::vector<Remark>* remarks : {&program.uncorrected, &program.remarks}) {
+    for (const Remark& remark : *remarks) {
+      if (remark.place.line == line) said += remark.name + ": " + remark.sentence + '\n';
+    }
+  }
+  return said;
+}
+
+/// Whether what is known of the joints ends in this line of the text.
+bool ends_in_line(const Program& program, const std::string& text, std::size_t line) {
+  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) {
+    const std::string_view before = std::string_view(text).substr(0, at);
+    return static_cast<std::size_t>(std::ranges::count(before, '\n')) + 1 == line;
+  });
+}
+
+/// Expects that the line of `text` is reported so, and that what is known of the joints ends there.
+void expect_untold(WrittenIn language, const std::string& text, std::size_t line, const std::string& sentence) {
+  SCOPED_TRACE(text);
+  const Program program = read_program(language, text, "p", wrist_arm());
+  EXPECT_THAT(said_in_line(program, line), HasSubstr(sentence));
+  EXPECT_TRUE(ends_in_line(program, text, line));
+}
+
+const std::string kKrl =
+    "DEF t()\nDECL E6POS XP1={X 1,Y 2,Z 3,A 4,B 5,C 6}\nDECL E6POS XAR[2]\nXAR[1]={X 1,Y 2,Z 3,A 4,B 5,C 6,S 2,T 2}\n";
+
+TEST(UntoldPlaces, OfKrlAreReported) {
+  for (const char* motion : {"PTP XHOME", "LIN XP5 C_DIS", "SPTP XP5 WITH $VEL_AXIS[1]=20", "CIRC XP1, XP5, CA 90",
+                             "SPLINE\nSPL XP5", "lin xp5"})
+    expect_untold(WrittenIn::krl, kKrl + motion + "\nEND\n", std::string_view(motion).starts_with("SPLINE") ? 6 : 5,
+                  "which is no point that this program gives as numbers");
+  expect_untold(WrittenIn::krl, kKrl + "PTP XHOME\n", 5, "XHOME: ");
+  expect_untold(WrittenIn::krl, kKrl + "PTP XHOME\nLIN XHOME\n", 6, "'XHOME'");
+  for (const char* motion : {"LIN XP1:XP5", "LIN XP1 : XAR[1]", "PTP XP5:XP1", "LIN $POS_ACT:XP5", "PTP INVERSE(XP1)"})
+    expect_untold(WrittenIn::krl, kKrl + motion + "\n", 5, "is computed when the program runs");
+  for (const char* motion :
+       {"LIN {X 5}", "PTP {A1 x,A2 1,A3 1,A4 1,A5 1,A6 1}", "LIN {FRAME: X 1,Y 2,Z 3,A 4,B 5,C 6}"})
+    expect_untold(WrittenIn::krl, kKrl + motion + "\n", 5, "left as it is");
+}
+
+TEST(UntoldPlaces, OfKrlAreNotSeenWhereEveryPlaceIsTold) {
+  for (const char* motion : {"PTP XP1", "LIN XP1 C_DIS", "CIRC XP1, XP1, CA 90", "PTP XAR[1]", "PTP XAR[n]",
+                             "LIN {X 1,Y 2,Z 3,A 4,B 5,C 6}", "WAIT FOR mode==#LIN", "PTP $AXIS_ACT", "; LIN XP7"}) {
+    const std::string text = kKrl + motion + "\n";
+    EXPECT_THAT(said_in_line(read_program(WrittenIn::krl, text, "p", wrist_arm()), 5), IsEmpty()) << motion;
+  }
+}
+
+TEST(UntoldPlaces, AuxiliaryPointsOfCirclesOfKrlAreReportedAlone) {
+  const std::string text = kKrl + "CIRC XP5, XP1\n";
+  const Program program = read_program(WrittenIn::krl, text, "p", wrist_arm());
+  EXPECT_THAT(said_in_line(program, 5), HasSubstr("'XP5', which is no point"));
+  EXPECT_FALSE(ends_in_line(program, text, 5)) << "where the arm comes to is told";
+}
+
+TEST(UntoldPlaces, BothPointsOfACircleOfKrlAreReported) {
+  const std::string said = said_in_line(read_program(WrittenIn::krl, kKrl + "CIRC XP5, XP6\n", "p", wrist_arm()), 5);
+  EXPECT_THAT(said, HasSubstr("'XP5'"));
+  EXPECT_THAT(said, HasSubstr("'XP6'"));
+}
+
+TEST(UntoldPlaces, OfRelativeMotionsOfKrlHaveTheCorrectionOfThePlaceBefore) {
+  const auto said = [](const std::string& motions, std::size_t line) {
+    const std::string text = kKrl + motions;
+    const Program program = read_program(WrittenIn::krl, text, "p", wrist_arm());
+    EXPECT_TRUE(ends_in_line(program, text, line)) << motions;
+    return said_in_line(program, line);
+  };
+  EXPECT_THAT(said("LIN XP1\nLIN_REL {Z 90}\n", 6), IsEmpty());
+  EXPECT_THAT(said("LIN XP1\nLIN_REL {X 300,Z -400} #TOOL\n", 6), HasSubstr("500 mm"));
+  EXPECT_THAT(said("LIN XP1\nLIN_REL {Z 90}\nLIN_REL {Z 90}\n", 7), HasSubstr("180 mm"));
+  EXPECT_THAT(said("LIN XP1\nLIN_REL {Z 90}\nLIN XP1\nSLIN_REL {Z 90}\n", 8), IsEmpty());
+  EXPECT_THAT(said("PTP_REL {A1 10}\n", 5), HasSubstr("not known"));
+  EXPECT_THAT(said("LIN_REL XP1\n", 5), HasSubstr("not known"));
+}
+
+// Other languages
+
+TEST(UntoldPlaces, OfVal3AreReported) {
+  const std::string data =
+      "<Data name=\"j\" type=\"jointRx\"><Value j1=\"1\" j2=\"2\" j3=\"3\" j4=\"4\" j5=\"5\" j6=\"6\"/></Data>"
+      "<Data name=\"k\" type=\"jointRx\"><Value j1=\"1\"/></Data>"
+      "<Program name=\"start\"><Code><![CDATA[begin\nmovej(j,flange,m)\n";
+  const auto of = [&](const std::string& motion) { return data + motion + "\nend]]></Code></Program>\n"; };
+  expect_untold(WrittenIn::val3, of("movej(jLost,flange,m)"), 3, "jLost[0]: it is not given in this program");
+  expect_untold(WrittenIn::val3, of("movej(j,flange,m)\nmovel(pLost[4],flange,m)"), 4, "pLost[4]: it is not given");
+  expect_untold(WrittenIn::val3, of("movel(pLost,flange,m)\nmovel(pLost,flange,m)"), 4, "pLost[0]: it is not given");
+  expect_untold(WrittenIn::val3, of("movel(appro(pLost,tr),flange,m)"), 3, "pLost[0]: it is not given");
+  expect_untold(WrittenIn::val3, of("movel(compose(a,b,c),flange,m)"), 3, "a[0]: it is not given in this program");
+  expect_untold(WrittenIn::val3, of("movel(compose(a,b,c)+d,flange,m)"), 3, "which is computed when the program runs");
+  expect_untold(WrittenIn::val3, of("movej(j[n],flange,m)"), 3, "");
+  const std::string bad = of("movej(k,flange,m)"), changed = of("movej(j,flange,m)\nj.j1=3");
+  EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, bad, "p", wrist_arm()), bad, 3)) << "it leaves numbers out";
+  EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, changed, "p", wrist_arm()), changed, 3));
+  const std::string told = of("movej(j,flange,m)");
+  EXPECT_THAT(read_program(WrittenIn::val3, told, "p", wrist_arm()).unknown_motions, IsEmpty());
+}
+
+TEST(UntoldPlaces, OfYaskawaAreReported) {
+  const std::string job =
+      "//POS\n///POSTYPE BASE\n///RECTAN\nC00001=1,2,3,4,5,6\nP00003=1,2,3,4,5,6\n//INST\nNOP\nMOVJ C00001\n";
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL C00002\nEND\n", 9, "C2: it is not given in this file");
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL C00001\nMOVJ P007\nMOVJ P007\nEND\n", 11, "P7: it is not given");
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL P[I001]\nEND\n", 9, "which is computed when the program runs");
+  expect_untold(WrittenIn::yaskawa_jbi, job + "MOVL LP001\nEND\n", 9, "which is computed when the program runs");
+  for (const char* motion : {"IMOV P003", "SFTON P001\nMOVL C00001", "SMOVL C00001", "SET P003 P004\nMOVL P003"}) {
+    const std::string text = job + motion + "\nEND\n";
+    EXPECT_TRUE(ends_in_line(read_program(WrittenIn::yaskawa_jbi, text, "p", wrist_arm()), text,
+                             std::string_view(motion).find('\n') == std::string_view::npos ? 9 : 10))
+        << motion;
+  }
+  EXPECT_THAT(read_program(WrittenIn::yaskawa_jbi, job + "MOVL P003 V=5.0 +MOVJ EC00001\nEND\n", "p", wrist_arm())
+                  .unknown_motions,
+              IsEmpty());
+}
+
+TEST(UntoldPlaces, OfFanucAreReported) {
+  const auto of = [](const std::string& motions, const std::string& positions = "") {
+    return "/MN\n  1:J P[1] 100% FINE ;\n" + motions + "/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n J1= 1 deg, J2= 2 deg, " +
+           "J3= 3 deg, J4= 4 deg, J5= 5 deg, J6= 6 deg\n};\n" + positions + "/END\n";
+  };
+  expect_untold(WrittenIn::fanuc_ls, of("  2:L P[4] 9mm/sec FINE ;\n"), 3, "P[4]: it is not given in this file");
+  expect_untold(WrittenIn::fanuc_ls, of("  2:J P[1] 9% FINE ;\n  3:J P[4:up] 9% FINE ;\n"), 4, "P[4]: it is not given");
+  const std::string untaught =
+      of("  2:L P[4] 9mm/sec FINE ;\n",
+         "P[4]{\n GP1:\n UF : 0, UT : 0,\n X = ******** mm, Y = 1 mm, Z = 1 mm, W = 1 deg, P = 1 deg, R = 1 deg\n};\n");
+  EXPECT_TRUE(ends_in_line(read_program(WrittenIn::fanuc_ls, untaught, "p", wrist_arm()), untaught, 3));
+  EXPECT_THAT(read_program(WrittenIn::fanuc_ls, of(""), "p", wrist_arm()).unknown_motions, IsEmpty());
+}
+
+TEST(UntoldPlaces, OfAsAndVal2AreReported) {
+  const std::string as = ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n";
+  const std::string val2 = ".LOCATIONS\np 1 0 0 0 1 0 0 0 1 10 20 30\n.END\n.PROGRAM a\n";
+  for (const auto& [language, head, motion] :
+       {std::tuple{WrittenIn::kawasaki_as, as, " LMOVE "}, std::tuple{WrittenIn::val2, val2, " MOVES "}}) {
+    expect_untold(language, head + motion + "lost\n", 5, "lost: it is not given as numbers in this program");
+    expect_untold(language, head + motion + "p\n" + motion + "#lost[2]\n", 6, "#lost[2]: it is not given as numbers");
+    EXPECT_THAT(read_program(language, head + motion + "p\n", "p", wrist_arm()).unknown_motions, IsEmpty());
+  }
+  expect_untold(WrittenIn::kawasaki_as, as + " LAPPRO lost,50\n", 5, "lost: it is not given as numbers");
+  expect_untold(WrittenIn::val2, val2 + " APPRO lost,50\n", 5, "lost: it is not given as numbers");
+  expect_untold(WrittenIn::kawasaki_as, as + " POINT lost = TRANS(x,2,3,4,5,6)\n LMOVE lost\n", 6, "lost: ");
+}
+
+TEST(UntoldPlaces, AreThoseOfNamesThatStandInTwoFiles) {
+  const ProgramSource source({{"a.src", "PTP XP1\nLIN XP2\n"},
+                              {"a.dat", "E6POS XP1={X 1,Y 2,Z 3,A 4,B 5,C 6}\nE6POS XP2={X 1,Y 2,Z 3,A 4,B 5,C 6}\n"},
+                              {"b.dat", "E6POS XP1={X 9,Y 2,Z 3,A 4,B 5,C 6}\n"}});
+  const Program program = read_program(row_of(WrittenIn::krl), source, wrist_arm());
+  ASSERT_THAT(program.targets, SizeIs(1));
+  EXPECT_TRUE(ends_in_line(program, source.text(), 1));
+}
+
+}  // namespace
+}  // namespace demecal
