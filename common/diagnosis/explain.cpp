@@ -98,16 +98,14 @@ std::vector<PricedEffect> searched_effects(const LoopEnd& end, bool vary) {
   return effects;
 }
 
-/// Takes effects out that some of the sets hold in a size, or with coefficients, that no real arm has; whether there
-/// were any.
+/// Takes effects out that some of the sets hold in a size that no real arm has; whether there were any.
 bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const std::vector<EffectSet>& sets,
                            std::vector<PricedEffect>& effects) {
   const auto& states = end.linearization.fitted.states;
   std::vector<Effect> implausible;
   for (const EffectSet& set : sets)
     for (const Effect& effect : models.with(set.effects).robot.effects)
-      if (is_implausibly_large(effect, end.problem.data.robot, states) || has_impossible_coefficients(effect))
-        implausible.push_back(effect);
+      if (is_implausibly_large(effect, end.problem.data.robot, states)) implausible.push_back(effect);
   const auto is_out = [&](const PricedEffect& one) {
     const auto is_it = [&](const Effect& other) { return other.same_law_as(one.effect); };
     return std::ranges::any_of(implausible, is_it) && std::ranges::none_of(end.model.robot.effects, is_it);
