@@ -24,11 +24,11 @@ struct NewRows {
   Eigen::VectorXd values;  ///< what the columns times the whole change are to explain
 };
 
-NewRows rows_about(const StoredKnowledge& knowledge, const DataSet& data, const std::vector<std::size_t>& poses,
+NewRows rows_about(const PriorModel& prior, const DataSet& data, const std::vector<std::size_t>& poses,
                    const RowScales& scales, const Eigen::VectorXd& change, bool robust) {
-  const ParameterSpace space(knowledge.changed(change), knowledge.ids());
+  const ParameterSpace space(prior.changed(change), prior.ids());
   NewRows rows{residual_field(data, poses, space, scales, robust), {}, {}};
-  rows.columns = knowledge.columns(rows.field);
+  rows.columns = prior.columns(rows.field);
   rows.values = rows.field.residual + rows.columns * change;
   return rows;
 }
@@ -36,7 +36,7 @@ NewRows rows_about(const StoredKnowledge& knowledge, const DataSet& data, const 
 /// Variance components of the rows, as far as factors multiply them.
 class RowCovariance {
  public:
-  RowCovariance(const StoredKnowledge& knowledge, const NewRows& rows, Eigen::Index most_rows) {
+  RowCovariance(const PriorModel& prior, const NewRows& rows, Eigen::Index most_rows) {
     count_ = std::min(rows.columns.rows(), most_rows);
     // Whole poses, spread evenly.
     std::vector<Eigen::Index> kept;
@@ -52,9 +52,9 @@ class RowCovariance {
     count_ = std::ssize(kept);
     const Eigen::MatrixXd columns = rows.columns(kept, Eigen::all);
     values_ = rows.values(kept);
-    fixed_ = columns * knowledge.fixed_covariance() * columns.transpose();
+    fixed_ = columns * prior.fixed_covariance() * columns.transpose();
     for (std::size_t part = 0; part < kBeliefParts; ++part)
-      parts_[part] = columns * knowledge.covariance_of(static_cast<BeliefPart>(part)) * columns.transpose();
+      parts_[part] = columns * prior.covariance_of(static_cast<BeliefPart>(part)) * columns.transpose();
   }
 
   Eigen::MatrixXd covariance(const PartFactors& factors, double noise) const {
@@ -182,12 +182,12 @@ RowScales first_scales(const DataSet& data, const CorrectedRobot& placed, const 
   return scales;
 }
 
-std::vector<ParameterEstimate> estimates_of(const StoredKnowledge& knowledge, const CorrectedRobot& robot,
-                                            const DataSet& data, const Eigen::MatrixXd& root) {
+std::vector<ParameterEstimate> estimates_of(const PriorModel& prior, const CorrectedRobot& robot, const DataSet& data,
+                                            const Eigen::MatrixXd& root) {
   const CorrectedRobot nominal = nominal_robot(data);
   std::vector<ParameterEstimate> estimates;
-  for (std::size_t i = 0; i < knowledge.ids().size(); ++i) {
-    const ParameterId& id = knowledge.ids()[i];
+  for (std::size_t i = 0; i < prior.ids().size(); ++i) {
+    const ParameterId& id = prior.ids()[i];
     if (id.kind == ParameterId::Kind::effect) continue;
     estimates.push_back(
         {id, parameter_value(nominal, id), parameter_value(robot, id), root.row(static_cast<Eigen::Index>(i)).norm()});
@@ -195,9 +195,9 @@ std::vector<ParameterEstimate> estimates_of(const StoredKnowledge& knowledge, co
   return estimates;
 }
 
-void set_errors_of_effects(const StoredKnowledge& knowledge, const Eigen::MatrixXd& root, CorrectedRobot& robot) {
-  for (std::size_t i = 0; i < knowledge.ids().size(); ++i) {
-    const ParameterId& id = knowledge.ids()[i];
+void set_errors_of_effects(const PriorModel& prior, const Eigen::MatrixXd& root, CorrectedRobot& robot) {
+  for (std::size_t i = 0; i < prior.ids().size(); ++i) {
+    const ParameterId& id = prior.ids()[i];
     if (id.kind != ParameterId::Kind::effect) continue;
     Effect& effect = robot.effects[static_cast<std::size_t>(id.index)];
     effect.standard_errors.resize(effect.values.size(), 0.0);
@@ -206,14 +206,14 @@ void set_errors_of_effects(const StoredKnowledge& knowledge, const Eigen::Matrix
 }
 
 /// The posterior in the model file's form: waves that are as good as known are left out of it.
-Posterior posterior_of_update(const StoredKnowledge& knowledge, const Eigen::MatrixXd& root) {
+Posterior posterior_of_update(const PriorModel& prior, const Eigen::MatrixXd& root) {
   constexpr double kKnown_rad = 4e-6;
-  Posterior posterior{knowledge.ids(), {}, {}};
-  std::vector<Eigen::Index> kept(knowledge.ids().size());
+  Posterior posterior{prior.ids(), {}, {}};
+  std::vector<Eigen::Index> kept(prior.ids().size());
   std::iota(kept.begin(), kept.end(), Eigen::Index{0});
-  const SmoothCorrections& waves = knowledge.ripples();
+  const SmoothCorrections& waves = prior.ripples();
   for (std::size_t i = 0; i < waves.terms.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(knowledge.ids().size() + i);
+    const auto row = static_cast<Eigen::Index>(prior.ids().size() + i);
     if (root.row(row).norm() < kKnown_rad) continue;
     const auto joint = static_cast<std::size_t>(waves.terms[i].joint);
     posterior.terms.push_back(
@@ -252,33 +252,33 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   constexpr Eigen::Index kMostRows = 480;
   constexpr std::size_t kMostLeftOut = 150;  ///< poses
   constexpr double kNothing = 1e-8;
-  const StoredKnowledge knowledge(model, placed, data, poses, declared, drift);
+  const PriorModel prior(model, placed, data, poses, declared, drift);
   RowScales scales = first_scales(data, placed, poses, model.interval);
   Update update;
-  Solution solution{Eigen::VectorXd::Zero(knowledge.numbers()), {}};
+  Solution solution{Eigen::VectorXd::Zero(prior.numbers()), {}};
   Sizes sizes;
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> used = poses;
   for (int step = 0; step < kSteps; ++step) {
     const bool many = used.size() > kMostLeftOut;
-    const NewRows rows = rows_about(knowledge, data, used, scales, solution.change, many && step > 0);
-    sizes = likeliest_sizes(RowCovariance(knowledge, rows, kMostRows));
-    covariance = knowledge.covariance(sizes.factors);
+    const NewRows rows = rows_about(prior, data, used, scales, solution.change, many && step > 0);
+    sizes = likeliest_sizes(RowCovariance(prior, rows, kMostRows));
+    covariance = prior.covariance(sizes.factors);
     if (!many) {
       const LeftOut all = left_out(covariance, rows, sizes.noise);
       if (step == 0) used = without_gross(all, rows);
       // A robot may be as it was; none is its fleet's mean.
-      const Eigen::MatrixXd little = knowledge.covariance({kNothing, kNothing, kNothing, kNothing});
+      const Eigen::MatrixXd little = prior.covariance({kNothing, kNothing, kNothing, kNothing});
       update.base_and_tool_only = !model.fleet && left_out(little, rows, sizes.noise).squares < all.squares;
       if (update.base_and_tool_only) covariance = little;
     }
     solution = solve(covariance, rows, sizes.noise);
   }
   for (double& scale : scales) scale *= std::sqrt(sizes.noise);
-  update.robot = knowledge.changed(solution.change);
-  set_errors_of_effects(knowledge, solution.root, update.robot);
-  update.fitted = {posterior_of_update(knowledge, solution.root), scales};
-  update.estimates = estimates_of(knowledge, update.robot, data, solution.root);
+  update.robot = prior.changed(solution.change);
+  set_errors_of_effects(prior, solution.root, update.robot);
+  update.fitted = {posterior_of_update(prior, solution.root), scales};
+  update.estimates = estimates_of(prior, update.robot, data, solution.root);
   update.factors = sizes.factors;
   update.noise_factor = sizes.noise;
   say_changes(sizes, model.fleet.has_value(), update);

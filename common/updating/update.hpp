@@ -11,7 +11,7 @@
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
-#include "updating/stored_knowledge.hpp"
+#include "updating/prior_model.hpp"
 
 namespace demecal::inline updating {
 

@@ -38,12 +38,12 @@ using PartFactors = std::array<double, kBeliefParts>;
 
 /// The numbers of a model that may change, and what is believed of their changes: normal, with zero mean about `robot`.
 /// A fleet's mean does not change: what is believed is how far a robot of the type is from it, as its posterior states.
-class StoredKnowledge {
+class PriorModel {
  public:
   /// `placed`: the model's robot with base and tool where `data` have them. Numbers declared that the model does not
   /// know are believed as the maker states them.
-  StoredKnowledge(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
-                  std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift = {});
+  PriorModel(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
+             std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift = {});
 
   const CorrectedRobot& robot() const { return robot_; }
   const std::vector<ParameterId>& ids() const { return ids_; }

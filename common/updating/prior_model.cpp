@@ -1,4 +1,4 @@
-#include "updating/stored_knowledge.hpp"
+#include "updating/prior_model.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
@@ -140,9 +140,8 @@ std::string_view to_string(BeliefPart part) {
   return kWords[static_cast<std::size_t>(part)];
 }
 
-StoredKnowledge::StoredKnowledge(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
-                                 std::span<const std::size_t> poses, const DeclaredModel& declared,
-                                 const AssumedDrift& drift)
+PriorModel::PriorModel(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
+                       std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift)
     : robot_(placed),
       ids_(numbers_of(model, placed, data, declared)),
       ripples_(waves_about(model, placed, data, poses)) {
@@ -152,8 +151,8 @@ StoredKnowledge::StoredKnowledge(const CalibratedModel& model, const CorrectedRo
   believe_ripples(model, data, drift);
 }
 
-void StoredKnowledge::believe_numbers(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift,
-                                      std::span<const std::size_t> poses) {
+void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift,
+                                 std::span<const std::size_t> poses) {
   const FitOptions options;
   const auto n = static_cast<Eigen::Index>(ids_.size());
   stated_ = Eigen::MatrixXd::Zero(n, n);
@@ -204,7 +203,7 @@ void StoredKnowledge::believe_numbers(const CalibratedModel& model, const DataSe
   }
 }
 
-void StoredKnowledge::believe_ripples(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift) {
+void PriorModel::believe_ripples(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift) {
   constexpr double kStep_rad = 0.035;
   const double known_rad = model.fleet ? kToldWithin_rad : kKnownWithin_rad;
   const auto terms = static_cast<Eigen::Index>(ripples_.terms.size());
@@ -245,13 +244,13 @@ void StoredKnowledge::believe_ripples(const CalibratedModel& model, const DataSe
   }
 }
 
-Eigen::MatrixXd StoredKnowledge::fixed_covariance() const {
+Eigen::MatrixXd PriorModel::fixed_covariance() const {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(numbers(), numbers());
   covariance.topLeftCorner(stated_.rows(), stated_.cols()) = stated_;
   return covariance;
 }
 
-Eigen::MatrixXd StoredKnowledge::covariance_of(BeliefPart part) const {
+Eigen::MatrixXd PriorModel::covariance_of(BeliefPart part) const {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(numbers(), numbers());
   const auto n = static_cast<Eigen::Index>(ids_.size());
   if (part == BeliefPart::links) covariance.diagonal().head(n) = link_drift_;
@@ -267,18 +266,18 @@ Eigen::MatrixXd StoredKnowledge::covariance_of(BeliefPart part) const {
   return covariance;
 }
 
-Eigen::MatrixXd StoredKnowledge::covariance(const PartFactors& factors) const {
+Eigen::MatrixXd PriorModel::covariance(const PartFactors& factors) const {
   Eigen::MatrixXd covariance = fixed_covariance();
   for (std::size_t part = 0; part < kBeliefParts; ++part)
     covariance += factors[part] * covariance_of(static_cast<BeliefPart>(part));
   return covariance;
 }
 
-RowMatrix StoredKnowledge::columns(const ResidualField& field) const {
+RowMatrix PriorModel::columns(const ResidualField& field) const {
   return beside(field.declared, ripples_.columns(field));
 }
 
-CorrectedRobot StoredKnowledge::changed(const Eigen::VectorXd& change) const {
+CorrectedRobot PriorModel::changed(const Eigen::VectorXd& change) const {
   const auto n = static_cast<Eigen::Index>(ids_.size());
   CorrectedRobot robot = ParameterSpace(robot_, ids_).at(change.head(n)).robot;
   SmoothCorrections waves = ripples_;
