@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <filesystem>

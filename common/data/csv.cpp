@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <istream>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "errors/check.hpp"

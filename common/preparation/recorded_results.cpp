@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "programs/nominal_joints.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>

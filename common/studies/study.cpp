@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
 #include "data/csv.hpp"
