@@ -20,6 +20,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "preparation/named_points.hpp"

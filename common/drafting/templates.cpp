@@ -13,6 +13,7 @@
 #include "drafting/template_texts.hpp"
 #include "errors/input_error.hpp"
 #include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"
 #include "yaml/files.hpp"

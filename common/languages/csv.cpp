@@ -19,7 +19,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"

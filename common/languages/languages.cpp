@@ -2,28 +2,30 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iomanip>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
-#include "kinematics/units.hpp"
-
-namespace demecal::inline languages {
 
 // One row a language, defined in its own file. Programs have signs of several: those of Kawasaki's those of VAL II,
 // too, and words of any program may be signs of CSV, which comes last.
+namespace demecal::inline staubli_kawasaki {
 Language kawasaki_as_language();
 Language val2_language();
 Language val3_language();
-Language fanuc_ls_language();
-Language yaskawa_jbi_language();
+}  // namespace demecal::inline staubli_kawasaki
+namespace demecal::inline kuka_abb_ur {
 Language rapid_language();
 Language krl_language();
 Language urscript_language();
+}  // namespace demecal::inline kuka_abb_ur
+
+namespace demecal::inline languages {
+
+Language fanuc_ls_language();
+Language yaskawa_jbi_language();
 Language csv_language();
 
 std::span<const Language> all_languages() {
@@ -219,38 +221,6 @@ std::optional<std::size_t> marked_line(std::string_view text, std::span<const La
   };
   if (std::none_of(among.begin(), among.end(), comments)) return std::nullopt;
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
-
-std::string joints_text(const Chain& arm, const JointVector& joints, std::string_view separator,
-                        const std::vector<std::string>& names) {
-  constexpr int kDecimals = 4;
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(kDecimals);
-  for (int i = 0; i < arm.size(); ++i) {
-    if (i > 0) text << separator;
-    if (!names.empty()) text << names[static_cast<std::size_t>(i)] << ' ';
-    text << (is_revolute(arm, i) ? degrees(joints[i]) : millimetres(joints[i])) + 0.0;
-  }
-  return text.str();
-}
-
-std::string joints_text_si(const JointVector& joints, std::string_view separator) {
-  constexpr int kDecimals = 8;
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(kDecimals);
-  for (Eigen::Index i = 0; i < joints.size(); ++i) text << (i > 0 ? separator : "") << joints[i];
-  return text.str();
-}
-
-std::vector<std::string> numbered_names(std::string_view stem, int count) {
-  std::vector<std::string> names;
-  for (int i = 1; i <= count; ++i) names.push_back(std::string(stem) + std::to_string(i));
-  return names;
-}
-
-bool has_six_revolute_joints(const Chain& arm) {
-  constexpr int kSix = 6;
-  return arm.size() == kSix && std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
 }
 
 }  // namespace demecal::inline languages

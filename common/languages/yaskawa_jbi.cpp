@@ -15,7 +15,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"

@@ -24,6 +24,7 @@
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
 #include "parameters/declared_model.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "prediction/corrected_robot.hpp"

@@ -26,6 +26,7 @@
 #include "kinematics/units.hpp"
 #include "languages/languages.hpp"
 #include "library/conversion.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "programs/command_model.hpp"

@@ -19,6 +19,7 @@
 #include "html/page.hpp"
 #include "languages/languages.hpp"
 #include "parameters/declared_model.hpp"
+#include "parsed_programs/language.hpp"
 #include "planning/plan.hpp"
 #include "studies/plan_report.hpp"
 #include "terminal/report_text.hpp"

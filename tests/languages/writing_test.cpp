@@ -4,6 +4,7 @@
 
 #include "kinematics/random_arm.hpp"
 #include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 
 namespace demecal {
 namespace {

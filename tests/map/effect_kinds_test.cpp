@@ -31,6 +31,10 @@ std::map<std::string, std::string> law_files(const std::vector<Source>& tree) {
   return files;
 }
 
+/// Rooms where a tool is what robot programs call so.
+const std::set<std::string> kRoomsOfPrograms{"common/languages", "common/kuka_abb_ur", "common/staubli_kawasaki",
+                                             "common/programs"};
+
 /// Words that happen to be kinds' too, or that declare a whole kind: where they stand, and what they mean there.
 bool means_something_else(const std::string& kind, const std::string& path) {
   static const std::map<std::string, std::set<std::string>> elsewhere{
@@ -40,8 +44,8 @@ bool means_something_else(const std::string& kind, const std::string& path) {
       {"common/data_check/finding.cpp", {"joint_offset"}},              // kinds of findings
       {"common/updating/change.cpp", {"registration"}}};                // a verdict
   const auto words = elsewhere.find(path);
-  const bool of_a_robot_language =
-      (path.starts_with("common/languages/") || path.starts_with("common/programs/")) && kind == "tool";
+  const std::string room = path.substr(0, path.rfind('/'));
+  const bool of_a_robot_language = kind == "tool" && kRoomsOfPrograms.contains(room);
   return of_a_robot_language || (words != elsewhere.end() && words->second.contains(kind));
 }
 

@@ -4,6 +4,7 @@
 
 #include "corrected_arm.hpp"
 #include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 #include "programs/summary.hpp"
 
 namespace demecal {

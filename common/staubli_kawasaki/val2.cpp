@@ -21,14 +21,14 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/languages.hpp"
-#include "languages/location_names.hpp"
-#include "languages/val2_program.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/location_names.hpp"
+#include "staubli_kawasaki/val2_program.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 constexpr double kSixteenthMm = 1e-3 / 16.0;
@@ -199,4 +199,4 @@ Language val2_language() {
           .write = val2_text};
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -1,4 +1,4 @@
-#include "languages/rapid_statements.hpp"
+#include "kuka_abb_ur/rapid_statements.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "data/text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 /// The name with indices behind it, as far as they go.
@@ -196,4 +196,4 @@ void RapidStatements::judge_offset(std::size_t begin, std::size_t end, std::stri
               computed ? std::nullopt : std::optional(std::sqrt(square)));
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -12,14 +12,14 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/krl_frames.hpp"
-#include "languages/krl_statements.hpp"
-#include "languages/languages.hpp"
+#include "kuka_abb_ur/krl_frames.hpp"
+#include "kuka_abb_ur/krl_statements.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 constexpr int kDeepestAggregate = 20;
@@ -258,4 +258,4 @@ Language krl_language() {
           .write = krl_text};
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

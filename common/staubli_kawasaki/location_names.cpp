@@ -1,11 +1,11 @@
-#include "languages/location_names.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "data/text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 /// The name without its indices, a bracket open where there are some: "p[" of "p[1]".
@@ -78,4 +78,4 @@ std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_
   return end;
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -1,4 +1,4 @@
-#include "languages/val2_program.hpp"
+#include "staubli_kawasaki/val2_program.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "data/text.hpp"
-#include "languages/location_names.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 std::string lower_name(const Target& target) {
@@ -204,4 +204,4 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
   }
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

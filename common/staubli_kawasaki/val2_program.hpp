@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "languages/location_frames.hpp"
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/location_frames.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 
 /// Tool and base are those that hold at the motions to a point; of one that no motion names, one must serve all.
 /// Motions whose location has an index that is computed are tied to none.
@@ -54,4 +54,4 @@ class Val2Statements {
   std::vector<std::pair<std::size_t, std::string>> computed_{};  ///< destinations that are no locations
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -12,14 +12,14 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/languages.hpp"
-#include "languages/rapid_frames.hpp"
-#include "languages/rapid_statements.hpp"
+#include "kuka_abb_ur/rapid_frames.hpp"
+#include "kuka_abb_ur/rapid_statements.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 constexpr std::array<std::size_t, 4> kRobtarget{3, 4, 4, 6};
@@ -214,4 +214,4 @@ Language rapid_language() {
           .write = rapid_text};
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -10,7 +10,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 /// How many points a motion command begins with; 0 for words that are none.
 std::size_t points_of_krl_motion(std::string_view word);
@@ -53,4 +53,4 @@ class KrlStatements {
   std::set<std::size_t> numbers_;  ///< where those of targets begin
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

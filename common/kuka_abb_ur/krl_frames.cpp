@@ -1,4 +1,4 @@
-#include "languages/krl_frames.hpp"
+#include "kuka_abb_ur/krl_frames.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "data/text.hpp"
-#include "languages/krl_statements.hpp"
+#include "kuka_abb_ur/krl_statements.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 constexpr std::array<std::string_view, 6> kFrameParts{"x", "y", "z", "a", "b", "c"};
@@ -253,4 +253,4 @@ void KrlFrames::note_calls_believed(Program& program) const {
   if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -16,14 +16,14 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
-#include "languages/kawasaki_as_program.hpp"
-#include "languages/languages.hpp"
-#include "languages/location_names.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/kawasaki_as_program.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 constexpr CellUnit kOatAngle{std::numbers::pi / 180.0, kDecimalsDeg};
@@ -226,4 +226,4 @@ Language kawasaki_as_language() {
           .write = as_text};
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -16,13 +16,13 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/languages.hpp"
-#include "languages/val3_program.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/val3_program.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 constexpr std::array<std::string_view, 6> kJointAttributes{"j1", "j2", "j3", "j4", "j5", "j6"};
@@ -265,4 +265,4 @@ Language val3_language() {
           .read = [](const ReaderInput& input) { return Val3Reader(input).read(); }};
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

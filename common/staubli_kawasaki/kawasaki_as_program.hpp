@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "languages/location_frames.hpp"
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/location_frames.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 
 /// A location that a statement writes as numbers: TRANS(x, y, z, o, a, t) or #PPOINT(jt1, ...).
 struct LocationLiteral {
@@ -92,4 +92,4 @@ class AsStatements {
   std::string sets_configuration_{};
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "languages/rapid_statements.hpp"
+#include "kuka_abb_ur/rapid_statements.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 /// tooldata and wobjdata that the program declares as numbers and assigns nowhere else; tool0 is the flange, wobj0 the
 /// base. Every Move instruction takes its tool and \WObj to the targets that it names or holds.
@@ -47,4 +47,4 @@ class RapidFrames {
   std::vector<Held> held_;
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "kinematics/chain.hpp"
-#include "languages/languages.hpp"
-#include "languages/urscript_statements.hpp"
+#include "kuka_abb_ur/urscript_statements.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 /// How many of its first arguments a command moves to; 0 for words that are none.
@@ -288,4 +288,4 @@ Language urscript_language() {
           .write = urscript_text};
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -1,10 +1,10 @@
-#include "languages/location_frames.hpp"
+#include "staubli_kawasaki/location_frames.hpp"
 
 #include <algorithm>
 
 #include "data/text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 /// Where the word stands in [begin, end); the end where it does not.
@@ -86,4 +86,4 @@ void LocationFrames::note_calls_elsewhere(const ProgramText& text, Program& prog
   if (believed_) demecal::note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

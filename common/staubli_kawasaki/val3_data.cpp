@@ -1,10 +1,10 @@
-#include "languages/val3_program.hpp"
+#include "staubli_kawasaki/val3_program.hpp"
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -122,4 +122,4 @@ std::vector<Val3Code> val3_programs(const ProgramText& text) {
   return programs;
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -11,7 +11,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 /// How many targets a motion instruction begins with; 0 for words that are none.
 std::size_t targets_of_rapid_motion(std::string_view word);
@@ -57,4 +57,4 @@ class RapidStatements {
   std::vector<TextRange> destinations_{};  ///< the arguments of motions that say where to
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -11,7 +11,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 /// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
 std::optional<std::size_t> urscript_literal(const ProgramText& text, std::size_t offset);
@@ -23,4 +23,4 @@ void mark_changed(const ProgramText& text, const std::set<std::size_t>& plain, s
 /// Why the rotation vector of a pose cannot be meant in rad; empty: it can.
 std::string longer_than_a_turn(const Target& target);
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -10,7 +10,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 
 /// The name of a program that stands at `begin`, in small letters; points belong to it.
 std::string program_name(const ProgramText& text, std::size_t begin);
@@ -51,4 +51,4 @@ class LocationFrames {
   bool believed_ = false;
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -12,7 +12,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 
 /// One <Value .../>, and what the <Data ...> around it says of it.
 struct Val3Value {
@@ -107,4 +107,4 @@ class Val3Statements {
   std::vector<Val3Nearby> nearby_;
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

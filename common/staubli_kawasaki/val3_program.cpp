@@ -1,4 +1,4 @@
-#include "languages/val3_program.hpp"
+#include "staubli_kawasaki/val3_program.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 /// Functions that leave these of their arguments, from 0, as they are.
@@ -261,4 +261,4 @@ std::string Val3Statements::changed(const std::string& name) const {
   return "";
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

@@ -11,7 +11,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 /// What holds where: $TOOL and $BASE set to numbers or to TOOL_DATA[n] and BASE_DATA[n] of the file, BAS(#TOOL, n),
 /// FDAT_ACT, and for targets that no motion of the file names, the FDAT that goes with them by name (XP1 and FP1).
@@ -60,4 +60,4 @@ class KrlFrames {
   std::map<std::size_t, Motion> motions_;  ///< where each begins
 };
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

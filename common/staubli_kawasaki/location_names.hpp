@@ -11,7 +11,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 
 /// The name that begins at `begin` of the code, as written: a # before it and indices behind it belong to it; empty
 /// where none does.
@@ -27,4 +27,4 @@ void note_untold_locations(const ProgramText& text, const std::map<std::string, 
 /// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.
 std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end);
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki

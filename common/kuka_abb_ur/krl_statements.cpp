@@ -1,4 +1,4 @@
-#include "languages/krl_statements.hpp"
+#include "kuka_abb_ur/krl_statements.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "data/text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 std::size_t points_of_krl_motion(std::string_view word) {
   if (word == "circ" || word == "scirc") return 2;
@@ -172,4 +172,4 @@ bool KrlStatements::is_copied(const Place& place) const {
          text_.skip_spaces(place.name_end) >= place.line_end;
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -1,4 +1,4 @@
-#include "languages/urscript_statements.hpp"
+#include "kuka_abb_ur/urscript_statements.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "parsed_programs/changed_names.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 /// What a statement does with a variable whose name stands at [begin, end).
@@ -65,4 +65,4 @@ std::string longer_than_a_turn(const Target& target) {
          " rad long, more than a turn; URScript counts in rad, not in degrees";
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

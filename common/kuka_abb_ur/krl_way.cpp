@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "data/text.hpp"
-#include "languages/krl_frames.hpp"
+#include "kuka_abb_ur/krl_frames.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 
 /// One statement, as all are that stand in a line.
 void KrlFrames::read_line(std::size_t begin, std::size_t end) {
@@ -85,4 +85,4 @@ void KrlFrames::read_call(const std::string& word, std::size_t begin, std::size_
   flow_.call(begin, word, statement);
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

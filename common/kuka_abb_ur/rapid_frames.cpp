@@ -1,4 +1,4 @@
-#include "languages/rapid_frames.hpp"
+#include "kuka_abb_ur/rapid_frames.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "data/text.hpp"
-#include "languages/rapid_statements.hpp"
+#include "kuka_abb_ur/rapid_statements.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline kuka_abb_ur {
 namespace {
 
 /// [[x, y, z], [q1, q2, q3, q4]].
@@ -193,4 +193,4 @@ void RapidFrames::complete(Target& target) const {
   if (!held_.empty()) target.frames.unknown_tool = "no motion names it";
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline kuka_abb_ur

@@ -1,4 +1,4 @@
-#include "languages/kawasaki_as_program.hpp"
+#include "staubli_kawasaki/kawasaki_as_program.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "data/text.hpp"
-#include "languages/location_names.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
-namespace demecal::inline languages {
+namespace demecal::inline staubli_kawasaki {
 namespace {
 
 constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "uwrist", "dwrist"};
@@ -215,4 +215,4 @@ std::vector<TargetUse> AsStatements::uses(const std::string& name) const {
   return found == uses_.end() ? std::vector<TargetUse>{} : found->second;
 }
 
-}  // namespace demecal::inline languages
+}  // namespace demecal::inline staubli_kawasaki
