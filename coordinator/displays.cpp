@@ -59,6 +59,7 @@ ProgressDisplay::ProgressDisplay(std::FILE* out, const CalibrationData& data, bo
       terminal_(::isatty(::fileno(out)) == 1),
       parameters_(data.parameters),
       archipelago_(data.archipelago),
+      breeds_(data.breeds),
       last_plain_(std::chrono::steady_clock::now()) {}
 
 void ProgressDisplay::on_progress(const Progress& progress) {
@@ -103,8 +104,9 @@ std::string ProgressDisplay::line(std::uint32_t joint) const {
     speed += progress.evaluations_per_s;
   }
   const std::string fitness = std::isfinite(best) ? fmt::format("{:.4g}", best) : "-";
-  return fmt::format("  joint {}  generation {:>5}/{}  best fitness {:>10}  {:>9.0f} evaluations/s", joint + 1,
-                     generation, parameters_.number_generations, fitness, speed);
+  const std::string name = breeds_ == Breeds::sets ? "explanations" : fmt::format("joint {}", joint + 1);
+  return fmt::format("  {}  generation {:>5}/{}  best fitness {:>10}  {:>9.0f} evaluations/s", name, generation,
+                     parameters_.number_generations, fitness, speed);
 }
 
 void ProgressDisplay::redraw() {

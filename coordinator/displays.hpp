@@ -45,6 +45,7 @@ class ProgressDisplay : public RunObserver {
   bool terminal_;
   const GpParameters parameters_;
   const Archipelago archipelago_;
+  const Breeds breeds_;
   std::map<IslandKey, Progress> last_;
   std::map<std::string, std::uint32_t> workers_;
   std::size_t drawn_lines_ = 0;

@@ -123,9 +123,13 @@ EventLog::~EventLog() {
 
 void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool /*shown*/) {
   stage_.run = data.run;
-  ++evolutions_;
-  publish_stage(Stage::evolving, evolutions_ == 1 ? "evolving the joint corrections"
-                                                  : fmt::format("closing the loop: evolution {}", evolutions_));
+  if (data.breeds == Breeds::sets) {
+    publish_stage(Stage::evolving, "closing the loop: evolving explanations");
+  } else {
+    ++evolutions_;
+    publish_stage(Stage::evolving, evolutions_ == 1 ? "evolving the joint corrections"
+                                                    : fmt::format("closing the loop: evolution {}", evolutions_));
+  }
   file_.note(data);
   std::map<IslandKey, Progress> last;
   for (const Progress& progress : reached) last[progress.island] = progress;

@@ -1,4 +1,4 @@
-// The interface through which a calibration has formulas evolved, wherever the islands are.
+// The interface through which a calibration has formulas and explanations evolved, wherever the islands are.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,9 @@
 
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effect_sets/set_island.hpp"
+#include "explanations/explanation_search.hpp"
 #include "expression/shared_function.hpp"
 
 namespace demecal::inline calibration {
@@ -47,6 +50,12 @@ class Evolver {
 
   /// Evolves candidates for every joint of a training. What complete evolutions find is a function of the arguments.
   virtual EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) = 0;
+
+  /// As demecal::search_explanations() does, to the bit, wherever the islands are. What an interrupted search had
+  /// reached is returned.
+  virtual std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) {
+    return demecal::search_explanations(problem, search);
+  }
 
   /// The closed loop is about to have this evolved; for those who watch.
   virtual void announce(Purpose /*purpose*/) {}

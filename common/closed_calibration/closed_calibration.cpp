@@ -105,6 +105,9 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
   LoopOptions options = loop_options(job_);
   options.evolved = std::move(evolved.formulas);
   options.evolved_null_gains = std::move(evolved.null_nats);
+  options.search_explanations = [this](const ExplanationProblem& problem, const SetSearch& search) {
+    return evolver_.search_explanations(problem, search);
+  };
   LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
   drop_negligible_terms(found.before);
   drop_negligible_terms(found.model);

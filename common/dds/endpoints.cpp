@@ -127,25 +127,25 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/7/data";
+      return "demecal/8/data";
     case Topic::task:
-      return "demecal/7/task";
+      return "demecal/8/task";
     case Topic::control:
-      return "demecal/7/control";
+      return "demecal/8/control";
     case Topic::migrants:
-      return "demecal/7/migrants/" + std::to_string(joint + 1);
+      return "demecal/8/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/7/progress";
+      return "demecal/8/progress";
     case Topic::checkpoint:
-      return "demecal/7/checkpoint";
+      return "demecal/8/checkpoint";
     case Topic::outcome:
-      return "demecal/7/outcome";
+      return "demecal/8/outcome";
     case Topic::loop:
-      return "demecal/7/loop";
+      return "demecal/8/loop";
     case Topic::worker:
       break;
   }
-  return "demecal/7/worker";
+  return "demecal/8/worker";
 }
 
 fastdds::DataWriterQos writer_qos(Topic topic) {

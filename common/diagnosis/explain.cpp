@@ -182,7 +182,7 @@ SearchedSets searched_sets(const LoopEnd& end, const ExplanationSearch& search, 
     SetModels models(end.problem, end.model, effects);
     std::vector<EffectSet> sets = prunings(models.problem(), models.held());
     if (!vary || attempt == kMostAttempts) return {std::move(effects), std::move(models), std::move(sets)};
-    const auto evolved = search_explanations(models.problem(), models.held(), search, random);
+    const auto evolved = end.search_explanations(models.problem(), set_search(models.held(), search, random));
     if (leave_out_implausible(end, models, evolved, effects)) continue;
     sets = worth_having(models, std::move(sets), evolved);
     return {std::move(effects), std::move(models), std::move(sets)};

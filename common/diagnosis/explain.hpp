@@ -26,6 +26,7 @@ struct LoopEnd {
   const std::vector<Round>& rounds;
   std::vector<double>& null_maxima;  ///< the latest null distribution
   GroupRules rules;                  ///< by which effects that the model lacks are judged
+  const SearchExplanations& search_explanations;
 };
 
 struct Explained {

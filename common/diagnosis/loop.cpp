@@ -254,9 +254,9 @@ Linearization ClosedLoop::choose_explanation(Linearization linearization, LoopRe
   ExplanationSearch search = options_.explanations;
   if (interrupted_) search.variations = 0;
   search.most_effects = static_cast<std::size_t>(options_.max_effects);
-  Explained found =
-      explained({problem_, model_, linearization, candidates_, columns_, outcome_.rounds, null_maxima_, rules()},
-                search, random(RandomPurpose::explanation_search), watch_);
+  Explained found = explained({problem_, model_, linearization, candidates_, columns_, outcome_.rounds, null_maxima_,
+                               rules(), options_.search_explanations},
+                              search, random(RandomPurpose::explanation_search), watch_);
   if (found.rounds.empty() && found.model.robot.effects.size() == model_.robot.effects.size()) {
     result.front = std::move(found.front);
     return linearization;

@@ -39,6 +39,7 @@ struct LoopOptions {
   bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
   /// For sets of effects, when nothing more can be added; without variations effects can only be left out.
   ExplanationSearch explanations{};
+  SearchExplanations search_explanations = demecal::search_explanations;
   std::uint64_t seed = 1;
 };
 

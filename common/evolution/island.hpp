@@ -25,6 +25,7 @@ struct IslandState {
   Population population;
   Population front;                ///< members of the ParetoFront over all generations
   std::uint32_t without_gain = 0;  ///< epochs since its best grew better or the population began anew
+  std::uint64_t draws = 0;         ///< of random numbers, where one stream goes on from epoch to epoch
 
   bool operator==(const IslandState&) const = default;
 };
@@ -33,7 +34,7 @@ struct IslandState {
 struct IslandFigures {
   double best = 0.0;
   double median = 0.0;            ///< the lower one where the population is even
-  std::uint32_t best_length = 0;  ///< nodes
+  std::uint32_t best_length = 0;  ///< nodes, or effects of a set
   double diversity = 0.0;         ///< share of trees that differ from all before them, to the bit; 0 to 1
 
   bool operator==(const IslandFigures&) const = default;

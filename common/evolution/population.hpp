@@ -1,7 +1,8 @@
-// A correction model under evolution, a population of them, its Pareto front, and who of it breeds.
+// An individual under evolution, a population of them, its Pareto front, and who of it breeds.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,9 +12,11 @@
 
 namespace demecal::inline evolution {
 
+/// A formula, or a set of effects.
 struct Individual {
   Tree tree;
   double fitness = 0.0;  ///< raw fitness, smaller is better; infinite where the tree has no finite value on some row
+  std::vector<std::uint32_t> effects{};  ///< of a set, in the order in which they came; empty where it is a formula
 
   bool operator==(const Individual&) const = default;
 };

@@ -109,7 +109,9 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
   if (problem.validation.empty()) front.best = front.points.size() - 1;
   front.chosen = front.best;
   if (problem.validation.empty()) return front;
-  front.chosen = 0;
+  // That there is a cause the loop's tests have said; the choice is of how many.
+  const bool has_cause = !causes_of(model.robot).empty() && front.points.front().causes == 0 && front.points.size() > 1;
+  front.chosen = has_cause ? 1 : 0;
   while (!does_nearly_as_well(front, errors, front.chosen)) ++front.chosen;
   return front;
 }

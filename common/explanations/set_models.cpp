@@ -20,17 +20,17 @@ std::vector<bool> among(const std::vector<PricedEffect>& effects, const Correcte
   return flags;
 }
 
-/// A number for every cause, in the order in which they first come.
-std::vector<std::size_t> numbered_causes(const std::vector<Effect>& effects) {
+/// Numbers the causes in the order in which they first come.
+void number_causes(const std::vector<Effect>& effects, ExplanationProblem& problem) {
   std::vector<ErrorCause> causes;
-  std::vector<std::size_t> numbers;
   for (const Effect& effect : effects) {
     const ErrorCause own = cause_at(effect.kind, effect.joint);
     const auto known = std::ranges::find_if(causes, [&](const ErrorCause& one) { return one.is_same_as(own); });
-    numbers.push_back(static_cast<std::size_t>(known - causes.begin()));
-    if (known == causes.end()) causes.push_back(own);
+    problem.cause.push_back(static_cast<std::size_t>(known - causes.begin()));
+    if (known != causes.end()) continue;
+    causes.push_back(own);
+    problem.cause_names.push_back(to_string(own));
   }
-  return numbers;
 }
 
 /// All effects' columns over the field's rows.
@@ -59,7 +59,7 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
     columns.append(one.effect, problem.data.robot, linearization_.fitted.states);
   }
   columns.pack();
-  problem_.cause = numbered_causes(effects_);
+  number_causes(effects_, problem_);
   problem_.squares = linearization_.projection.squares();
   problem_.rows = static_cast<double>(linearization_.fitted.rows());
   problem_.freedom = linearization_.projection.freedom();

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
-#include "explanations/fitted_set.hpp"
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline explanations {

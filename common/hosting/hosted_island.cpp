@@ -7,10 +7,46 @@
 #include <string_view>
 #include <utility>
 
+#include "effect_sets/set_training.hpp"
 #include "errors/check.hpp"
 #include "expression/text.hpp"
 
 namespace demecal::inline hosting {
+
+namespace {
+
+AnyIsland make_island(const RunData& run, IslandKey key) {
+  const CalibrationData& data = run.data;
+  if (data.breeds == Breeds::sets) return SetIsland(run.problem, search_of(data.sets), key);
+  return Island(data.parameters, data.archipelago, run.table(key.joint), key, data.seed);
+}
+
+/// What is best on an island, for people.
+std::string best_text(const Island& island, const RunData& run) {
+  const Individual* const best = island.best();
+  if (best == nullptr) return {};
+  VariableNames names = theta_only();
+  const std::size_t variables = run.table(island.key().joint).variables.size();
+  while (names.size() < variables) names.push_back("x" + std::to_string(names.size() + 1));
+  return to_string(best->tree, names);
+}
+
+std::string best_text(const SetIsland& island, const RunData& run) {
+  std::string text;
+  for (const std::size_t cause : island.causes_of_best())
+    text += (text.empty() ? "" : "; ") + run.problem.cause_names[cause];
+  return text;
+}
+
+}  // namespace
+
+/// The matrices are held once: as those of the problem.
+RunData::RunData(const CalibrationData& received) : data(received) {
+  if (data.breeds != Breeds::sets) return;
+  problem = problem_of(data.sets);
+  data.sets.gram = {};
+  data.sets.moment = {};
+}
 
 const TrainingTable& RunData::table(std::uint32_t joint) const {
   const auto& joints = data.archipelago.joints;
@@ -21,8 +57,8 @@ const TrainingTable& RunData::table(std::uint32_t joint) const {
 
 HostedIsland::HostedIsland(std::shared_ptr<const RunData> run, const IslandTask& task)
     : run_(std::move(run)),
-      island_(run_->data.parameters, run_->data.archipelago, run_->table(task.island.joint), task.island,
-              run_->data.seed),
+      key_(task.island),
+      island_(make_island(*run_, task.island)),
       attempt_(task.attempt),
       sources_(demecal::sources(run_->data.archipelago, task.island)),
       consumers_(demecal::consumers(run_->data.archipelago, task.island)),
@@ -30,7 +66,7 @@ HostedIsland::HostedIsland(std::shared_ptr<const RunData> run, const IslandTask&
       recent_(task.recent.begin(), task.recent.end()),
       checkpoint_epoch_(task.start.epoch),
       checkpoint_sent_(std::chrono::steady_clock::now()) {
-  if (task.start.epoch > 0) island_.restore(task.start);
+  if (task.start.epoch > 0) std::visit([&](auto& island) { island.restore(task.start); }, island_);
   for (const Migrants& sent : recent_) migrants_sent_ += sent.individuals.size();
 }
 
@@ -45,14 +81,16 @@ Population HostedIsland::immigrants(const MigrantStore& arrived) {
 }
 
 void HostedIsland::run_epoch(const Population& immigrants, const std::function<void()>& heartbeat) {
-  const std::uint64_t evaluations = island_.state().evaluations;
+  const std::uint64_t evaluations = state().evaluations;
   const auto begin = std::chrono::steady_clock::now();
-  island_.run_epoch(immigrants, heartbeat);
+  std::visit([&](auto& island) { island.run_epoch(immigrants, heartbeat); }, island_);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-  evaluations_per_s_ = static_cast<double>(island_.state().evaluations - evaluations) / std::max(elapsed.count(), 1e-9);
-  const IslandState& state = island_.state();
-  unreported_.push_back({state.epoch, state.generation, island_.figures(), state.evaluations, state.migrants_taken});
-  recent_.push_back({run_->data.run, island(), epoch(), island_.emigrants(), {}});
+  const IslandState& after = state();
+  evaluations_per_s_ = static_cast<double>(after.evaluations - evaluations) / std::max(elapsed.count(), 1e-9);
+  const IslandFigures figures = std::visit([](const auto& island) { return island.figures(); }, island_);
+  unreported_.push_back({after.epoch, after.generation, figures, after.evaluations, after.migrants_taken});
+  Population emigrants = std::visit([](const auto& island) { return island.emigrants(); }, island_);
+  recent_.push_back({run_->data.run, island(), epoch(), std::move(emigrants), {}});
   migrants_sent_ += recent_.back().individuals.size();
   while (recent_.size() > kMigrantEpochs) recent_.pop_front();
   epoch_ended_ = std::chrono::steady_clock::now();
@@ -86,14 +124,9 @@ std::optional<Progress> HostedIsland::due_progress(const std::string& worker, st
                   .before = std::exchange(unreported_, {})};
 }
 
-/// For people: a formula that is too long is cut, and shows it.
+/// What is too long is cut, and shows it.
 std::string HostedIsland::best_formula() const {
-  const Individual* const best = island_.best();
-  if (best == nullptr) return {};
-  VariableNames names = theta_only();
-  const std::size_t variables = run_->table(island().joint).variables.size();
-  while (names.size() < variables) names.push_back("x" + std::to_string(names.size() + 1));
-  std::string text = to_string(best->tree, names);
+  std::string text = std::visit([&](const auto& island) { return best_text(island, *run_); }, island_);
   constexpr std::string_view kEllipsis = "...";
   if (text.size() > kMostFormulaText) text.replace(kMostFormulaText - kEllipsis.size(), std::string::npos, kEllipsis);
   return text;
@@ -109,19 +142,18 @@ std::optional<Checkpoint> HostedIsland::due_checkpoint(const std::string& worker
 }
 
 Checkpoint HostedIsland::checkpoint(const std::string& worker) const {
-  return {run_->data.run, attempt_, island(), island_.state(), {recent_.begin(), recent_.end()}, worker};
+  return {run_->data.run, attempt_, island(), state(), {recent_.begin(), recent_.end()}, worker};
 }
 
 Outcome HostedIsland::outcome(const std::string& worker) const {
-  const IslandState& state = island_.state();
   return {.run = run_->data.run,
           .attempt = attempt_,
           .island = island(),
           .worker = worker,
-          .generations = state.generation,
-          .evaluations = state.evaluations,
-          .migrants_taken = state.migrants_taken,
-          .front = state.front};
+          .generations = state().generation,
+          .evaluations = state().evaluations,
+          .migrants_taken = state().migrants_taken,
+          .front = state().front};
 }
 
 }  // namespace demecal::inline hosting

@@ -11,8 +11,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "effect_sets/fitted_set.hpp"
+#include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "evolution/population.hpp"
@@ -62,9 +65,15 @@ inline constexpr std::chrono::milliseconds kAtOnce{0};  ///< an interval of what
 
 /// The data of a run, shared by all its islands here.
 struct RunData {
+  explicit RunData(const CalibrationData& received);
+
   CalibrationData data;
+  ExplanationProblem problem;  ///< where sets of effects are bred
   const TrainingTable& table(std::uint32_t joint) const;
 };
+
+/// An island of formulas, or one of sets of effects.
+using AnyIsland = std::variant<Island, SetIsland>;
 
 class HostedIsland {
  public:
@@ -72,10 +81,12 @@ class HostedIsland {
   HostedIsland(std::shared_ptr<const RunData> run, const IslandTask& task);
 
   RunId run() const { return run_->data.run; }
-  IslandKey island() const { return island_.key(); }
+  IslandKey island() const { return key_; }
   std::uint32_t attempt() const { return attempt_; }
-  std::uint32_t epoch() const { return island_.state().epoch; }
-  bool finished() const { return island_.finished(); }
+  std::uint32_t epoch() const { return state().epoch; }
+  bool finished() const {
+    return std::visit([](const auto& island) { return island.finished(); }, island_);
+  }
   const std::vector<IslandKey>& sources() const { return sources_; }
   const std::vector<IslandKey>& consumers() const { return consumers_; }
   /// Whether its next epoch can begin; not where it waits for its neighbours.
@@ -109,10 +120,14 @@ class HostedIsland {
   Outcome outcome(const std::string& worker) const;
 
  private:
+  const IslandState& state() const {
+    return std::visit([](const auto& island) -> const IslandState& { return island.state(); }, island_);
+  }
   std::string best_formula() const;
 
   std::shared_ptr<const RunData> run_;
-  Island island_;
+  IslandKey key_;
+  AnyIsland island_;
   std::uint32_t attempt_;
   std::vector<IslandKey> sources_, consumers_;
   std::uint32_t first_epoch_;

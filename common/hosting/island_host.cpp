@@ -54,7 +54,7 @@ IslandHost::IslandHost(const IslandHostOptions& options, std::function<void()> o
     : options_(options), slots_(options.slots, std::move(on_finished)) {}
 
 void IslandHost::begin_run(const CalibrationData& data) {
-  runs_[data.run] = std::make_shared<RunData>(RunData{data});
+  runs_[data.run] = std::make_shared<RunData>(data);
   arrived_[data.run];
 }
 

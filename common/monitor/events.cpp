@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array kStages{"preparing", "evolving", "closing", "finished", "interrupted", "failed"};
 constexpr std::array kVerdicts{"added", "rejected", "none"};
+constexpr std::array kBreeds{"formulas", "sets"};
 constexpr std::array kStates{"running", "finished", "cancelled"};
 
 }  // namespace
@@ -32,7 +33,7 @@ void fields(Visit& visit, Like<CalibrationData> auto& m) {
     for (const std::uint32_t joint : joints) m.archipelago.joints.push_back(joint - 1);
   }
   visit("islands_per_joint", m.archipelago.demes_per_joint, "migration_interval", m.archipelago.migration_interval,
-        "migrants", m.archipelago.migrants);
+        "migrants", m.archipelago.migrants, "breeds", OneOf{m.breeds, kBreeds});
 }
 
 void fields(auto& visit, Like<Progress> auto& m) {

@@ -1,5 +1,6 @@
 #include "protocol/faults.hpp"
 
+#include "effect_sets/set_training.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "expression/tree.hpp"
@@ -14,6 +15,7 @@ namespace demecal::inline protocol {
 namespace {
 
 constexpr std::size_t kMostVariables = 255;
+constexpr std::uint64_t kMostDraws = 1'000'000'000'000;
 
 Fault size_fault(const GpParameters& p) {
   if (p.population_size > kMostIndividuals)
@@ -37,10 +39,6 @@ Fault archipelago_fault(const Archipelago& a) {
   if (!(a.spread >= 0.0 && a.spread <= 1.0)) return "a spread outside 0 to 1";
   if (a.migration_interval < 1) return "migration interval is 0";
   return std::nullopt;
-}
-
-bool is_finite_column(const std::vector<double>& column, std::size_t rows) {
-  return column.size() == rows && std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); });
 }
 
 Fault table_fault(const TrainingTable& table, const GpParameters& parameters) {
@@ -68,7 +66,8 @@ Fault table_fault(const TrainingTable& table, const GpParameters& parameters) {
 struct Bounds {
   const GpParameters& parameters;
   const Archipelago& archipelago;
-  int variables;  ///< of the island's joint
+  const SetTraining* sets;  ///< where these are bred
+  int variables;            ///< of the island's joint
 
   std::uint32_t generations() const { return static_cast<std::uint32_t>(parameters.number_generations); }
   /// The founding epoch and those that breed; the last may be shorter.
@@ -97,27 +96,44 @@ Fault island_fault(const IslandMessage& message, const CalibrationData& data) {
 Bounds bounds_of(const IslandKey& island, const CalibrationData& data) {
   const auto& joints = data.archipelago.joints;
   const auto place = std::lower_bound(joints.begin(), joints.end(), island.joint) - joints.begin();
+  if (data.breeds == Breeds::sets) return {data.parameters, data.archipelago, &data.sets, 0};
   const auto variables = static_cast<int>(data.tables[static_cast<std::size_t>(place)].variables.size());
-  return {data.parameters, data.archipelago, variables};
+  return {data.parameters, data.archipelago, nullptr, variables};
+}
+
+Fault population_fault(const Population& population, const Bounds& bounds) {
+  return bounds.sets != nullptr ? find_fault(population, *bounds.sets)
+                                : find_fault(population, bounds.parameters, bounds.variables);
 }
 
 Fault front_fault(const Population& front, const Bounds& bounds) {
+  if (bounds.sets != nullptr) {
+    if (front.size() > bounds.sets->most_sent()) return "a front with too many members";
+    return population_fault(front, bounds);
+  }
   if (front.size() > ParetoFront::kMostMembers) return "a front with too many members";
   for (const Individual& member : front)
     if (!std::isfinite(member.fitness)) return "a front with an individual of infinite fitness";
   for (std::size_t i = 1; i < front.size(); ++i)
     if (front[i].tree.size() <= front[i - 1].tree.size() || front[i].fitness >= front[i - 1].fitness)
       return "a front that is not ascending in length and falling in fitness";
-  return find_fault(front, bounds.parameters, bounds.variables);
+  return population_fault(front, bounds);
+}
+
+/// Formulas are as many as the job says; of sets it depends on how many numbers of causes are reached.
+bool is_full(const Population& population, const Bounds& bounds) {
+  if (bounds.sets != nullptr) return !population.empty() && population.size() <= bounds.sets->most_kept();
+  return population.size() == static_cast<std::size_t>(bounds.parameters.population_size);
 }
 
 Fault state_fault(const IslandState& state, const Bounds& bounds) {
   if (state.epoch > bounds.epochs()) return "more epochs than the run has";
   if (state.without_gain > state.epoch) return "more epochs without gain than epochs";
   if (state.generation != bounds.generations_after(state.epoch)) return "generations do not agree with epochs";
-  const auto residents = state.epoch == 0 ? 0 : static_cast<std::size_t>(bounds.parameters.population_size);
-  if (state.population.size() != residents) return "a population of the wrong size";
-  if (auto fault = find_fault(state.population, bounds.parameters, bounds.variables)) return fault;
+  if (state.epoch == 0 ? !state.population.empty() : !is_full(state.population, bounds))
+    return "a population of the wrong size";
+  if (auto fault = population_fault(state.population, bounds)) return fault;
+  if (state.draws > kMostDraws) return "more random numbers than an island draws";
   return front_fault(state.front, bounds);
 }
 
@@ -158,6 +174,10 @@ Fault before_fault(const Progress& progress) {
 
 }  // namespace
 
+bool is_finite_column(const std::vector<double>& column, std::size_t rows) {
+  return column.size() == rows && std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); });
+}
+
 Fault find_fault(const CalibrationData& data) {
   if (data.run == 0) return "run 0 names no run";
   if (const auto fault = find_fault(data.parameters)) return fault->key + " = " + fault->value + " " + fault->rule;
@@ -165,6 +185,8 @@ Fault find_fault(const CalibrationData& data) {
   if (auto fault = archipelago_fault(data.archipelago)) return fault;
   if (data.archipelago.migrants > static_cast<std::uint32_t>(data.parameters.population_size))
     return "more migrants than individuals";
+  if (data.breeds == Breeds::sets) return find_set_fault(data);
+  if (!data.sets.columns.empty()) return "effects of sets where formulas are bred";
   if (data.tables.size() != data.archipelago.joints.size()) return "not one table per joint";
   for (const TrainingTable& table : data.tables)
     if (auto fault = table_fault(table, data.parameters)) return fault;
@@ -177,6 +199,7 @@ Fault find_fault(const Population& population, const GpParameters& parameters, i
     if (depth(individual.tree) > parameters.max_tree_depth) return "a tree is too deep";
     if (parameters.max_tree_nodes != 0 && individual.tree.size() > static_cast<std::size_t>(parameters.max_tree_nodes))
       return "a tree has too many nodes";
+    if (!individual.effects.empty()) return "a formula with effects of a set";
     if (!(individual.fitness >= 0.0)) return "a fitness is negative or not a number";
   }
   return std::nullopt;
@@ -187,7 +210,7 @@ Fault find_fault(const Migrants& migrants, const CalibrationData& data) {
   const Bounds bounds = bounds_of(migrants.island, data);
   if (migrants.epoch < 1 || migrants.epoch > bounds.epochs()) return "an epoch that the run does not have";
   if (migrants.individuals.size() > data.archipelago.migrants) return "more migrants than agreed";
-  return find_fault(migrants.individuals, data.parameters, bounds.variables);
+  return population_fault(migrants.individuals, bounds);
 }
 
 Fault find_fault(const IslandTask& task, const CalibrationData& data) {

@@ -68,6 +68,8 @@ inline constexpr EnumerationList kEnumeration<Replacement>{"Replacement", "WORST
 template <>
 inline constexpr EnumerationList kEnumeration<Loss>{"Loss", "ABSOLUTE_ERROR, SQUARED_ERROR"};
 template <>
+inline constexpr EnumerationList kEnumeration<Breeds>{"Breeds", "FORMULAS, SETS"};
+template <>
 inline constexpr EnumerationList kEnumeration<Control::State>{"RunState", "RUNNING, FINISHED, CANCELLED"};
 template <>
 inline constexpr EnumerationList kEnumeration<LoopNews::Stage>{

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "effect_sets/set_training.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "evolution/population.hpp"
@@ -51,6 +52,7 @@ template <class Visitor, Fields<Individual> M>
 void visit_fields(Visitor& visit, M& m) {
   visit("formula", m.tree);
   visit("fitness", m.fitness);
+  visit("effects", m.effects);
 }
 
 template <class Visitor, Fields<SharedFunction> M>
@@ -112,6 +114,31 @@ void visit_fields(Visitor& visit, M& m) {
   visit("limit", m.limit);
 }
 
+template <class Visitor, Fields<CauseName> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("text", bounded<255>(m.text));
+}
+
+template <class Visitor, Fields<SetTraining> M>
+void visit_fields(Visitor& visit, M& m) {
+  visit("gram", m.gram);
+  visit("moment", m.moment);
+  visit("squares", m.squares);
+  visit("rows", m.rows);
+  visit("freedom", m.freedom);
+  visit("poses", m.poses);
+  visit("columns", m.columns);
+  visit("naming_costs_nats", m.naming_costs_nats);
+  visit("causes", m.causes);
+  visit("cause_names", m.cause_names);
+  visit("known", m.known);
+  visit("variations", m.variations);
+  visit("most_causes", m.most_causes);
+  visit("most_effects", m.most_effects);
+  visit("most_freedom", m.most_freedom);
+  visit("stream", m.stream);
+}
+
 template <class Visitor, Fields<CalibrationData> M>
 void visit_fields(Visitor& visit, M& m) {
   visit("run", required(m.run));
@@ -120,6 +147,8 @@ void visit_fields(Visitor& visit, M& m) {
   visit("parameters", m.parameters);
   visit("archipelago", m.archipelago);
   visit("tables", m.tables);
+  visit("breeds", m.breeds);
+  visit("sets", m.sets);
 }
 
 /// What messages of an island begin with.
@@ -147,6 +176,7 @@ void visit_fields(Visitor& visit, M& m) {
   visit("population", m.population);
   visit("front", m.front);
   visit("without_gain", m.without_gain);
+  visit("draws", m.draws);
 }
 
 template <class Visitor, Fields<IslandTask> M>

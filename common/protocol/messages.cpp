@@ -27,6 +27,20 @@ struct KeyOf {
 
 }  // namespace
 
+CalibrationData data_of_search(const ExplanationProblem& problem, const SetSearch& search) {
+  CalibrationData data;
+  data.breeds = Breeds::sets;
+  data.sets = set_training(problem, search);
+  data.parameters.population_size = static_cast<int>(data.sets.most_kept());
+  data.parameters.number_generations = static_cast<int>(kSetEpochs) - 1;
+  data.archipelago.joints = {0};
+  data.archipelago.demes_per_joint = kSetIslands;
+  data.archipelago.topology = Topology::ring;
+  data.archipelago.migration_interval = 1;
+  data.archipelago.migrants = static_cast<std::uint32_t>(data.sets.most_sent());
+  return data;
+}
+
 TopicKey key_of(const Message& message) {
   return std::visit(KeyOf{}, message);
 }

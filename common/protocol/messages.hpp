@@ -11,6 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include "effect_sets/fitted_set.hpp"
+#include "effect_sets/set_island.hpp"
+#include "effect_sets/set_training.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "evolution/population.hpp"
@@ -33,6 +36,9 @@ inline constexpr std::size_t kMostFormulaText = 511;
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
 
+/// What individuals are.
+enum class Breeds { formulas, sets };
+
 /// Coordinator -> workers, once per run: all that islands need to know but which of them to work on.
 struct CalibrationData {
   RunId run = 0;
@@ -40,10 +46,15 @@ struct CalibrationData {
   std::uint64_t seed = 0;
   GpParameters parameters;
   Archipelago archipelago;
-  std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints
+  std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints; none where sets of effects are bred
+  Breeds breeds = Breeds::formulas;
+  SetTraining sets{};  ///< where these are bred, on islands of joint 0
 
   bool operator==(const CalibrationData&) const = default;
 };
+
+/// The data of a run that breeds sets of effects, without its number, the job and the seed.
+CalibrationData data_of_search(const ExplanationProblem& problem, const SetSearch& search);
 
 /// Worker -> workers: the elites of an island after an epoch.
 struct Migrants {

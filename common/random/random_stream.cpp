@@ -21,14 +21,24 @@ std::mt19937_64 engine_named(std::initializer_list<std::uint64_t> name) {
 
 RandomStream::RandomStream(std::initializer_list<std::uint64_t> name) : engine_(engine_named(name)) {}
 
+std::uint64_t RandomStream::draw() {
+  ++drawn_;
+  return engine_();
+}
+
+void RandomStream::skip(std::uint64_t numbers) {
+  engine_.discard(numbers);
+  drawn_ += numbers;
+}
+
 std::size_t RandomStream::index(std::size_t n) {
   // The product's high half is uniform to 2^-64 n, far below what any experiment here could see (Lemire, 2019).
   __extension__ using Wide = unsigned __int128;
-  return static_cast<std::size_t>((static_cast<Wide>(engine_()) * n) >> 64);
+  return static_cast<std::size_t>((static_cast<Wide>(draw()) * n) >> 64);
 }
 
 double RandomStream::real() {
-  return static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+  return static_cast<double>(draw() >> 11) * 0x1.0p-53;
 }
 
 double RandomStream::normal() {

@@ -23,8 +23,15 @@ class RandomStream {
   /// Standard normal (Box and Muller).
   double normal();
 
+  /// Numbers drawn so far: a stream of the same name that skips as many goes on as this one does.
+  std::uint64_t drawn() const { return drawn_; }
+  void skip(std::uint64_t numbers);
+
  private:
+  std::uint64_t draw();
+
   std::mt19937_64 engine_;
+  std::uint64_t drawn_ = 0;
 };
 
 }  // namespace demecal::inline random

@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
 
-std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const CorrectedRobot& robot,
-                                  const FitOptions& options) {
+std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
   std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared);
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
   for (ParameterId& id : contact_parameters(problem.data, problem.fitted)) ids.push_back(std::move(id));
@@ -228,7 +227,7 @@ Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& m
 Linearization linearize_without(const DiagnosisProblem& problem, const DiagnosedModel& model,
                                 const std::vector<bool>& left_out) {
   const FitOptions options;
-  std::vector<ParameterId> ids = free_ids(problem, model.robot, options);
+  std::vector<ParameterId> ids = free_ids(problem, model.robot);
   const ParameterSpace space(with_contacts_of(model.robot, ids, problem.data), ids);
   Prior prior = link_prior(space, nominal_robot(problem.data), options);
   ResidualField fitted = residual_field(problem.data, problem.fitted, space, model.scales, true, model.noise);

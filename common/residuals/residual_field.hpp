@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "effect_sets/fitted_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
@@ -85,12 +86,6 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
                              const RowScales& scales, bool robust, const NoiseModel& noise = {});
 
 using RowMatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Columns first .. first + count - 1 belong to one effect.
-struct ColumnSpan {
-  Eigen::Index first = 0;
-  Eigen::Index count = 0;
-};
 
 /// A column is a sum of features (one number a pose) times motions of the field (one row a measured number). Features
 /// depend on the nominal arm alone: they serve every field over the same poses.

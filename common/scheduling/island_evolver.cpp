@@ -66,6 +66,14 @@ std::vector<JointCandidates> candidates_of(const std::vector<JointTraining>& tra
   return candidates;
 }
 
+/// Whether workers would take the data.
+bool can_travel(CalibrationData& data) {
+  data.run = 1;
+  const bool can = !find_fault(data);
+  data.run = 0;
+  return can;
+}
+
 /// Has an observer and a journal follow what happens, as far as they are there.
 class RecordedRun final : public RunObserver {
  public:
@@ -97,10 +105,24 @@ EvolvedJoints IslandEvolver::evolve(const std::vector<JointTraining>& trainings,
   if (trainings.empty()) return {{}, end_ == RunEnd::finished};
   const bool shown = terms.purpose != Purpose::null_distribution;
   RunState state = known_state(believable(calibration_data(job_, trainings, terms, options_.asynchronous)));
-  RunResult result = state.all_finished() ? state.result(RunEnd::finished) : run(std::move(state), shown);
+  RunResult result =
+      state.all_finished() ? state.result(RunEnd::finished) : run(std::move(state), shown, options_.journal);
   EvolvedJoints evolved{candidates_of(trainings, result), result.end == RunEnd::finished};
   count(result, terms.generations, shown);
   return evolved;
+}
+
+std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProblem& problem, const SetSearch& search) {
+  CalibrationData data = data_of_search(problem, search);
+  data.job = job_.name;
+  data.seed = job_.seed;
+  if (!can_travel(data)) return Evolver::search_explanations(problem, search);
+  const RunResult result = run(RunState(std::move(data)), true, nullptr);
+  count_workers(result);
+  if (result.end == RunEnd::no_worker) return Evolver::search_explanations(problem, search);
+  std::vector<Population> fronts;
+  for (const auto& [island, front] : result.fronts) fronts.push_back(front);
+  return front_of(problem, fronts);
 }
 
 RunState IslandEvolver::known_state(const CalibrationData& data) {
@@ -110,32 +132,32 @@ RunState IslandEvolver::known_state(const CalibrationData& data) {
 }
 
 /// Goes on from the state as a new run: workers may still be at the one that it comes from, which is over.
-RunResult IslandEvolver::run(RunState state, bool shown) {
+RunResult IslandEvolver::run(RunState state, bool shown, RunJournal* journal) {
   while (true) {
-    RunResult result = attempt(state, shown);
+    RunResult result = attempt(state, shown, journal);
     if (result.end != RunEnd::stuck) return result;
     state = RunState(state.data());
-    if (options_.journal != nullptr) options_.journal->forget();
+    if (journal != nullptr) journal->forget();
   }
 }
 
 /// Under a number that shows whose the run is.
-RunResult IslandEvolver::attempt(RunState& state, bool shown) {
+RunResult IslandEvolver::attempt(RunState& state, bool shown, RunJournal* journal) {
   if (!pool_) pool_ = make_pool_();
   Transport& transport = pool_->transport();
   state.rename(transport.new_run());
-  if (options_.journal != nullptr) {
-    options_.journal->begin(state.data());
-    for (const RunId left : options_.journal->take_left())
+  if (journal != nullptr) {
+    journal->begin(state.data());
+    for (const RunId left : journal->take_left())
       transport.publish(Control{left, Control::State::cancelled, state.data().job});
   }
   if (options_.observer != nullptr) options_.observer->on_run_begins(state.data(), state.progress(), shown);
   pool_->launch(state.data().run);
-  RecordedRun recorded(options_.observer, options_.journal);
+  RecordedRun recorded(options_.observer, journal);
   RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, options_.patience);
   present_ = std::move(result.present);
   result.rejected -= std::exchange(rejected_, result.rejected);
-  if (options_.journal != nullptr) options_.journal->finish();
+  if (journal != nullptr) journal->finish();
   if (options_.observer != nullptr) options_.observer->on_run_ends(result.end);
   if (result.end != RunEnd::finished) release_workers();
   return result;
@@ -167,6 +189,12 @@ void IslandEvolver::add_effort(std::uint32_t generations, std::uint64_t evaluati
   facts_.evaluations += evaluations;
 }
 
+void IslandEvolver::count_workers(const RunResult& result) {
+  facts_.workers = std::max(facts_.workers, result.workers);
+  facts_.dropped_samples += result.rejected;
+  for (const auto& [worker, share] : result.waited_share) facts_.waited_share[worker] = share;
+}
+
 void IslandEvolver::count(RunResult& result, int generations, bool shown) {
   end_ = result.end;
   for (Progress& progress : result.history) {
@@ -174,13 +202,11 @@ void IslandEvolver::count(RunResult& result, int generations, bool shown) {
     progress.generation += generations_shown_;
     history_.push_back(std::move(progress));
   }
-  facts_.workers = std::max(facts_.workers, result.workers);
   facts_.islands = std::max(facts_.islands, result.fronts.size());
   facts_.generations += result.generations;
   facts_.evaluations += result.evaluations;
   facts_.migrations += result.migrations;
-  facts_.dropped_samples += result.rejected;
-  for (const auto& [worker, share] : result.waited_share) facts_.waited_share[worker] = share;
+  count_workers(result);
   if (!shown) return;
   generations_shown_ += static_cast<std::uint32_t>(generations);
   fronts_ = std::move(result.fronts);

@@ -12,8 +12,11 @@
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "calibration/training.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/population.hpp"
+#include "explanations/explanation_search.hpp"
 #include "protocol/messages.hpp"
 #include "report/make_report.hpp"
 #include "scheduling/evolution_run.hpp"
@@ -55,6 +58,9 @@ class IslandEvolver final : public Evolver {
   /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. All but searches
   /// for the null distribution are for people to see, and in the history.
   EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override;
+  /// By the pool's workers; here where none comes, or where the matrices are larger than a message may be. Not
+  /// journalled: it takes seconds, and what it finds is a function of its arguments.
+  std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override;
   bool is_interrupted() const override { return interrupt_; }
   void add_effort(std::uint32_t generations, std::uint64_t evaluations) override;
 
@@ -71,9 +77,10 @@ class IslandEvolver final : public Evolver {
 
  private:
   RunState known_state(const CalibrationData& data);
-  RunResult run(RunState state, bool shown);
-  RunResult attempt(RunState& state, bool shown);
+  RunResult run(RunState state, bool shown, RunJournal* journal);
+  RunResult attempt(RunState& state, bool shown, RunJournal* journal);
   void count(RunResult& result, int generations, bool shown);
+  void count_workers(const RunResult& result);
   void release_workers();
 
   const Job& job_;

@@ -178,7 +178,8 @@ std::string Grid::cell(IslandKey key) const {
 }
 
 std::string Grid::row(std::uint32_t joint, std::uint32_t first_deme) const {
-  std::string text = left_aligned(first_deme == 0 ? fmt::format("joint{:>2}", joint + 1) : "", kLabel);
+  const std::string name = run_.data.breeds == Breeds::sets ? "causes" : fmt::format("joint{:>2}", joint + 1);
+  std::string text = left_aligned(first_deme == 0 ? name : "", kLabel);
   const std::size_t end = std::min(demes(), first_deme + blocks(detail_));
   for (std::size_t deme = first_deme; deme < end; ++deme) {
     text += std::string(deme == first_deme ? 1 : kGap, ' ') + cell({joint, static_cast<std::uint32_t>(deme)});

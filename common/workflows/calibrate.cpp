@@ -23,8 +23,11 @@
 #include "diagnosis/outcome.hpp"
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/population.hpp"
+#include "explanations/explanation_search.hpp"
 #include "expression/shared_function.hpp"
 #include "fitness/parameters.hpp"
 #include "fitting/fit.hpp"
@@ -76,6 +79,10 @@ class AnnouncedEvolver final : public Evolver {
     if (islands_.end() == RunEnd::no_worker)
       observer_.on_message("no worker is left: the loop's own corrections are kept");
     return evolved;
+  }
+  std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override {
+    observer_.on_message("evolving explanations: which causes, and how few");
+    return islands_.search_explanations(problem, search);
   }
   void announce(Purpose purpose) override {
     if (purpose == Purpose::null_distribution) ++null_searches_;
@@ -149,14 +156,20 @@ void close_the_loop(const DataSet& data, const Job& job, IslandEvolver& islands,
   if (interrupt) result.end = RunEnd::interrupted;
 }
 
-/// By the closed loop alone, in this process.
-CalibrateResult calibrate_without_evolution(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
-                                            CalibrationObserver& observer) {
+/// By the closed loop alone: nothing but explanations is evolved.
+CalibrateResult calibrate_without_corrections(const DataSet& data, const Job& job, IslandEvolver& islands,
+                                              const std::atomic<bool>& interrupt, CalibrationObserver& observer) {
   observer.on_learning_begins(data.robot);
-  Diagnosis diagnosis = diagnose(data, job, std::nullopt, [&](const Round& round) {
+  AnnouncedEvolver evolver(islands, observer);
+  const auto watch = [&](const Round& round) {
     observer.on_round(round, data.robot);
     return !interrupt;
-  });
+  };
+  Diagnosis diagnosis =
+      diagnose(data, job, std::nullopt, watch, [&](const ExplanationProblem& problem, const SetSearch& search) {
+        return evolver.search_explanations(problem, search);
+      });
+  islands.dismiss_workers();
   return std::move(diagnosis.result);
 }
 
@@ -211,10 +224,10 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
   CalibrationObserver nobody;
   CalibrationObserver& observer = options.observer == nullptr ? nobody : *options.observer;
-  if (job.method == Method::diagnose) return calibrate_without_evolution(data, job, interrupt, observer);
-  CalibrateResult result;
   IslandEvolver islands(job, make_pool, interrupt,
                         {options.patience, options.asynchronous, &observer, options.journal});
+  if (job.method == Method::diagnose) return calibrate_without_corrections(data, job, islands, interrupt, observer);
+  CalibrateResult result;
   if (evolves_on_islands(job)) islands.start_workers();
   result.preparation = prepare(data, job);
   result.candidates = learn(data, job, islands, observer, result);

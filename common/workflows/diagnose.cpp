@@ -99,7 +99,7 @@ DeclaredModel declared_by_default(const DataSet& data) {
 }
 
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
-                   const RoundWatcher& watch) {
+                   const RoundWatcher& watch, const SearchExplanations& search) {
   const auto begin = std::chrono::steady_clock::now();
   CalibrateResult result;
   result.preparation = start_of(data, job, known);
@@ -109,8 +109,9 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
     return go_on;
   };
   const Fit& declared = result.preparation.declared;
-  LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot),
-                                loop_options(job, declared.robot.effects.size()), watched);
+  LoopOptions options = loop_options(job, declared.robot.effects.size());
+  options.search_explanations = search;
+  LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot), options, watched);
   drop_negligible_terms(found.before);
   drop_negligible_terms(found.model);
   LoopModels ends{std::move(found.before), std::move(found.model)};

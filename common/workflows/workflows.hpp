@@ -26,6 +26,7 @@
 #include "evolution/archipelago.hpp"
 #include "evolution/building_blocks.hpp"
 #include "evolution/population.hpp"
+#include "explanations/explanation_search.hpp"
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
@@ -82,10 +83,10 @@ struct CalibrateResult {
 CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration);
 
 /// Prepares, evolves on the pool, concludes, and closes the loop unless the job allows it no effects. One pool of
-/// workers is asked for where joint corrections are evolved, and serves all evolutions; another takes its place after
-/// one that was stuck. The structural method evolves no corrections: it needs no pool, and no loop follows. Nor does
-/// the method diagnose, which is diagnose() with what the job declares. Throws InputError for data that the job cannot
-/// be fitted to.
+/// workers is asked for where joint corrections or explanations are evolved, and serves all evolutions; another takes
+/// its place after one that was stuck. The structural method evolves neither: it needs no pool, and no loop follows.
+/// The method diagnose is diagnose() with what the job declares, its explanations evolved on the pool. Throws
+/// InputError for data that the job cannot be fitted to.
 CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerPool& make_pool,
                           const std::atomic<bool>& interrupt, const CalibrateOptions& options);
 
@@ -122,9 +123,10 @@ struct Diagnosis {
 };
 
 /// Runs the loop on `known`, a model found before, its numbers fitted again; without it on the job's declared model.
-/// Ends early when `watch` returns false. Throws InputError for data that the model cannot be fitted to.
+/// Ends early when `watch` returns false. `search` has islands evolve explanations, those of this process unless told
+/// otherwise. Throws InputError for data that the model cannot be fitted to.
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
-                   const RoundWatcher& watch);
+                   const RoundWatcher& watch, const SearchExplanations& search = search_explanations);
 
 /// Brings `prior`, a model found before, up to date: see updated(). Of many poses the loop's own model is kept where it
 /// leaves less of unseen validation poses. Throws InputError for data that base and tool cannot be fitted to.

@@ -65,10 +65,10 @@ struct Watched {
 };
 
 static struct Watched watched[] = {
-    {"demecal/7/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
-    {"demecal/7/control", &demecal_wire_Control_desc, print_control, 0},
-    {"demecal/7/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
-    {"demecal/7/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
+    {"demecal/8/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
+    {"demecal/8/control", &demecal_wire_Control_desc, print_control, 0},
+    {"demecal/8/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
+    {"demecal/8/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
     {"rt/demecal/worker", &demecal_msg_dds__WorkerStatus__desc, print_ros2_worker, 0},
     {"rt/demecal/run_state", &demecal_msg_dds__Control__desc, print_ros2_control, 0},
     {"rt/demecal/loop", &demecal_msg_dds__LoopNews__desc, print_ros2_loop, 0},

@@ -51,10 +51,10 @@ TEST(OnePlace, EveryLanguageIsNamedInItsOwnFilesAndTheTable) {
   const std::vector<Source> sources = read_tree(root, {"common", "coordinator", "worker"});
   for (const std::string& language : languages) {
     SCOPED_TRACE(language);
-    const auto own = std::ranges::find_if(
-        sources, [&](const Source& source) { return source.path.ends_with('/' + language + ".cpp"); });
-    ASSERT_NE(own, sources.end());
-    EXPECT_THAT(own->text, testing::HasSubstr(".name = \"" + language + '"'));
+    EXPECT_TRUE(std::ranges::any_of(sources, [&](const Source& source) {
+      return source.path.ends_with('/' + language + ".cpp") &&
+             source.text.find(".name = \"" + language + '"') != std::string::npos;
+    }));
     if (language == "csv") continue;  // data sets are CSV, too
     EXPECT_THAT(named_elsewhere(language, sources), IsEmpty());
   }

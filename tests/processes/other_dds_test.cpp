@@ -135,14 +135,14 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   }
   EXPECT_THAT(topics["rt/demecal/events"], ContainerEq(lines));
   EXPECT_EQ(last_of_islands(progress).size() % 12, 0u);
-  for (const std::string own : {"demecal/7/", "rt/demecal/"}) {
+  for (const std::string own : {"demecal/8/", "rt/demecal/"}) {
     EXPECT_EQ(last_of_islands(topics[own + "progress"]), last_of_islands(progress)) << own;
     EXPECT_THAT(chosen(topics[own + "worker"], {0, 1, 2, 3}), ContainerEq(workers)) << own;
   }
   EXPECT_THAT(chosen(topics["rt/demecal/loop"], {0, 1, 4}), ContainerEq(loop));
   EXPECT_THAT(chosen(topics["rt/demecal/run_state"], {0, 1}), ContainerEq(controls));
   // Of these the writer keeps the last value alone: a reader that is slow misses what it replaced.
-  const Lines ends = chosen(topics["demecal/7/loop"], {0, 1, 4}), states = chosen(topics["demecal/7/control"], {0, 1});
+  const Lines ends = chosen(topics["demecal/8/loop"], {0, 1, 4}), states = chosen(topics["demecal/8/control"], {0, 1});
   EXPECT_THAT(ends, IsSubsetOf(loop));
   EXPECT_THAT(loop, Contains(ElementsAre(_, "0", HasSubstr("finished"))));
   for (const auto& line : loop) {
@@ -167,7 +167,7 @@ TEST_F(OtherDds, ChangesNothingOfTheModelWithTwentyReadersOneOfThemStopped) {
         std::make_unique<StartedProgram>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
   for (const auto& reader : readers) ASSERT_TRUE(reader->wait_for_out("reading"));
   StartedProgram coordinator("demecal", calibrate(job, "read", 2));
-  ASSERT_TRUE(readers[0]->wait_for_out("demecal/7/progress"));
+  ASSERT_TRUE(readers[0]->wait_for_out("demecal/8/progress"));
   readers[0]->signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait(std::chrono::seconds(240)).code, 0);
   const std::string alone = job.text("alone/model.yaml");

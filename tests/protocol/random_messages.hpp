@@ -39,11 +39,13 @@ class RandomMessages {
   Population population(std::size_t most = 20) {
     Population individuals(random_.index(most));
     for (Individual& one : individuals)
-      one = {tree(), random_.chance(0.1) ? std::numeric_limits<double>::infinity() : random_.real()};
+      one = {tree(), random_.chance(0.1) ? std::numeric_limits<double>::infinity() : random_.real(), places()};
     return individuals;
   }
 
-  IslandState state() { return {number(), number(), number(), number(), population(), population(), number()}; }
+  IslandState state() {
+    return {number(), number(), number(), number(), population(), population(), number(), number()};
+  }
 
   Migrants migrants() { return {number(), island(), number(), population(5), worker_}; }
 
@@ -63,7 +65,31 @@ class RandomMessages {
       for (Tree& seed : table.seeds) seed = tree();
       if (random_.chance(0.5)) table.limit = random_.real();
     }
+    data.breeds = random_.chance(0.5) ? Breeds::sets : Breeds::formulas;
+    data.sets = sets();
     return data;
+  }
+
+  SetTraining sets() {
+    SetTraining sets;
+    sets.gram = column();
+    sets.moment = column();
+    sets.squares = real();
+    sets.rows = real();
+    sets.freedom = real();
+    sets.poses = real();
+    sets.columns = places();
+    sets.naming_costs_nats = column();
+    sets.causes = places();
+    sets.cause_names.resize(random_.index(5));
+    for (CauseName& name : sets.cause_names) name.text = text();
+    sets.known = places();
+    sets.variations = count();
+    sets.most_causes = number();
+    sets.most_effects = number();
+    sets.most_freedom = real();
+    sets.stream = number();
+    return sets;
   }
 
   IslandTask task() { return {number(), island(), number(), text(), state(), recent()}; }
@@ -105,6 +131,12 @@ class RandomMessages {
   std::vector<double> column() {
     std::vector<double> values(random_.index(50));
     for (double& value : values) value = real();
+    return values;
+  }
+
+  std::vector<std::uint32_t> places() {
+    std::vector<std::uint32_t> values(random_.index(8));
+    for (std::uint32_t& value : values) value = number();
     return values;
   }
 

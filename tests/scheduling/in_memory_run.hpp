@@ -97,17 +97,9 @@ inline RunResult run_in_memory(const CalibrationData& data, int workers, std::ui
   return EvolutionRun(*transport, data, silent).run(interrupt, {});
 }
 
-/// Whether two runs found the same formulas, to the bit.
+/// Whether two runs found the same, to the bit.
 inline bool same_fronts(const RunResult& a, const RunResult& b) {
-  if (a.fronts.size() != b.fronts.size()) return false;
-  for (const auto& [island, front] : a.fronts) {
-    const auto other = b.fronts.find(island);
-    if (other == b.fronts.end() || other->second.size() != front.size()) return false;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      if (front[i].tree != other->second[i].tree || front[i].fitness != other->second[i].fitness) return false;
-    }
-  }
-  return true;
+  return a.fronts == b.fronts;
 }
 
 }  // namespace demecal

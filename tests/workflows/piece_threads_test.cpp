@@ -89,7 +89,9 @@ TEST(Pieces, GiveTheSameExplanationsHoweverManyRunAtOnce) {
     problem.naming_costs_nats.push_back(1.0);
     problem.cause.push_back(i / 4);
   }
-  const auto searched = [&] { return search_explanations(problem, {3}, {.variations = 400}, RandomStream{6}); };
+  const auto searched = [&] {
+    return search_explanations(problem, set_search({3}, {.variations = 400}, RandomStream{6}));
+  };
   const std::vector<EffectSet> alone = searched();
   EXPECT_GT(alone.size(), 2u);
   for (const unsigned number : {2U, 3U, 8U}) {

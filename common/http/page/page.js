@@ -77,6 +77,9 @@ function drawHead(calibration, run) {
   text($('figures'), parts.join(', '));
 }
 
+/// Explanations are bred on islands of their own.
+const nameOf = (run, joint) => run?.data?.breeds === 'sets' ? 'explanations' : `joint ${joint}`;
+
 function drawError(run) {
   const joints = run?.data?.joints ?? [...(run?.curves.keys() ?? [])].sort((a, b) => a - b);
   const series = [], begins = [];
@@ -86,21 +89,21 @@ function drawError(run) {
     begins.push(points[0][0]);
     series.push({ink: inkOf(i), steps: true, points: points.map(([t, y]) => [t, y / (points[0][1] || 1)])});
   });
-  text($('errornote'), series.length === 0 ? 'no islands yet' : 'best fitness of each joint, as a share of its first');
+  text($('errornote'), series.length === 0 ? 'no islands yet' : run?.data?.breeds === 'sets' ? 'shortest explanation, as a share of the first' : 'best fitness of each joint, as a share of its first');
   const begin = Math.min(...begins);
   drawLines($('error'), series, begin, Math.max(begin + 1, Math.min(state.time_s, run?.figures?.t_s ?? state.time_s)), t => `${duration(t)}`);
-  const legend = joints.join();
+  const legend = joints.map(joint => nameOf(run, joint)).join();
   if ($('legend').dataset.joints !== legend) {
     $('legend').dataset.joints = legend;
     $('legend').replaceChildren(...joints.map((joint, i) => {
       const entry = document.createElement('span');
-      entry.textContent = `joint ${joint}`;
+      entry.textContent = nameOf(run, joint);
       entry.style.color = inkOf(i);
       return entry;
     }));
   }
   drawLines($('front'), joints.map((joint, i) => ({ink: inkOf(i), steps: false, points: frontOf(run, joint)})), 0,
-            Math.max(2, ...joints.flatMap(joint => [...(run?.fronts.get(joint)?.keys() ?? [])])), x => `${Math.round(x)} nodes`);
+            Math.max(2, ...joints.flatMap(joint => [...(run?.fronts.get(joint)?.keys() ?? [])])), x => `${Math.round(x)} ${run?.data?.breeds === 'sets' ? 'effects' : 'nodes'}`);
 }
 
 /// What no shorter formula reached.
@@ -133,7 +136,7 @@ function drawIslands(run) {
     for (const joint of joints) {
       const name = document.createElement('div');
       name.className = 'jointname';
-      name.textContent = `joint ${joint}`;
+      name.textContent = nameOf(run, joint);
       grid.append(name);
       for (let island = 1; island <= columns; ++island) islandElement(grid, `${joint}/${island}`);
     }
@@ -157,7 +160,7 @@ const rounded = formula => (formula ?? '').replace(/\d+\.\d{4,}(e[+-]?\d+)?/g, n
 
 function drawTables(calibration, run) {
   const best = [...(run?.best.values() ?? [])].sort((a, b) => a.joint - b.joint);
-  rows($('formulas'), best, e => [String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
+  rows($('formulas'), best, e => [run?.data?.breeds === 'sets' ? 'all' : String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
   best.forEach((e, i) => {
     const row = $('formulas').rows[i], mark = `${e.run}/${e.joint}/${e.best_fitness}`;
     if (row.dataset.mark !== mark) { row.dataset.mark = mark; row.classList.remove('fresh'); void row.offsetWidth; row.classList.add('fresh'); }

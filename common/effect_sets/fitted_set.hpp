@@ -4,12 +4,17 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "residuals/residual_field.hpp"
+namespace demecal::inline effect_sets {
 
-namespace demecal::inline explanations {
+/// Columns first .. first + count - 1 belong to one effect.
+struct ColumnSpan {
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
 
 /// What sets of effects would explain, to first order: rows whitened, everything declared projected off. The columns of
 /// one effect are of unit length and orthogonal to each other, but for a belief in small coefficients that lets any two
@@ -23,7 +28,8 @@ struct ExplanationProblem {
   double poses = 0.0;             ///< distinct ones
   std::vector<ColumnSpan> spans;  ///< per effect; of no columns where the model explains it
   std::vector<double> naming_costs_nats;
-  std::vector<std::size_t> cause;  ///< per effect: the same number for those an engineer counts as one cause
+  std::vector<std::size_t> cause;        ///< per effect: the same number for those an engineer counts as one cause
+  std::vector<std::string> cause_names;  ///< by these numbers, for those who watch
 };
 
 /// Another effect beside one of a set.
@@ -81,4 +87,4 @@ class FittedSet {
   double squares_, price_ = 0.0;
 };
 
-}  // namespace demecal::inline explanations
+}  // namespace demecal::inline effect_sets

@@ -1,10 +1,10 @@
-#include "explanations/fitted_set.hpp"
+#include "effect_sets/fitted_set.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <set>
 
-namespace demecal::inline explanations {
+namespace demecal::inline effect_sets {
 
 bool FittedSet::holds(std::size_t effect) const {
   return std::ranges::count(effects_, effect) > 0;
@@ -127,4 +127,4 @@ void FittedSet::remove_cause(std::size_t cause) {
     if (problem_->cause[effects_[place]] == cause) remove(place);
 }
 
-}  // namespace demecal::inline explanations
+}  // namespace demecal::inline effect_sets
