@@ -5,33 +5,29 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
-
-// One row a language, defined in its own file. Programs have signs of several: those of Kawasaki's those of VAL II,
-// too, and words of any program may be signs of CSV, which comes last.
-namespace demecal::inline staubli_kawasaki {
-Language kawasaki_as_language();
-Language val2_language();
-Language val3_language();
-}  // namespace demecal::inline staubli_kawasaki
-namespace demecal::inline kuka_abb_ur {
-Language rapid_language();
-Language krl_language();
-Language urscript_language();
-}  // namespace demecal::inline kuka_abb_ur
+#include "kuka_abb_ur/kuka_abb_ur.hpp"
+#include "staubli_kawasaki/staubli_kawasaki.hpp"
 
 namespace demecal::inline languages {
 
+// One row a language, defined in its own file. Words of any program may be signs of CSV, which comes last.
 Language fanuc_ls_language();
 Language yaskawa_jbi_language();
 Language csv_language();
 
 std::span<const Language> all_languages() {
-  static const std::vector<Language> all{kawasaki_as_language(), val2_language(),        val3_language(),
-                                         fanuc_ls_language(),    yaskawa_jbi_language(), rapid_language(),
-                                         krl_language(),         urscript_language(),    csv_language()};
+  static const std::vector<Language> all = [] {
+    std::vector<Language> rows = staubli_kawasaki_languages();
+    rows.push_back(fanuc_ls_language());
+    rows.push_back(yaskawa_jbi_language());
+    for (const Language& language : kuka_abb_ur_languages()) rows.push_back(language);
+    rows.push_back(csv_language());
+    return rows;
+  }();
   return all;
 }
 
