@@ -172,6 +172,7 @@ RuntimeEntry runtime_entry(const RunFacts& facts) {
                      .generations = facts.generations,
                      .evaluations = facts.evaluations,
                      .migrations = facts.migrations,
+                     .evolved_sets = facts.evolved_sets,
                      .dropped_samples = facts.dropped_samples,
                      .interrupted = facts.interrupted,
                      .asynchronous = facts.asynchronous,

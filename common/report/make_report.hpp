@@ -32,6 +32,7 @@ struct RunFacts {
   std::uint64_t generations = 0;
   std::uint64_t evaluations = 0;
   std::uint64_t migrations = 0;
+  std::uint64_t evolved_sets = 0;  ///< of effects, that workers made and judged in search of explanations
   bool interrupted = false;
   bool asynchronous = false;          ///< islands waited for no neighbour: the result depends on timing
   std::uint64_t dropped_samples = 0;  ///< of the network, not acted on since they could not be believed

@@ -233,7 +233,7 @@ struct WaitingEntry {
 
 struct RuntimeEntry {
   std::optional<double> wall_s;
-  std::optional<std::uint64_t> workers, islands, generations, evaluations, migrations, dropped_samples;
+  std::optional<std::uint64_t> workers, islands, generations, evaluations, migrations, evolved_sets, dropped_samples;
   bool interrupted = false;
   bool asynchronous = false;  ///< islands waited for no neighbour: the result depends on timing
   bool resumed = false;

@@ -171,9 +171,9 @@ void fields(auto& visit, Like<WaitingEntry> auto& waited) {
 
 void fields(auto& visit, Like<RuntimeEntry> auto& runtime) {
   visit("wall_s", runtime.wall_s, "workers", runtime.workers, "islands", runtime.islands, "generations",
-        runtime.generations, "evaluations", runtime.evaluations, "migrations", runtime.migrations, "dropped_samples",
-        runtime.dropped_samples, "interrupted", runtime.interrupted, "asynchronous", runtime.asynchronous, "resumed",
-        runtime.resumed, "waited_share", runtime.waited_share);
+        runtime.generations, "evaluations", runtime.evaluations, "migrations", runtime.migrations, "evolved_sets",
+        runtime.evolved_sets, "dropped_samples", runtime.dropped_samples, "interrupted", runtime.interrupted,
+        "asynchronous", runtime.asynchronous, "resumed", runtime.resumed, "waited_share", runtime.waited_share);
 }
 
 void fields(auto& visit, Like<CauseEntry> auto& cause) {

@@ -118,6 +118,7 @@ std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProbl
   data.seed = job_.seed;
   if (!can_travel(data)) return Evolver::search_explanations(problem, search);
   const RunResult result = run(RunState(std::move(data)), true, nullptr);
+  facts_.evolved_sets += result.evaluations;
   count_workers(result);
   if (result.end == RunEnd::no_worker) return Evolver::search_explanations(problem, search);
   std::vector<Population> fronts;

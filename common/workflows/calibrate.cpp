@@ -170,6 +170,10 @@ CalibrateResult calibrate_without_corrections(const DataSet& data, const Job& jo
         return evolver.search_explanations(problem, search);
       });
   islands.dismiss_workers();
+  RunFacts facts = islands.facts();
+  facts.wall_s = diagnosis.result.facts.wall_s;
+  facts.interrupted = diagnosis.result.facts.interrupted;
+  diagnosis.result.facts = std::move(facts);
   return std::move(diagnosis.result);
 }
 

@@ -131,9 +131,12 @@ Report write(const CalibrateRequest& request, const DataSet& data, const Calibra
 std::string effort(const Job& job, const RunFacts& facts) {
   if (job.method == Method::structural)
     return fmt::format("{} structures fitted in {:.1f} s", facts.evaluations, facts.wall_s);
-  if (job.method == Method::diagnose) return fmt::format("nothing was evolved, {:.1f} s", facts.wall_s);
-  return fmt::format("{} islands on {} worker{}, {} evaluations in {:.1f} s", facts.islands, facts.workers,
-                     facts.workers == 1 ? "" : "s", facts.evaluations, facts.wall_s);
+  const std::string sets = facts.evolved_sets == 0 ? "" : fmt::format("{} sets of effects", facts.evolved_sets);
+  if (job.method == Method::diagnose)
+    return fmt::format("{} evolved, {:.1f} s", sets.empty() ? "nothing was" : sets, facts.wall_s);
+  return fmt::format("{} islands on {} worker{}, {} evaluations{} in {:.1f} s", facts.islands, facts.workers,
+                     facts.workers == 1 ? "" : "s", facts.evaluations, sets.empty() ? "" : " and " + sets,
+                     facts.wall_s);
 }
 
 /// For those who watch: the figures that the calibration is judged by.
