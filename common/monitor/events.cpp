@@ -33,7 +33,11 @@ void fields(Visit& visit, Like<CalibrationData> auto& m) {
     for (const std::uint32_t joint : joints) m.archipelago.joints.push_back(joint - 1);
   }
   visit("islands_per_joint", m.archipelago.demes_per_joint, "migration_interval", m.archipelago.migration_interval,
-        "migrants", m.archipelago.migrants, "breeds", OneOf{m.breeds, kBreeds});
+        "migrants", m.archipelago.migrants);
+  if constexpr (kReads<Visit>) {
+    if (!visit.has("breeds")) return;  // recordings of versions that bred formulas alone
+  }
+  visit("breeds", OneOf{m.breeds, kBreeds});
 }
 
 void fields(auto& visit, Like<Progress> auto& m) {

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "../effect_sets/deceptive.hpp"
 #include "../protocol/random_messages.hpp"
 #include "../protocol/small_run.hpp"
 #include "dds/participant.hpp"
@@ -23,11 +24,21 @@ const CalibrationData& the_run() {
 
 // What is done with a message that is accepted: nothing of it may break a precondition further in.
 
+void breed_sets(const CalibrationData& data) {
+  if (data.sets.moment.size() > 50 || data.sets.variations > 4000) return;
+  HostedIsland island(std::make_shared<RunData>(data), {data.run, {0, 1}, 1, "w", {}, {}});
+  island.run_epoch({}, [] {});
+  demand(!find_fault(island.checkpoint("w"), data), "an island's own state is sound");
+  HostedIsland another(std::make_shared<RunData>(data), {data.run, {0, 1}, 2, "v", island.checkpoint("w").state, {}});
+  another.run_epoch(island.last_migrants().individuals, [] {});
+}
+
 void use(const CalibrationData& data) {
   std::size_t cells = 0;
   for (const TrainingTable& table : data.tables) cells += table.variables.size() * table.target.size();
   const bool is_small = data.parameters.population_size <= 50 && cells <= 10000 && data.tables.size() <= 4;
   if (find_fault(data) || !is_small) return;
+  if (data.breeds == Breeds::sets) return breed_sets(data);
   const RunState state(data);
   for (std::size_t i = 0; i < data.tables.size(); ++i) {
     const IslandKey key{data.archipelago.joints[i], 0};
@@ -212,8 +223,10 @@ std::vector<Target> wire_targets() {
   const Checkpoint last = told_after(kEpochsOfSmallRun);
   CalibrationData sharing = the_run();
   sharing.parameters.shared_functions = {parse_definition("F1(c1, a1, a2) = c1 * SIN(a1) + a2", 0)};
+  CalibrationData sets = data_of_search(deceptive(51), {.known = {1, 7}, .search = {.variations = 40}, .stream = 1});
+  sets.run = 7;
   return {parts_target(),
-          target<CalibrationData>("message_data", {the_run(), sharing, random.data()}),
+          target<CalibrationData>("message_data", {the_run(), sharing, sets, random.data()}),
           target<IslandTask>("message_task", {task_after(0), task_after(1), random.task()}),
           target<Migrants>("message_migrants", {migrants_of(last), random.migrants()}),
           target<Progress>("message_progress", {progress_of(last), random.progress()}),

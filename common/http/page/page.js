@@ -159,8 +159,12 @@ function drawIslands(run) {
 const rounded = formula => (formula ?? '').replace(/\d+\.\d{4,}(e[+-]?\d+)?/g, number => String(Number(Number(number).toPrecision(3))));
 
 function drawTables(calibration, run) {
-  const best = [...(run?.best.values() ?? [])].sort((a, b) => a.joint - b.joint);
-  rows($('formulas'), best, e => [run?.data?.breeds === 'sets' ? 'all' : String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
+  const best = [...(run?.best.values() ?? [])].sort((a, b) => a.joint - b.joint), ofSets = run?.data?.breeds === 'sets';
+  text($('besttitle'), ofSets ? 'Best explanation' : 'Best formulas');
+  text($('bestnote'), ofSets ? 'fitness: how short the residual becomes, 1 without any cause; length: effects' : 'theta in rad; constants rounded');
+  text($('besthead'), ofSets ? 'causes' : 'formula');
+  text($('frontnote'), `best fitness that ${ofSets ? 'sets of so many effects' : 'formulas of each length'} reached`);
+  rows($('formulas'), best, e => [ofSets ? 'all' : String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
   best.forEach((e, i) => {
     const row = $('formulas').rows[i], mark = `${e.run}/${e.joint}/${e.best_fitness}`;
     if (row.dataset.mark !== mark) { row.dataset.mark = mark; row.classList.remove('fresh'); void row.offsetWidth; row.classList.add('fresh'); }
