@@ -84,6 +84,12 @@ bool does_nearly_as_well(const ExplanationFront& front, const std::vector<Square
   return one.causes >= kManyCauses || is_within_one_standard_error(errors[point], errors[front.best]);
 }
 
+/// Whether there is a cause by the loop's tests and by the validation poses: the choice is then of how many.
+bool is_told_by_all(const DiagnosedModel& model, const ExplanationFront& front) {
+  return !causes_of(model.robot).empty() && front.points.size() > 1 && front.points.front().causes == 0 &&
+         front.points[1].validation_rms_mm < front.points.front().validation_rms_mm;
+}
+
 /// All effects of a model, at no price.
 std::vector<PricedEffect> effects_of(const DiagnosedModel& model) {
   std::vector<PricedEffect> effects;
@@ -109,9 +115,7 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
   if (problem.validation.empty()) front.best = front.points.size() - 1;
   front.chosen = front.best;
   if (problem.validation.empty()) return front;
-  // That there is a cause the loop's tests have said; the choice is of how many.
-  const bool has_cause = !causes_of(model.robot).empty() && front.points.front().causes == 0 && front.points.size() > 1;
-  front.chosen = has_cause ? 1 : 0;
+  front.chosen = is_told_by_all(model, front) ? 1 : 0;
   while (!does_nearly_as_well(front, errors, front.chosen)) ++front.chosen;
   return front;
 }

@@ -82,7 +82,11 @@ class AnnouncedEvolver final : public Evolver {
   }
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override {
     observer_.on_message("evolving explanations: which causes, and how few");
-    return islands_.search_explanations(problem, search);
+    const std::uint64_t before = islands_.facts().evolved_sets;
+    std::vector<EffectSet> found = islands_.search_explanations(problem, search);
+    if (islands_.facts().evolved_sets == before && !islands_.is_interrupted())
+      observer_.on_message("no worker took them: they were evolved here");
+    return found;
   }
   void announce(Purpose purpose) override {
     if (purpose == Purpose::null_distribution) ++null_searches_;

@@ -72,17 +72,15 @@ Job job_of(const CalibrateRequest& request) {
 
 void print_head(const CalibrateRequest& request, const Job& job, const DataSet& data) {
   if (request.quiet) return;
-  if (!has_islands(job.method)) {
-    fmt::print(stderr, "{}: {} on {} ({} poses), {}, seed {}\n", job.name, data.robot.name, data.name,
-               data.poses.size(),
-               job.method == Method::structural ? "a search for transforms between the links"
-                                                : "the closed loop without evolution",
-               job.seed);
-    return;
-  }
-  fmt::print(stderr, "{}: {} on {} ({} poses), {} islands a joint, seed {}\n", job.name, data.robot.name, data.name,
-             data.poses.size(), job.islands.per_joint, job.seed);
-  fmt::print(stderr, "  {}\n", to_string(request.workers, request.worker_timeout_s));
+  const bool explains = job.method == Method::diagnose && job.explanations.variations > 0;
+  const std::string how = has_islands(job.method)            ? fmt::format("{} islands a joint", job.islands.per_joint)
+                          : job.method == Method::structural ? "a search for transforms between the links"
+                          : explains                         ? "the closed loop, explanations evolved"
+                                                             : "the closed loop without evolution";
+  fmt::print(stderr, "{}: {} on {} ({} poses), {}, seed {}\n", job.name, data.robot.name, data.name, data.poses.size(),
+             how, job.seed);
+  if (has_islands(job.method) || explains)
+    fmt::print(stderr, "  {}\n", to_string(request.workers, request.worker_timeout_s));
 }
 
 /// Which job a run is of, in hashes of all that its result is a function of. `job` is that of the file with what

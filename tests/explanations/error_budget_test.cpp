@@ -137,6 +137,37 @@ TEST_F(TwoCauses, AModelThatErrsLessIsChosenOverItsParts) {
   EXPECT_FALSE(does_as_well(*problem_, models.with({}), model_));
 }
 
+/// The front of a model with one small effect, which its arm has.
+ExplanationFront front_of_small_backlash(std::uint64_t seed, bool has_effect) {
+  Scenario scenario = perfect_scenario(parallel_arm(), seed);
+  scenario.backlash = {{1, 5e-5}};
+  const DataSet data = simulate(scenario);
+  const DiagnosisProblem problem{data, kZeroed, poses_of(data, PoseSet::calibration),
+                                 poses_of(data, PoseSet::validation)};
+  DiagnosedModel model = diagnosed_model(problem, fit_declared(data, problem.fitted, kZeroed, nominal_robot(data)));
+  model.robot.effects = {effect("backlash", 1)};
+  model.robot.effects[0].values = {5e-5};
+  model = refined(problem, model, 5);
+  const SetModels models = models_about(problem, model);
+  if (!has_effect) model.robot.effects.clear();
+  return judged_front(problem, model, models, {}, prunings(models.problem(), models.held()));
+}
+
+TEST(Choice, KeepsASmallCauseThatTheLoopHasTestedWhereTheValidationPosesAgree) {
+  int small = 0, kept = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const ExplanationFront front = front_of_small_backlash(seed, true);
+    ASSERT_EQ(front.points.size(), 2U);
+    const double without_mm = front.points[0].validation_rms_mm, with_mm = front.points[1].validation_rms_mm;
+    EXPECT_EQ(front.chosen, with_mm < without_mm ? 1U : 0U) << seed;
+    if (with_mm >= without_mm || without_mm > 1.02 * with_mm) continue;
+    ++small;
+    kept += front_of_small_backlash(seed, false).chosen == 1 ? 1 : 0;  // of a model that the loop gave no cause
+  }
+  EXPECT_GE(small, 3);
+  EXPECT_LT(kept, small);
+}
+
 TEST_F(TwoCauses, CostWhatTheyAreWorthAndTheDearerStandsFirst) {
   const ErrorBudget budget = budgeted();
   ASSERT_EQ(budget.causes.size(), 2U);

@@ -25,6 +25,10 @@ const char* const kStruct<Archipelago> = "Archipelago";
 template <>
 const char* const kStruct<TrainingTable> = "TrainingTable";
 template <>
+const char* const kStruct<CauseName> = "CauseName";
+template <>
+const char* const kStruct<SetTraining> = "SetTraining";
+template <>
 const char* const kStruct<Migrants> = "Migrants";
 template <>
 const char* const kStruct<IslandState> = "IslandState";
@@ -130,6 +134,8 @@ TEST(Document, DeclaresTheStructsThatTheListsAreOf) {
                             {"GpParameters", declared<GpParameters>()},
                             {"Archipelago", declared<Archipelago>()},
                             {"TrainingTable", declared<TrainingTable>()},
+                            {"CauseName", declared<CauseName>()},
+                            {"SetTraining", declared<SetTraining>()},
                             {"CalibrationData", declared<CalibrationData>()},
                             {"Migrants", declared<Migrants>()},
                             {"IslandState", declared<IslandState>()},
@@ -151,7 +157,7 @@ Declarations listed_values() {
 }
 
 TEST(Document, DeclaresTheEnumerationsThatAreListed) {
-  EXPECT_EQ(in_the_document("enum"), (listed_values<ConstantPolicy, Topology, Replacement, Loss, Control::State,
+  EXPECT_EQ(in_the_document("enum"), (listed_values<ConstantPolicy, Topology, Replacement, Loss, Breeds, Control::State,
                                                     LoopNews::Stage, LoopNews::Verdict>()));
 }
 

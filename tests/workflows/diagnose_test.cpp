@@ -102,22 +102,28 @@ TEST(Diagnose, WorksOnFewPosesWithoutValidation) {
   EXPECT_NE(result.loop.stopped, StopReason::not_run);
 }
 
-TEST(CalibrateWithoutEvolution, IsTheDiagnosisOfWhatTheJobDeclaresAndAsksForNoWorkers) {
+TEST(CalibrateWithoutEvolution, IsTheDiagnosisOfWhatTheJobDeclaresWhoeverEvolvesItsExplanations) {
   const DataSet data = simulate(lacking_puma(true));
   Job job = diagnosing_job(kSmooth);
   job.closed_loop.candidates = {"backlash"};
+  job.explanations.variations = 500;
   const std::atomic<bool> interrupt{false};
-  bool asked = false;
-  const auto no_pool = [&asked]() -> std::unique_ptr<WorkerPool> {
-    asked = true;
-    return nullptr;
+  int asked = 0;
+  const auto threads = [&asked]() -> std::unique_ptr<WorkerPool> {
+    ++asked;
+    return std::make_unique<InProcessWorkerPool>(2);
   };
-  const CalibrateResult result = calibrate(data, job, no_pool, interrupt, {});
-  EXPECT_FALSE(asked);
+  const CalibrateResult result = calibrate(data, job, threads, interrupt, {});
+  EXPECT_EQ(asked, 1);
   EXPECT_EQ(result.end, RunEnd::finished);
   EXPECT_EQ(result.facts.evaluations, 0U);
+  EXPECT_EQ(result.facts.evolved_sets, 500U);
   EXPECT_EQ(model_text(result.model), model_text(diagnose(data, job, {}, {}).result.model));
   EXPECT_TRUE(std::ranges::any_of(result.model.robot.effects, is_backlash_of_joint_2));
+  job.explanations.variations = 0;
+  const CalibrateResult alone = calibrate(data, job, threads, interrupt, {});
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(model_text(alone.model), model_text(diagnose(data, job, {}, {}).result.model));
 }
 
 TEST(CalibrateWithoutEvolution, IsInterruptedAfterARound) {
