@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "calibration/selection.hpp"
@@ -116,7 +117,7 @@ std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProbl
   CalibrationData data = data_of_search(problem, search);
   data.job = job_.name;
   data.seed = job_.seed;
-  if (!can_travel(data)) return Evolver::search_explanations(problem, search);
+  if (!can_travel(data) || !can_start_workers()) return Evolver::search_explanations(problem, search);
   const RunResult result = run(RunState(std::move(data)), true, nullptr);
   facts_.evolved_sets += result.evaluations;
   count_workers(result);
@@ -168,6 +169,16 @@ void IslandEvolver::start_workers() {
   if (pool_) return;
   pool_ = make_pool_();
   pool_->launch(pool_->transport().new_run());
+}
+
+bool IslandEvolver::can_start_workers() {
+  try {
+    start_workers();
+    return true;
+  } catch (const std::runtime_error&) {
+    pool_.reset();
+    return false;
+  }
 }
 
 void IslandEvolver::dismiss_workers() {

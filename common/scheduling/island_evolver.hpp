@@ -58,8 +58,8 @@ class IslandEvolver final : public Evolver {
   /// The candidates that the islands found, or had reached when the run ended; `end` says how it did. All but searches
   /// for the null distribution are for people to see, and in the history.
   EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override;
-  /// By the pool's workers; here where none comes, or where the matrices are larger than a message may be. Not
-  /// journalled: it takes seconds, and what it finds is a function of its arguments.
+  /// By the pool's workers; here where none can be started or comes, or where the matrices do not fit into a message.
+  /// Not journalled: it takes seconds, and what it finds is a function of its arguments.
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override;
   bool is_interrupted() const override { return interrupt_; }
   void add_effort(std::uint32_t generations, std::uint64_t evaluations) override;
@@ -81,6 +81,7 @@ class IslandEvolver final : public Evolver {
   RunResult attempt(RunState& state, bool shown, RunJournal* journal);
   void count(RunResult& result, int generations, bool shown);
   void count_workers(const RunResult& result);
+  bool can_start_workers();
   void release_workers();
 
   const Job& job_;

@@ -45,6 +45,12 @@ TEST(Explanations, AreEvolvedHereWhereNoWorkerComes) {
             search_explanations(problem, long_search()));
 }
 
+TEST(Explanations, AreEvolvedHereWhereNoWorkerCanBeStarted) {
+  const ExplanationProblem problem = deceptive(34);
+  const MakeWorkerPool none = []() -> std::unique_ptr<WorkerPool> { throw std::runtime_error("no program"); };
+  EXPECT_EQ(searched(problem, none), search_explanations(problem, long_search()));
+}
+
 TEST(Explanations, AreTheSameWhateverBefallsTheRun) {
   const ExplanationProblem problem = deceptive(33);
   CalibrationData data = data_of_search(problem, long_search());
