@@ -65,7 +65,7 @@ std::size_t end_of_code(std::string_view bytes, std::size_t begin) {
   return std::min(bytes.find("</Code>", std::min(begin, bytes.size())), bytes.size());
 }
 
-std::string text_of(const ProgramText& text, const Tag& tag, const std::string& attribute) {
+std::string attribute_value(const ProgramText& text, const Tag& tag, const std::string& attribute) {
   const auto found = tag.attributes.find(attribute);
   if (found == tag.attributes.end()) return "";
   return std::string(text.text().substr(found->second.begin, found->second.size));
@@ -95,12 +95,12 @@ std::vector<Val3Value> val3_values(const ProgramText& text) {
   std::string name, type;
   for_each_tag(text, [&](const Tag& tag, std::size_t at) {
     if (tag.name == "Data") {
-      name = text_of(text, tag, "name");
-      type = text_of(text, tag, "type");
+      name = attribute_value(text, tag, "name");
+      type = attribute_value(text, tag, "type");
     } else if (tag.name == "/Data") {
       type.clear();
     } else if (tag.name == "Value" && !type.empty()) {
-      const std::string key = text_of(text, tag, "key");
+      const std::string key = attribute_value(text, tag, "key");
       values.push_back({name + '[' + (key.empty() ? "0" : key) + ']', type, at, tag.attributes});
     }
   });
@@ -114,9 +114,9 @@ std::vector<Val3Code> val3_programs(const ProgramText& text) {
   for_each_tag(text, [&](const Tag& tag, std::size_t) {
     if (tag.name == "Program") {
       locals.clear();
-      name = text_of(text, tag, "name");
+      name = attribute_value(text, tag, "name");
     }
-    if (tag.name == "Parameter" || tag.name == "Local") locals.insert(text_of(text, tag, "name"));
+    if (tag.name == "Parameter" || tag.name == "Local") locals.insert(attribute_value(text, tag, "name"));
     if (tag.name == "Code") programs.push_back({name, tag.end, end_of_code(text.text(), tag.end), locals});
   });
   return programs;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
 #include "data/text.hpp"
@@ -82,7 +81,7 @@ void set_limits(const UrdfJoint& joint, Joint& row, std::vector<std::string>& no
   if (joint.type == UrdfType::revolute && !stated)
     notes.push_back("joint " + joint.name + " states no limits and is taken to turn on and on (type: continuous)");
   row.endless = true;
-  row.upper = 2.0 * std::numbers::pi;
+  row.upper = kTurn_rad;
   row.lower = -row.upper;
 }
 
@@ -192,7 +191,7 @@ UrdfArm arm_between(const UrdfFile& urdf, const std::optional<std::string>& base
     direct = true;
     last = {};
   }
-  const bool turns = last.rpy_rad.cwiseAbs().maxCoeff() > 2.0 * std::numbers::pi;
+  const bool turns = last.rpy_rad.cwiseAbs().maxCoeff() > kTurn_rad;
   arm.drawing.flange = turns ? origin_of(pose_of(last)) : last;
   const std::size_t count = arm.joints.size();
   if (count == 0 || count > static_cast<std::size_t>(kMaxJoints)) {
