@@ -105,8 +105,8 @@ std::string ProgressDisplay::line(std::uint32_t joint) const {
   }
   const std::string fitness = std::isfinite(best) ? fmt::format("{:.4g}", best) : "-";
   const std::string name = breeds_ == Breeds::sets ? "explanations" : fmt::format("joint {}", joint + 1);
-  return fmt::format("  {}  generation {:>5}/{}  best fitness {:>10}  {:>9.0f} evaluations/s", name, generation,
-                     parameters_.number_generations, fitness, speed);
+  return fmt::format("  {}  generation {:>5}/{}  best fitness {:>10}  {:>9.0f} {}/s", name, generation,
+                     parameters_.number_generations, fitness, speed, breeds_ == Breeds::sets ? "sets" : "evaluations");
 }
 
 void ProgressDisplay::redraw() {

@@ -123,7 +123,8 @@ EventLog::~EventLog() {
 
 void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool /*shown*/) {
   stage_.run = data.run;
-  if (data.breeds == Breeds::sets) {
+  of_sets_ = data.breeds == Breeds::sets;
+  if (of_sets_) {
     publish_stage(Stage::evolving, "closing the loop: evolving explanations");
   } else {
     ++evolutions_;
@@ -142,7 +143,8 @@ void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Prog
 void EventLog::on_run_ends(RunEnd end) {
   const auto state = end == RunEnd::finished ? Control::State::finished : Control::State::cancelled;
   file_.note(Control{stage_.run, state, stage_.job});
-  if (state == Control::State::finished) publish_stage(Stage::closing, "closing the loop");
+  const bool goes_on = end == RunEnd::finished || (of_sets_ && end == RunEnd::no_worker);
+  if (goes_on) publish_stage(Stage::closing, "closing the loop");
 }
 
 void EventLog::on_workers_end() {

@@ -69,6 +69,7 @@ class EventLog final : public CalibrationObserver {
   std::unique_ptr<Transport> reporter_;
   LoopNews stage_;
   std::uint32_t evolutions_ = 0;
+  bool of_sets_ = false;                         ///< whether the present run breeds sets of effects
   std::map<std::string, WorkerStatus> workers_;  ///< as recorded
 };
 

@@ -51,8 +51,8 @@ class Evolver {
   /// Evolves candidates for every joint of a training. What complete evolutions find is a function of the arguments.
   virtual EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) = 0;
 
-  /// As demecal::search_explanations() does, to the bit, wherever the islands are. What an interrupted search had
-  /// reached is returned.
+  /// As demecal::search_explanations() does, to the bit, wherever the islands are; where they are elsewhere and it is
+  /// interrupted, what they had reached.
   virtual std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) {
     return demecal::search_explanations(problem, search);
   }

@@ -56,8 +56,8 @@ struct CorrectionOptions {
   bool operator==(const CorrectionOptions&) const = default;
 };
 
-/// How joint corrections are learnt; `diagnose`: nothing is evolved, the model comes from the closed loop alone, in
-/// which joint corrections are sums of smooth terms; `structural`: not at all, transforms between the links are
+/// How joint corrections are learnt; `diagnose`: no correction is evolved, the model comes from the closed loop alone,
+/// in which joint corrections are sums of smooth terms; `structural`: not at all, transforms between the links are
 /// searched for.
 enum class Method { direct, distal, diagnose, structural };
 

@@ -109,6 +109,7 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
     return evolver_.search_explanations(problem, search);
   };
   LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
+  stopped_ = stopped_ || evolver_.is_interrupted();
   drop_negligible_terms(found.before);
   drop_negligible_terms(found.model);
   return found;

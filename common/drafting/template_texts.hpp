@@ -51,7 +51,7 @@ split: {validation_fraction: 0.3, seed: 1}   # used where there is no column `se
 inline constexpr std::string_view kJobTemplate = R"yaml(# A calibration: demecal calibrate THIS-FILE --out DIR
 demecal_job: 1
 data: @DATA@
-method: direct             # direct, distal, diagnose (nothing is evolved) or structural
+method: direct             # direct, distal, diagnose (no correction is evolved) or structural
 seed: 1                    # the same seed gives the same model
 model:
   # What the model contains from the start. registration: where the base is in the instrument's frame; tool: the measured

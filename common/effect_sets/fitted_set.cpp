@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "primitives/elementary.hpp"
+
 namespace demecal::inline effect_sets {
 
 bool FittedSet::holds(std::size_t effect) const {
@@ -18,7 +20,13 @@ std::vector<std::size_t> FittedSet::causes() const {
 
 double FittedSet::price_nats(std::size_t effect) const {
   return problem_->naming_costs_nats[effect] +
-         0.5 * static_cast<double>(problem_->spans[effect].count) * std::log(problem_->poses);
+         0.5 * static_cast<double>(problem_->spans[effect].count) * protected_logarithm(problem_->poses);
+}
+
+/// Of the residual's description, where so much is left of its squares: the same bits on every machine.
+double FittedSet::saved_nats(double share) const {
+  constexpr double kLeast = 1e-30;  // below it the fit is exact but for rounding
+  return 0.5 * problem_->rows * protected_logarithm(std::max(share, kLeast));
 }
 
 Eigen::VectorXd FittedSet::moments_left() const {
@@ -43,7 +51,7 @@ double FittedSet::rise_without(std::size_t place) const {
 }
 
 double FittedSet::gain_without(std::size_t place) const {
-  return price_nats(effects_[place]) - 0.5 * problem_->rows * std::log1p(rise_without(place) / squares_);
+  return price_nats(effects_[place]) - saved_nats(1.0 + rise_without(place) / squares_);
 }
 
 std::vector<Alike> FittedSet::alike(std::size_t place) const {
@@ -70,7 +78,7 @@ std::vector<Alike> FittedSet::alike(std::size_t place) const {
     const Eigen::LLT<Eigen::MatrixXd> solver(fresh);
     const Eigen::VectorXd moment = left.segment(span.first, span.count), along = share.segment(span.first, span.count);
     const double squares = others.squares_ - moment.dot(solver.solve(moment));
-    const double nats = 0.5 * problem_->rows * std::log(squares / squares_) + price_nats(i) - price_nats(present);
+    const double nats = saved_nats(squares / squares_) + price_nats(i) - price_nats(present);
     const double cosine = std::sqrt(std::clamp(along.dot(solver.solve(along)) / square, 0.0, 1.0));
     all.push_back({i, cosine, nats});
   }

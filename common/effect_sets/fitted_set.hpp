@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -58,7 +57,7 @@ class FittedSet {
   const Eigen::VectorXd& coefficients() const { return coefficients_; }
   Eigen::Index columns() const { return coefficients_.size(); }
   /// The length of the residual's description, less that without any effect; nats.
-  double description_nats() const { return 0.5 * problem_->rows * std::log(squares_ / problem_->squares) + price_; }
+  double description_nats() const { return saved_nats(squares_ / problem_->squares) + price_; }
   /// What an effect's name and numbers take of it.
   double price_nats(std::size_t effect) const;
 
@@ -77,6 +76,7 @@ class FittedSet {
   void remove_cause(std::size_t cause);
 
  private:
+  double saved_nats(double share) const;
   std::pair<Eigen::Index, Eigen::Index> span_at(std::size_t place) const;
 
   const ExplanationProblem* problem_;

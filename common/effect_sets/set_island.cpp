@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "errors/check.hpp"
+#include "primitives/elementary.hpp"
 
 namespace demecal::inline effect_sets {
 namespace {
@@ -68,7 +69,7 @@ std::vector<std::size_t> SetIsland::promising(const FittedSet& set, bool of_its_
     if (span.count == 0 || set.holds(i)) continue;
     if (of_its_causes && !std::ranges::binary_search(causes, problem_.cause[i])) continue;
     const double share = std::min(left.segment(span.first, span.count).squaredNorm() / set.squares(), 0.99);
-    gains.emplace_back(-0.5 * problem_.rows * std::log1p(-share) - set.price_nats(i), i);
+    gains.emplace_back(-0.5 * problem_.rows * protected_logarithm(1.0 - share) - set.price_nats(i), i);
   }
   const auto most = static_cast<std::ptrdiff_t>(std::min(kPromising, gains.size()));
   std::partial_sort(gains.begin(), gains.begin() + most, gains.end(), std::greater{});
@@ -200,7 +201,7 @@ int SetIsland::variations_of_epoch() const {
 
 void SetIsland::run_epoch(const Population& immigrants, const std::function<void()>& after_variation) {
   DEMECAL_CHECK(!finished(), "epoch=" << state_.epoch << " of " << kSetEpochs);
-  if (kept_.empty()) settle();
+  if (kept_.empty()) enter_sets();
   for (const Individual& immigrant : immigrants) state_.migrants_taken += note(fitted_set(problem_, immigrant)) ? 1 : 0;
   const int variations = variations_of_epoch();
   for (int i = 0; i < variations; ++i) {
@@ -235,12 +236,11 @@ const FittedSet* SetIsland::best() const {
 }
 
 IslandFigures SetIsland::figures() const {
-  std::vector<double> fitness;
-  for (const Individual& one : state_.population) fitness.push_back(one.fitness);
-  if (fitness.empty()) return {};
-  std::ranges::sort(fitness);
-  return {fitness.front(), fitness[(fitness.size() - 1) / 2], static_cast<std::uint32_t>(best()->effects().size()),
-          1.0};
+  if (state_.population.empty()) return {};
+  std::vector<Individual> ranked = state_.population;
+  std::ranges::sort(ranked, {}, &Individual::fitness);
+  return {ranked.front().fitness, ranked[(ranked.size() - 1) / 2].fitness,
+          static_cast<std::uint32_t>(ranked.front().effects.size()), 1.0};
 }
 
 std::vector<std::size_t> SetIsland::causes_of_best() const {
@@ -251,16 +251,21 @@ std::vector<std::size_t> SetIsland::causes_of_best() const {
 void SetIsland::restore(const IslandState& state) {
   state_ = state;
   kept_.clear();
-  for (const Individual& one : state.population) {
+}
+
+// The first sets, or those of a state that another worker reached.
+void SetIsland::enter_sets() {
+  if (state_.epoch == 0) return settle();
+  for (const Individual& one : state_.population) {
     FittedSet set = fitted_set(problem_, one);
     kept_[set.causes().size()].push_back(std::move(set));
   }
   random_ = own_stream();
-  random_.skip(state.draws);
+  random_.skip(state_.draws);
 }
 
 Individual SetIsland::individual(const FittedSet& set) const {
-  const double fitness = std::exp(set.description_nats() / problem_.rows);
+  const double fitness = bounded_exponential(set.description_nats() / problem_.rows);
   return {.tree = {},
           .fitness = std::isfinite(fitness) ? fitness : std::numeric_limits<double>::infinity(),
           .effects = {set.effects().begin(), set.effects().end()}};

@@ -66,17 +66,18 @@ class SetIsland {
   std::vector<const FittedSet*> elite() const;
   Population emigrants() const;
   IslandFigures figures() const;
-  /// The numbers of the best set's causes, ascending; empty before the first epoch.
+  /// The numbers of the best set's causes, ascending; empty before the first epoch here.
   std::vector<std::size_t> causes_of_best() const;
 
   const IslandState& state() const { return state_; }
-  /// Goes on from a state that another worker reached.
+  /// Goes on from a state that another worker reached; its sets are fitted when the next epoch begins.
   void restore(const IslandState& state);
 
  private:
   static constexpr std::size_t kPromising = 12;  ///< effects among which an addition is drawn
 
   RandomStream own_stream() const;
+  void enter_sets();
   int variations_of_epoch() const;
   bool note(const FittedSet& set);
   const FittedSet& any_kept();

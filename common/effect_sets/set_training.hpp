@@ -36,6 +36,8 @@ struct SetTraining {
   /// Sets that an island keeps at most, and sends at most per epoch.
   std::size_t most_kept() const { return kSetsKept * most_sent(); }
   std::size_t most_sent() const { return cause_names.size() + 1; }
+  /// Random numbers that an island draws at most: a variation takes fewer than sixteen, and one for each cause mixed.
+  std::uint64_t most_draws() const { return static_cast<std::uint64_t>(variations) * (16 + cause_names.size()); }
 
   bool operator==(const SetTraining&) const = default;
 };

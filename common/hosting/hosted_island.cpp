@@ -41,7 +41,7 @@ std::string best_text(const SetIsland& island, const RunData& run) {
 }  // namespace
 
 /// The matrices are held once: as those of the problem.
-RunData::RunData(const CalibrationData& received) : data(received) {
+RunData::RunData(CalibrationData received) : data(std::move(received)) {
   if (data.breeds != Breeds::sets) return;
   problem = problem_of(data.sets);
   data.sets.gram = {};

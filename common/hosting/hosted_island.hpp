@@ -65,7 +65,7 @@ inline constexpr std::chrono::milliseconds kAtOnce{0};  ///< an interval of what
 
 /// The data of a run, shared by all its islands here.
 struct RunData {
-  explicit RunData(const CalibrationData& received);
+  explicit RunData(CalibrationData received);
 
   CalibrationData data;
   ExplanationProblem problem;  ///< where sets of effects are bred
@@ -94,7 +94,7 @@ class HostedIsland {
   /// What its next epoch takes in.
   Population immigrants(const MigrantStore& arrived);
 
-  /// Breeds one epoch; called from one thread at a time. `heartbeat` is called after every generation.
+  /// Breeds one epoch; called from one thread at a time. `heartbeat` is called after every generation or set.
   void run_epoch(const Population& immigrants, const std::function<void()>& heartbeat);
   WaitedShare::Time epoch_ended() const { return epoch_ended_; }
 

@@ -15,7 +15,6 @@ namespace demecal::inline protocol {
 namespace {
 
 constexpr std::size_t kMostVariables = 255;
-constexpr std::uint64_t kMostDraws = 1'000'000'000'000;
 
 Fault size_fault(const GpParameters& p) {
   if (p.population_size > kMostIndividuals)
@@ -133,7 +132,8 @@ Fault state_fault(const IslandState& state, const Bounds& bounds) {
   if (state.epoch == 0 ? !state.population.empty() : !is_full(state.population, bounds))
     return "a population of the wrong size";
   if (auto fault = population_fault(state.population, bounds)) return fault;
-  if (state.draws > kMostDraws) return "more random numbers than an island draws";
+  if (state.draws > (bounds.sets == nullptr ? 0 : bounds.sets->most_draws()))
+    return "more random numbers than an island draws";
   return front_fault(state.front, bounds);
 }
 

@@ -17,6 +17,8 @@
 namespace demecal::inline protocol {
 namespace {
 
+constexpr double kMostSetRows = 6.0 * kMostRows;  ///< a position and an orientation each
+
 /// Places among `count`, none of them twice.
 bool are_different(const std::vector<std::uint32_t>& places, std::size_t count) {
   const std::set<std::uint32_t> different(places.begin(), places.end());
@@ -49,7 +51,7 @@ Fault find_set_fault(const CalibrationData& data) {
   if (sets.cause_names.size() > effects ||
       std::any_of(sets.causes.begin(), sets.causes.end(), [&](auto one) { return one >= sets.cause_names.size(); }))
     return "a cause without a name, or too many names";
-  if (!(std::isfinite(sets.squares) && sets.squares > 0.0 && std::isfinite(sets.rows) && sets.rows > 0.0 &&
+  if (!(std::isfinite(sets.squares) && sets.squares > 0.0 && sets.rows > 0.0 && sets.rows <= kMostSetRows &&
         std::isfinite(sets.poses) && sets.poses >= 1.0 && sets.freedom >= 0.0 && sets.freedom <= sets.rows))
     return "counts that no data have";
   const Archipelago& a = data.archipelago;

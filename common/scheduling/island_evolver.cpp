@@ -75,6 +75,12 @@ bool can_travel(CalibrationData& data) {
   return can;
 }
 
+/// How long an epoch of sets may take: a slot makes well over twenty of them a second, of one island after another.
+std::chrono::milliseconds epoch_of_sets(const SetTraining& sets) {
+  constexpr std::chrono::milliseconds kSet{50};
+  return kSet * sets.variations / static_cast<int>(kSetEpochs);
+}
+
 /// Has an observer and a journal follow what happens, as far as they are there.
 class RecordedRun final : public RunObserver {
  public:
@@ -114,14 +120,23 @@ EvolvedJoints IslandEvolver::evolve(const std::vector<JointTraining>& trainings,
 }
 
 std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProblem& problem, const SetSearch& search) {
+  if (interrupt_) return {};
   CalibrationData data = data_of_search(problem, search);
   data.job = job_.name;
   data.seed = job_.seed;
-  if (!can_travel(data) || !can_start_workers()) return Evolver::search_explanations(problem, search);
+  searched_here_because_ = !can_travel(data)      ? "their matrices do not fit into a message"
+                           : no_worker_came_      ? "no worker came"
+                           : !can_start_workers() ? "no worker can be started"
+                                                  : "";
+  if (!searched_here_because_.empty()) return Evolver::search_explanations(problem, search);
   const RunResult result = run(RunState(std::move(data)), true, nullptr);
   facts_.evolved_sets += result.evaluations;
   count_workers(result);
-  if (result.end == RunEnd::no_worker) return Evolver::search_explanations(problem, search);
+  if (result.end == RunEnd::no_worker) {
+    no_worker_came_ = true;
+    searched_here_because_ = "no worker came";
+    return Evolver::search_explanations(problem, search);
+  }
   std::vector<Population> fronts;
   for (const auto& [island, front] : result.fronts) fronts.push_back(front);
   return front_of(problem, fronts);
@@ -148,21 +163,27 @@ RunResult IslandEvolver::attempt(RunState& state, bool shown, RunJournal* journa
   if (!pool_) pool_ = make_pool_();
   Transport& transport = pool_->transport();
   state.rename(transport.new_run());
-  if (journal != nullptr) {
-    journal->begin(state.data());
-    for (const RunId left : journal->take_left())
+  if (journal != nullptr) journal->begin(state.data());
+  if (options_.journal != nullptr) {
+    for (const RunId left : options_.journal->take_left())
       transport.publish(Control{left, Control::State::cancelled, state.data().job});
   }
   if (options_.observer != nullptr) options_.observer->on_run_begins(state.data(), state.progress(), shown);
   pool_->launch(state.data().run);
   RecordedRun recorded(options_.observer, journal);
-  RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, options_.patience);
+  RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, patience_with(state.data()));
   present_ = std::move(result.present);
   result.rejected -= std::exchange(rejected_, result.rejected);
   if (journal != nullptr) journal->finish();
   if (options_.observer != nullptr) options_.observer->on_run_ends(result.end);
   if (result.end != RunEnd::finished) release_workers();
   return result;
+}
+
+RunPatience IslandEvolver::patience_with(const CalibrationData& data) const {
+  RunPatience patience = options_.patience;
+  if (data.breeds == Breeds::sets) patience.idle += epoch_of_sets(data.sets);
+  return patience;
 }
 
 void IslandEvolver::start_workers() {

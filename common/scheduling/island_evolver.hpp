@@ -47,7 +47,8 @@ struct EvolverOptions {
 
 /// The evolutions of one calibration: the first, and those that follow when effects were found; each a run of its own.
 /// One pool of workers serves them all: its workers know each other, and begin with the next run at once. A run that
-/// the journal tells the end of is not run again; one that it tells the beginning of goes on from there. A run that is
+/// the journal tells the end of is not run again; one that it tells the beginning of goes on from there. Searches for
+/// explanations are runs, too, which no journal knows. A run that is
 /// stuck is begun anew, on another pool.
 class IslandEvolver final : public Evolver {
  public:
@@ -61,6 +62,8 @@ class IslandEvolver final : public Evolver {
   /// By the pool's workers; here where none can be started or comes, or where the matrices do not fit into a message.
   /// Not journalled: it takes seconds, and what it finds is a function of its arguments.
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override;
+  /// Why the last search for explanations was made in this process; empty where workers made it.
+  const std::string& searched_here_because() const { return searched_here_because_; }
   bool is_interrupted() const override { return interrupt_; }
   void add_effort(std::uint32_t generations, std::uint64_t evaluations) override;
 
@@ -82,6 +85,7 @@ class IslandEvolver final : public Evolver {
   void count(RunResult& result, int generations, bool shown);
   void count_workers(const RunResult& result);
   bool can_start_workers();
+  RunPatience patience_with(const CalibrationData& data) const;
   void release_workers();
 
   const Job& job_;
@@ -95,6 +99,8 @@ class IslandEvolver final : public Evolver {
   std::vector<Progress> history_;
   std::map<IslandKey, Population> fronts_;
   RunFacts facts_;
+  bool no_worker_came_ = false;  ///< to a search for explanations: no further one waits for any
+  std::string searched_here_because_;
   std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
 };
 

@@ -82,10 +82,9 @@ class AnnouncedEvolver final : public Evolver {
   }
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override {
     observer_.on_message("evolving explanations: which causes, and how few");
-    const std::uint64_t before = islands_.facts().evolved_sets;
     std::vector<EffectSet> found = islands_.search_explanations(problem, search);
-    if (islands_.facts().evolved_sets == before && !islands_.is_interrupted())
-      observer_.on_message("no worker took them: they were evolved here");
+    if (!islands_.searched_here_because().empty())
+      observer_.on_message("explanations were evolved in this process: " + islands_.searched_here_because());
     return found;
   }
   void announce(Purpose purpose) override {
@@ -174,11 +173,13 @@ CalibrateResult calibrate_without_corrections(const DataSet& data, const Job& jo
         return evolver.search_explanations(problem, search);
       });
   islands.dismiss_workers();
+  CalibrateResult& result = diagnosis.result;
+  if (interrupt) result.end = RunEnd::interrupted;
   RunFacts facts = islands.facts();
-  facts.wall_s = diagnosis.result.facts.wall_s;
-  facts.interrupted = diagnosis.result.facts.interrupted;
-  diagnosis.result.facts = std::move(facts);
-  return std::move(diagnosis.result);
+  facts.wall_s = result.facts.wall_s;
+  facts.interrupted = result.end == RunEnd::interrupted;
+  result.facts = std::move(facts);
+  return std::move(result);
 }
 
 /// The placement that a model file gives back to the bit: the rotation of a quaternion that it turns into again.

@@ -271,7 +271,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::IsMember({"direct", "distal", "diagnose", "structural"}));
   command
       ->add_flag("--no-evolution", request->no_evolution,
-                 "evolve nothing, as --method diagnose: what evolution earns is the difference")
+                 "as --method diagnose, and search for no better explanations: what evolution earns is the difference")
       ->excludes("--method");
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(not_negative());

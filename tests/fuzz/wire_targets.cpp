@@ -22,6 +22,15 @@ const CalibrationData& the_run() {
   return data;
 }
 
+const CalibrationData& the_set_run() {
+  static const CalibrationData data = [] {
+    CalibrationData sets = data_of_search(deceptive(51), {.known = {1, 7}, .search = {.variations = 40}, .stream = 1});
+    sets.run = 7;
+    return sets;
+  }();
+  return data;
+}
+
 // What is done with a message that is accepted: nothing of it may break a precondition further in.
 
 void breed_sets(const CalibrationData& data) {
@@ -48,20 +57,32 @@ void use(const CalibrationData& data) {
   }
 }
 
-void use(const IslandTask& task) {
-  if (find_fault(task, the_run())) return;
-  static const auto run = std::make_shared<RunData>(RunData{the_run()});
+void host(const IslandTask& task, const std::shared_ptr<RunData>& run, const CalibrationData& data) {
+  if (find_fault(task, data)) return;
   HostedIsland island(run, task);
   if (!island.finished()) {
     island.run_epoch({}, [] {});
-    demand(!find_fault(island.last_migrants(), the_run()), "what an island sends is sound");
+    demand(!find_fault(island.last_migrants(), data), "what an island sends is sound");
     const auto progress = island.due_progress("w", std::chrono::milliseconds(0));
-    demand(progress && !find_fault(*progress, the_run()), "what an island reports is sound");
+    demand(progress && !find_fault(*progress, data), "what an island reports is sound");
   }
-  demand(!find_fault(island.outcome("w"), the_run()) || !island.finished(), "what an island ends with is sound");
+  demand(!find_fault(island.outcome("w"), data) || !island.finished(), "what an island ends with is sound");
+}
+void use(const IslandTask& task) {
+  static const auto run = std::make_shared<RunData>(the_run()), set_run = std::make_shared<RunData>(the_set_run());
+  host(task, run, the_run());
+  host(task, set_run, the_set_run());
 }
 
+void use_sets(const Migrants& migrants) {
+  if (find_fault(migrants, the_set_run())) return;
+  static const ExplanationProblem problem = problem_of(the_set_run().sets);
+  SetIsland island(problem, search_of(the_set_run().sets), migrants.island);
+  island.run_epoch({});
+  island.run_epoch(migrants.individuals);
+}
 void use(const Migrants& migrants) {
+  use_sets(migrants);
   if (find_fault(migrants, the_run())) return;
   const auto joint = static_cast<std::size_t>(migrants.island.joint == the_run().archipelago.joints[1]);
   Island island(the_run().parameters, the_run().archipelago, the_run().tables[joint], migrants.island, 1);
@@ -223,14 +244,16 @@ std::vector<Target> wire_targets() {
   const Checkpoint last = told_after(kEpochsOfSmallRun);
   CalibrationData sharing = the_run();
   sharing.parameters.shared_functions = {parse_definition("F1(c1, a1, a2) = c1 * SIN(a1) + a2", 0)};
-  CalibrationData sets = data_of_search(deceptive(51), {.known = {1, 7}, .search = {.variations = 40}, .stream = 1});
-  sets.run = 7;
+  HostedIsland of_sets(std::make_shared<RunData>(the_set_run()), {7, {0, 2}, 1, "w", {}, {}});
+  for (int i = 0; i < 3; ++i) of_sets.run_epoch({}, [] {});
+  const Checkpoint set_checkpoint = of_sets.checkpoint("w");
+  const IslandTask set_task{7, {0, 2}, 1, "w", set_checkpoint.state, set_checkpoint.recent};
   return {parts_target(),
-          target<CalibrationData>("message_data", {the_run(), sharing, sets, random.data()}),
-          target<IslandTask>("message_task", {task_after(0), task_after(1), random.task()}),
-          target<Migrants>("message_migrants", {migrants_of(last), random.migrants()}),
+          target<CalibrationData>("message_data", {the_run(), sharing, the_set_run(), random.data()}),
+          target<IslandTask>("message_task", {task_after(0), task_after(1), set_task, random.task()}),
+          target<Migrants>("message_migrants", {migrants_of(last), migrants_of(set_checkpoint), random.migrants()}),
           target<Progress>("message_progress", {progress_of(last), random.progress()}),
-          target<Checkpoint>("message_checkpoint", {told_after(1), random.checkpoint()}),
+          target<Checkpoint>("message_checkpoint", {told_after(1), set_checkpoint, random.checkpoint()}),
           target<Outcome>("message_outcome", {outcome_of(last), random.outcome()}),
           progress_target(progress_of(last)),
           sample_target("sample_worker", Topic::worker, random.status()),

@@ -126,6 +126,33 @@ TEST(CalibrateWithoutEvolution, IsTheDiagnosisOfWhatTheJobDeclaresWhoeverEvolves
   EXPECT_EQ(model_text(alone.model), model_text(diagnose(data, job, {}, {}).result.model));
 }
 
+/// Interrupts as soon as an island has reported.
+class InterruptsAtProgress final : public CalibrationObserver {
+ public:
+  explicit InterruptsAtProgress(std::atomic<bool>& interrupt) : interrupt_(interrupt) {}
+  void on_progress(const Progress&) override { interrupt_ = true; }
+
+ private:
+  std::atomic<bool>& interrupt_;
+};
+
+TEST(CalibrateWithoutEvolution, IsInterruptedAmidTheSearchForExplanations) {
+  const DataSet data = simulate(lacking_puma(true));
+  Job job = diagnosing_job(kSmooth);
+  job.closed_loop.candidates = {"backlash"};
+  job.explanations.variations = 2000000;
+  std::atomic<bool> interrupt{false};
+  InterruptsAtProgress observer(interrupt);
+  CalibrateOptions options;
+  options.observer = &observer;
+  const CalibrateResult result = calibrate(
+      data, job, [] { return std::make_unique<InProcessWorkerPool>(2); }, interrupt, options);
+  EXPECT_EQ(result.end, RunEnd::interrupted);
+  EXPECT_TRUE(result.facts.interrupted);
+  EXPECT_LT(result.facts.evolved_sets, 2000000U);
+  EXPECT_FALSE(result.model.robot.effects.empty());
+}
+
 TEST(CalibrateWithoutEvolution, IsInterruptedAfterARound) {
   const std::atomic<bool> interrupt{true};
   const CalibrateResult result =

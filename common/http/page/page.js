@@ -161,7 +161,7 @@ const rounded = formula => (formula ?? '').replace(/\d+\.\d{4,}(e[+-]?\d+)?/g, n
 function drawTables(calibration, run) {
   const best = [...(run?.best.values() ?? [])].sort((a, b) => a.joint - b.joint), ofSets = run?.data?.breeds === 'sets';
   text($('besttitle'), ofSets ? 'Best explanation' : 'Best formulas');
-  text($('bestnote'), ofSets ? 'fitness: how short the residual becomes, 1 without any cause; length: effects' : 'theta in rad; constants rounded');
+  text($('bestnote'), ofSets ? 'fitness: exp(description length / measured numbers), 1 without any cause; length: effects' : 'theta in rad; constants rounded');
   text($('besthead'), ofSets ? 'causes' : 'formula');
   text($('frontnote'), `best fitness that ${ofSets ? 'sets of so many effects' : 'formulas of each length'} reached`);
   rows($('formulas'), best, e => [ofSets ? 'all' : String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
