@@ -122,12 +122,17 @@ void FittedSet::remove(std::size_t place) {
   for (Eigen::Index i = 0; i < inverse_.rows(); ++i)
     if (i < first || i >= first + count) kept.push_back(i);
   const Eigen::LLT<Eigen::MatrixXd> own(inverse_.block(first, first, count, count));
-  const Eigen::MatrixXd beside = inverse_.middleCols(first, count)(kept, Eigen::all);
   const Eigen::VectorXd weighted = own.solve(coefficients_.segment(first, count));
   squares_ += coefficients_.segment(first, count).dot(weighted);
+  columns_.erase(columns_.begin() + first, columns_.begin() + first + count);
+  if (kept.empty()) {
+    coefficients_.resize(0);
+    inverse_.resize(0, 0);
+    return;
+  }
+  const Eigen::MatrixXd beside = inverse_.middleCols(first, count)(kept, Eigen::all);
   coefficients_ = (coefficients_(kept) - beside * weighted).eval();
   inverse_ = (inverse_(kept, kept) - beside * own.solve(beside.transpose())).eval();
-  columns_.erase(columns_.begin() + first, columns_.begin() + first + count);
 }
 
 void FittedSet::remove_cause(std::size_t cause) {
