@@ -153,7 +153,7 @@ std::vector<std::shared_ptr<HostedIsland>> linked_with(
 struct IslandHostOptions {
   std::uint32_t slots = 1;                   ///< islands computed at once
   std::chrono::milliseconds batch{20};       ///< about so long, islands that need nobody else breed without a message
-  std::function<void()> after_generation{};  ///< or set; by the slot that bred it: for work that is only simulated
+  std::function<void()> after_generation{};  ///< or set, by the slot that bred it: for simulated work
 };
 
 /// Publishes nothing and reads no messages: that is its worker's part, from whose thread all calls come.

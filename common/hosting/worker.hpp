@@ -31,7 +31,7 @@ struct WorkerOptions {
   std::chrono::milliseconds checkpoint_interval{1000};  ///< at least, but for islands of many epochs a second
   std::chrono::milliseconds batch{20};       ///< about so long, islands that need nobody else breed without a message
   std::function<void()> after_run{};         ///< called when what was kept of a run has been dropped
-  std::function<void()> after_generation{};  ///< or set; by the slot that bred it: for work that is only simulated
+  std::function<void()> after_generation{};  ///< or set, by the slot that bred it: for simulated work
 };
 
 class Worker {

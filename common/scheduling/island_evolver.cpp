@@ -44,11 +44,17 @@ CalibrationData calibration_data(const Job& job, const std::vector<JointTraining
   return data;
 }
 
+/// Why workers would refuse data that have no run's number yet.
+Fault fault_without_run(CalibrationData& data) {
+  data.run = 1;
+  Fault fault = find_fault(data);
+  data.run = 0;
+  return fault;
+}
+
 /// Data that workers would refuse are the user's error.
 CalibrationData believable(CalibrationData data) {
-  CalibrationData named = data;
-  named.run = 1;
-  if (const Fault fault = find_fault(named)) {
+  if (const Fault fault = fault_without_run(data)) {
     throw InputError({}, data.job, "no worker would take this job: " + *fault);
   }
   return data;
@@ -67,16 +73,8 @@ std::vector<JointCandidates> candidates_of(const std::vector<JointTraining>& tra
   return candidates;
 }
 
-/// Whether workers would take the data.
-bool can_travel(CalibrationData& data) {
-  data.run = 1;
-  const bool can = !find_fault(data);
-  data.run = 0;
-  return can;
-}
-
-/// How long an epoch of sets may take: a slot makes well over twenty of them a second, of one island after another.
-std::chrono::milliseconds epoch_of_sets(const SetTraining& sets) {
+/// How long a worker of one slot may take for an epoch of all islands: it makes well over twenty sets a second.
+std::chrono::milliseconds longest_epoch(const SetTraining& sets) {
   constexpr std::chrono::milliseconds kSet{50};
   return kSet * sets.variations / static_cast<int>(kSetEpochs);
 }
@@ -124,7 +122,8 @@ std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProbl
   CalibrationData data = data_of_search(problem, search);
   data.job = job_.name;
   data.seed = job_.seed;
-  searched_here_because_ = !can_travel(data)      ? "their matrices do not fit into a message"
+  const Fault fault = fault_without_run(data);
+  searched_here_because_ = fault                  ? "workers would refuse them: " + *fault
                            : no_worker_came_      ? "no worker came"
                            : !can_start_workers() ? "no worker can be started"
                                                   : "";
@@ -171,7 +170,7 @@ RunResult IslandEvolver::attempt(RunState& state, bool shown, RunJournal* journa
   if (options_.observer != nullptr) options_.observer->on_run_begins(state.data(), state.progress(), shown);
   pool_->launch(state.data().run);
   RecordedRun recorded(options_.observer, journal);
-  RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, patience_with(state.data()));
+  RunResult result = EvolutionRun(transport, state, recorded, present_).run(interrupt_, patience_for(state.data()));
   present_ = std::move(result.present);
   result.rejected -= std::exchange(rejected_, result.rejected);
   if (journal != nullptr) journal->finish();
@@ -180,9 +179,9 @@ RunResult IslandEvolver::attempt(RunState& state, bool shown, RunJournal* journa
   return result;
 }
 
-RunPatience IslandEvolver::patience_with(const CalibrationData& data) const {
+RunPatience IslandEvolver::patience_for(const CalibrationData& data) const {
   RunPatience patience = options_.patience;
-  if (data.breeds == Breeds::sets) patience.idle += epoch_of_sets(data.sets);
+  if (data.breeds == Breeds::sets) patience.idle += longest_epoch(data.sets);
   return patience;
 }
 

@@ -85,7 +85,7 @@ class IslandEvolver final : public Evolver {
   void count(RunResult& result, int generations, bool shown);
   void count_workers(const RunResult& result);
   bool can_start_workers();
-  RunPatience patience_with(const CalibrationData& data) const;
+  RunPatience patience_for(const CalibrationData& data) const;
   void release_workers();
 
   const Job& job_;
