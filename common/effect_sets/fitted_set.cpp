@@ -1,7 +1,9 @@
 #include "effect_sets/fitted_set.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "primitives/elementary.hpp"

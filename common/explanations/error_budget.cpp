@@ -3,13 +3,17 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline explanations {

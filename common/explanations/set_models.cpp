@@ -1,12 +1,20 @@
 #include "explanations/set_models.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 #include <utility>
 
+#include "data/data_set.hpp"
 #include "explanations/causes.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline explanations {
 namespace {

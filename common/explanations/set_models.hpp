@@ -9,6 +9,7 @@
 #include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
 #include "residuals/diagnosed_model.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline explanations {
 

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include "data/text.hpp"
 #include "kuka_abb_ur/krl_frames.hpp"
+#include "parsed_programs/frame_flow.hpp"
+#include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline kuka_abb_ur {
 

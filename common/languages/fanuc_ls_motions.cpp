@@ -1,8 +1,11 @@
 #include "languages/fanuc_ls_motions.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "data/text.hpp"
 

@@ -1,6 +1,8 @@
 #include "parsed_programs/frame_flow.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <deque>
 #include <iterator>
 #include <utility>
 

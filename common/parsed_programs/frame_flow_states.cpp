@@ -1,7 +1,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "parsed_programs/frame_flow.hpp"
+#include "parsed_programs/program.hpp"
 
 namespace demecal::inline parsed_programs {
 namespace {

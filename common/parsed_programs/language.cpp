@@ -1,5 +1,6 @@
 #include "parsed_programs/language.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <iomanip>
 #include <sstream>

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <ratio>
 #include <stdexcept>
 #include <utility>
 
 #include "calibration/selection.hpp"
+#include "effect_sets/set_training.hpp"
 #include "errors/input_error.hpp"
 #include "expression/shared_function.hpp"
 #include "fitness/fitness.hpp"

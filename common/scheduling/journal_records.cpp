@@ -1,3 +1,4 @@
+#include "effect_sets/set_training.hpp"
 #include "scheduling/run_journal.hpp"
 
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/kawasaki_as_program.hpp"
+#include "staubli_kawasaki/location_frames.hpp"
 #include "staubli_kawasaki/location_names.hpp"
 
 namespace demecal::inline staubli_kawasaki {

@@ -1,6 +1,8 @@
 #include "staubli_kawasaki/location_frames.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
 #include "data/text.hpp"
 

@@ -1,6 +1,7 @@
 // TOOL and BASE of VAL II and AS, whatever way a program takes to a motion.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <map>
 #include <set>

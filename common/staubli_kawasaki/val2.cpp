@@ -25,6 +25,7 @@
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/location_frames.hpp"
 #include "staubli_kawasaki/location_names.hpp"
 #include "staubli_kawasaki/val2_program.hpp"
 

@@ -1,5 +1,6 @@
 #include "staubli_kawasaki/val2_program.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

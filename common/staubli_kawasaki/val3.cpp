@@ -1,6 +1,7 @@
 // Staubli VAL3: jointRx (j1 to j6 in degrees) and pointRx (x, y, z in mm and rx, ry, rz in degrees, turns about x, the
 // new y and the new z) of data files (.dtx). A point hangs on a frame of the data, or on the world, which is the arm's
 // base. Programs (.pgx), where they are given, tell the tools, and what is not as the data have it.
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 #include <string>

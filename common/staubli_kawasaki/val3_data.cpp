@@ -1,8 +1,14 @@
+#include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/val3_program.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace demecal::inline staubli_kawasaki {
 namespace {
