@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kLowestRatio = 10, kHighestRatio = 160;
 constexpr double kLargestTurn_rad = 0.01, kLargestShift_m = 0.01;
+constexpr double kLargestGrowth_per_kelvin = 100e-6;  // of what links are made of, plastics grow most
 
 bool is_simple_form(const Effect& effect) {
   if (effect.kind == "compliance") return effect.form == "masses";
@@ -73,6 +74,7 @@ void scale(Effect& effect, double factor) {
 }
 
 bool is_possible(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  if (effect.kind == "thermal_length" && std::abs(effect.value(0)) > kLargestGrowth_per_kelvin) return false;
   std::vector<UnitMotion> units;
   for (const ArmState& state : states) {
     units.clear();
