@@ -69,6 +69,15 @@ struct UrdfSource {
   std::string tip;   ///< link
 };
 
+/// A spring, gas spring or cylinder that relieves a revolute joint of weight, between a pivot on the link before it and
+/// one on the link behind it.
+struct Balancer {
+  int joint = 0;
+  double fixed_m = 0.0;       ///< from the joint's axis to the pivot on the link before it
+  double moving_m = 0.0;      ///< and to that on the link behind it; not the same
+  double shortest_rad = 0.0;  ///< where the joint stands when the pivots are nearest
+};
+
 /// The arm as its maker describes it.
 struct Robot {
   std::string name;
@@ -80,6 +89,7 @@ struct Robot {
   std::vector<double> pulses_per_deg{};  ///< of each joint's motor (per mm where it slides); empty: not declared
   std::optional<DrawnArm> drawing{};     ///< where the file says more of the arm than rows; `chain` is made from it
   std::optional<UrdfSource> urdf{};      ///< the file that `drawing` was made from
+  std::vector<Balancer> balancers{};     ///< at most one of a joint
 };
 
 /// A further place that instruments measured from. Its poses are given in the first station's frame, as near as base

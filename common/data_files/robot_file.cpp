@@ -65,6 +65,23 @@ std::vector<double> read_pulses(const YamlNode& node, const Chain& chain) {
   return values;
 }
 
+std::vector<Balancer> read_balancers(const YamlNode& list, const Chain& chain) {
+  constexpr double kLeastDifference_m = 1e-3;
+  std::vector<Balancer> balancers;
+  for (const YamlNode& node : list.list()) {
+    node.with_keys({"joint", "fixed_mm", "moving_mm", "shortest_deg"});
+    const int joint = static_cast<int>(node.at("joint").whole_number(1, chain.size())) - 1;
+    if (!is_revolute(chain, joint)) node.at("joint").fail("joint slides: a balancer relieves one that turns");
+    const auto same = [&](const Balancer& one) { return one.joint == joint; };
+    if (std::ranges::any_of(balancers, same)) node.at("joint").fail("has a balancer already");
+    balancers.push_back({joint, metres(node.at("fixed_mm").positive()), metres(node.at("moving_mm").positive()),
+                         radians(node.at("shortest_deg").number())});
+    if (std::abs(balancers.back().fixed_m - balancers.back().moving_m) < kLeastDifference_m)
+      node.at("moving_mm").fail("must differ from fixed_mm by 1 mm or more: the spring's length would come to nothing");
+  }
+  return balancers;
+}
+
 /// The arm of a robot that was read as rows, or made without a file.
 DrawnArm drawing_of(const Robot& robot) {
   if (robot.drawing) return *robot.drawing;
@@ -122,7 +139,7 @@ MatrixText read_matrix(const YamlNode& node) {
 
 Robot read_robot(const YamlNode& node) {
   node.with_keys({"demecal_robot", "name", "convention", "base", "joints", "flange", "couplings", "tool_mm", "links",
-                  "gravity_mps2", "urdf", "repeatability_mm", "home_deg", "pulses_per_deg"});
+                  "gravity_mps2", "urdf", "repeatability_mm", "home_deg", "pulses_per_deg", "balancers"});
   Robot robot;
   robot.name = node.at("name").text();
   DrawnArm drawing = read_drawing(node);
@@ -140,6 +157,7 @@ Robot read_robot(const YamlNode& node) {
   if (const YamlNode* urdf = node.find("urdf")) robot.urdf = read_urdf_source(*urdf);
   if (const YamlNode* home = node.find("home_deg")) robot.home = read_declared_home(*home, robot.chain);
   if (const YamlNode* pulses = node.find("pulses_per_deg")) robot.pulses_per_deg = read_pulses(*pulses, robot.chain);
+  if (const YamlNode* list = node.find("balancers")) robot.balancers = read_balancers(*list, robot.chain);
   return robot;
 }
 
@@ -172,6 +190,12 @@ std::string robot_text(const Robot& robot, int indent) {
   }
   if (robot.home.size() > 0) text << margin << "home_deg: " << home_text(robot) << '\n';
   if (!robot.pulses_per_deg.empty()) text << margin << "pulses_per_deg: " << yaml_numbers(robot.pulses_per_deg) << '\n';
+  if (!robot.balancers.empty()) text << margin << "balancers:\n";
+  for (const Balancer& one : robot.balancers) {
+    text << margin << "  - {joint: " << one.joint + 1 << ", fixed_mm: " << millimetres_text(one.fixed_m)
+         << ", moving_mm: " << millimetres_text(one.moving_m) << ", shortest_deg: " << degrees_text(one.shortest_rad)
+         << "}\n";
+  }
   return text.str();
 }
 

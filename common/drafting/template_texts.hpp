@@ -18,6 +18,8 @@ joints:                    # from the base on; the figures below are an example:
 # gravity_mps2: [0, 0, -9.81]   # in the base frame: other for a wall, a ceiling or a tilted base
 # repeatability_mm: 0.05   # the maker's
 # home_deg: [0, -90, 90, 0, 90, 0]   # where programs start that do not say it
+# balancers:                          # springs that relieve joints: pivots from the axis, and where it is shortest
+#   - {joint: 2, fixed_mm: 250, moving_mm: 400, shortest_deg: 90}
 )yaml";
 
 inline constexpr std::string_view kDataSetTemplate =

@@ -10,7 +10,17 @@
 namespace demecal::inline effects {
 
 /// What engineers count as one cause, however many effects it takes to describe it; of each joint, or of the whole arm.
-enum class CauseGroup { transmission, lost_motion, elasticity, bearing, link_geometry, heat, instrument, formula };
+enum class CauseGroup {
+  transmission,
+  lost_motion,
+  elasticity,
+  balance_spring,
+  bearing,
+  link_geometry,
+  heat,
+  instrument,
+  formula
+};
 
 struct Cause {
   std::string_view kind;          ///< a word of the catalogue

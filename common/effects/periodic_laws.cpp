@@ -1,6 +1,9 @@
 // What comes back with every turn of a joint: eccentricity, gear harmonics, and the wobble of its axis.
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,6 +54,19 @@ class JointWaveLaw : public EffectLaw {
   std::string setting_;
 };
 
+/// Whether a balance spring that the robot's file does not describe may hang at the joint: one of the first three,
+/// turned by weight.
+bool may_have_a_balancer(const Robot& robot, int joint) {
+  constexpr int kBalanced = 3;
+  constexpr double kAlong = 0.9;  // cosine
+  if (joint >= kBalanced ||
+      std::ranges::any_of(robot.balancers, [&](const Balancer& one) { return one.joint == joint; }))
+    return false;
+  const ArmState state = arm_state(robot, Stop(JointVector::Zero(robot.chain.size())));
+  const Eigen::Vector3d axis = state.places[static_cast<std::size_t>(joint)].linear().col(2);
+  return std::abs(axis.dot(robot.gravity_mps2)) < kAlong * robot.gravity_mps2.norm();
+}
+
 /// A gear or encoder disc off its centre: one or two periods a turn.
 class EccentricityLaw final : public JointWaveLaw {
  public:
@@ -69,7 +85,10 @@ class EccentricityLaw final : public JointWaveLaw {
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     return joint_name(effect.joint) + " swings by " +
            motion_text(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " to either side, " +
-           times_per_turn(periods(effect)) + ": a gear or encoder disc runs off its centre.";
+           times_per_turn(periods(effect)) + ": a gear or encoder disc runs off its centre" +
+           (may_have_a_balancer(robot, effect.joint) ? ", or a balance spring pulls that the robot's file does not "
+                                                       "describe (balancers)."
+                                                     : ".");
   }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
 };

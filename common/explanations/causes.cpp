@@ -17,7 +17,7 @@ struct GroupWords {
   std::string_view advice;
 };
 
-constexpr std::array<GroupWords, 8> kGroups{{
+constexpr std::array<GroupWords, 9> kGroups{{
     {CauseGroup::transmission, "transmission", "gears", "",
      "Corrected targets compensate it. Where it is more than the gear's maker states as running error, have its "
      "mounting "
@@ -28,6 +28,9 @@ constexpr std::array<GroupWords, 8> kGroups{{
     {CauseGroup::elasticity, "elasticity", "elasticity", "elasticity of the arm under gravity",
      "Corrected targets compensate it for the payload that was measured. With another payload, state it, or measure "
      "again with it."},
+    {CauseGroup::balance_spring, "balance_spring", "balance spring", "",
+     "Corrected targets compensate it. Where it grows, have the tension of its spring, or the pressure of its gas, "
+     "checked against what the maker states."},
     {CauseGroup::bearing, "bearing", "bearing", "",
      "Corrected targets compensate it. Where it grows, have the bearing's preload checked."},
     {CauseGroup::link_geometry, "link_geometry", "geometry of the link", "",

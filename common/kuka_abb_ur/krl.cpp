@@ -76,8 +76,8 @@ class KrlReader {
       frames.complete(target);
       if (!carried.empty()) target.frames.unknown_frame = carried;
     }
-    frames.note_calls_believed(program_);
     const KrlStatements statements(text_, program_);
+    frames.note_routines(program_);
     return std::move(program_);
   }
 

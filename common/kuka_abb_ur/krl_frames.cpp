@@ -249,7 +249,8 @@ void KrlFrames::complete(Target& target) {
   set_frame(target.frames, base_of(data->second));
 }
 
-void KrlFrames::note_calls_believed(Program& program) const {
+void KrlFrames::note_routines(Program& program) const {
+  flow_.end_at_routines(program);
   if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 

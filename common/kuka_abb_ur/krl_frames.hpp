@@ -22,8 +22,9 @@ class KrlFrames {
 
   /// Completes a target that was read, by its name and place.
   void complete(Target& target);
-  /// Says once which calls of other files' routines were taken to leave tool and base as they are.
-  void note_calls_believed(Program& program) const;
+  /// When all targets are completed: where routines end what is known of the arm, and once which calls of other files'
+  /// routines were taken to leave tool and base as they are.
+  void note_routines(Program& program) const;
 
  private:
   struct FrameNumbers {

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "data/text.hpp"
+#include "parsed_programs/frame_flow.hpp"
 
 namespace demecal::inline kuka_abb_ur {
 namespace {
@@ -73,6 +76,32 @@ std::vector<TextRange> displaced_by_pdisp(const ProgramText& text) {
     ranges.push_back(stop ? TextRange{begin, *stop} : TextRange{0, text.code().size()});
   });
   return ranges;
+}
+
+void end_at_rapid_routines(const ProgramText& text, Program& program) {
+  const auto name_after = [&](const std::string& word, std::size_t end) -> std::size_t {
+    const std::size_t next = text.skip_spaces(end);
+    if (word == "proc" || word == "trap") return next;
+    return word == "func" ? text.skip_spaces(text.word_end(next)) : 0;  // behind its type
+  };
+  const auto for_each = [&](const auto& visit) {
+    text.for_each_word([&](std::size_t begin, std::size_t end) {
+      const std::string word = text.word_at(begin);
+      visit(begin, word, name_after(word, end));
+    });
+  };
+  std::set<std::string> routines;
+  for_each([&](std::size_t /*begin*/, const std::string& /*word*/, std::size_t name) {
+    if (name != 0) routines.insert(text.word_at(name));
+  });
+  FrameFlow flow("", "");
+  std::size_t own = 0;
+  for_each([&](std::size_t begin, const std::string& word, std::size_t name) {
+    if (name != 0) flow.begin_routine(begin, text.word_at(own = name), text.source().file_at(begin));
+    if (begin != own && routines.contains(word)) flow.call(begin, word, false);
+  });
+  flow.finish();
+  flow.end_at_routines(program);
 }
 
 RapidStatements::RapidStatements(const ProgramText& text, Program& program)

@@ -28,6 +28,9 @@ struct TextRange {
 /// all of the program.
 std::vector<TextRange> displaced_by_pdisp(const ProgramText& text);
 
+/// Tells `program`, whose motions are known, where its routines end what is known of the arm.
+void end_at_rapid_routines(const ProgramText& text, Program& program);
+
 /// The numbers of a declared target are those that the robot is sent to where every statement that names it moves to
 /// it, to Offs(...) or RelTool(...) of it, or copies it to another.
 class RapidStatements {

@@ -16,6 +16,7 @@
 
 #include "kinematics/chain.hpp"
 #include "kuka_abb_ur/urscript_statements.hpp"
+#include "kuka_abb_ur/urscript_way.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -34,19 +35,23 @@ int targets_of(std::string_view word) {
 class UrReader {
  public:
   explicit UrReader(const ReaderInput& input)
-      : text_(input.source, {.comment = '#'}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
+      : text_(input.source, {.comment = '#'}),
+        code_(text_.code()),
+        arm_(input.arm),
+        controller_(input.controller),
+        way_(text_) {
     require_six_joints(input.arm, input.source.file(), "URScript");
   }
 
   Program read() {
     find_assignments();
+    follow_tools();
     text_.for_each_word([&](std::size_t begin, std::size_t end) {
       const std::string_view word = code_.substr(begin, end - begin);
-      if (word == "set_tcp" && text_.next(end) == '(') read_tool(text_.skip_spaces(end));
       const int targets = targets_of(word);
       if (targets == 0 || text_.next(end) != '(') return;
       use_ = {begin, word == "movej" || word == "servoj" ? Motion::joints : Motion::line, {}};
-      if (tool_) set_tool(use_.frames, *tool_);
+      use_.frames = way_.held(begin, is_to_pose(text_.skip_spaces(end) + 1));
       read_call(text_.skip_spaces(end), targets);
     });
     leave_targets_on_targets();
@@ -54,6 +59,7 @@ class UrReader {
     for (Target& target : program_.targets) take_uses(uses_at_.at(literal_of_.at(target.begin())), target);
     std::sort(program_.targets.begin(), program_.targets.end(),
               [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
+    way_.note_routines(program_);
     return std::move(program_);
   }
 
@@ -74,34 +80,31 @@ class UrReader {
     });
   }
 
+  void follow_tools() {
+    text_.for_each_word([&](std::size_t begin, std::size_t end) {
+      const bool sets_tool = code_.substr(begin, end - begin) == "set_tcp" && text_.next(end) == '(';
+      sets_tool ? way_.set_tool(begin, tool_at(text_.skip_spaces(end) + 1)) : way_.read_word(begin, end);
+    });
+    way_.finish();
+  }
+
+  /// Whether what a motion goes to is told by the tool: anything but joints.
+  bool is_to_pose(std::size_t argument) const {
+    std::size_t begin = text_.skip_spaces(argument);
+    const auto variable = assigned_.find(word_from(argument));
+    if (variable != assigned_.end()) begin = variable->second.front();
+    return begin >= code_.size() || code_[begin] != '[';
+  }
+
   /// Reads the first `targets` arguments of the call whose parenthesis opens at `open`.
   void read_call(std::size_t open, int targets) {
     std::size_t offset = open + 1;
     for (int i = 0; i < targets; ++i) {
-      target_at(after_keyword(offset), {});
-      offset = argument_end(offset);
+      target_at(urscript_argument(text_, offset), {});
+      offset = urscript_argument_end(text_, offset);
       if (offset >= code_.size() || code_[offset] != ',') return;
       ++offset;
     }
-  }
-
-  /// Past "NAME =", where the argument is given by name.
-  std::size_t after_keyword(std::size_t offset) const {
-    const std::size_t begin = text_.skip_spaces(offset), end = text_.word_end(begin);
-    if (end == begin || text_.next(end) != '=') return offset;
-    const std::size_t sign = text_.skip_spaces(end);
-    return code_.substr(sign).starts_with("==") ? offset : sign + 1;
-  }
-
-  /// The comma or parenthesis that ends the argument at `offset`.
-  std::size_t argument_end(std::size_t offset) const {
-    int depth = 0;
-    for (; offset < code_.size(); ++offset) {
-      const char letter = code_[offset];
-      if (depth == 0 && (letter == ',' || letter == ')')) return offset;
-      depth += letter == '(' || letter == '[' ? 1 : letter == ')' || letter == ']' ? -1 : 0;
-    }
-    return offset;
   }
 
   /// The target that an argument is: a literal, a variable that was given one, or a pose in get_inverse_kin().
@@ -121,7 +124,7 @@ class UrReader {
       elsewhere({.name = word, .place = text_.place(begin)}, word + " is computed when the program runs");
     } else {
       std::size_t first = begin;
-      const std::string argument(text_.trimmed(first, argument_end(begin)));
+      const std::string argument(text_.trimmed(first, urscript_argument_end(text_, begin)));
       elsewhere({.name = word, .place = text_.place(std::min(begin, code_.size()))},
                 "'" + argument.substr(0, 40) + "' is not given as numbers in this file");
     }
@@ -155,15 +158,15 @@ class UrReader {
     return pose;
   }
 
-  /// The tool of set_tcp().
-  void read_tool(std::size_t open) {
-    const auto pose = pose_at(open + 1);
-    tool_ = pose ? KnownFrame{"set_tcp", *pose, ""} : KnownFrame::computed("the tool of set_tcp");
+  /// What set_tcp() is given.
+  KnownFrame tool_at(std::size_t argument) {
+    const auto pose = pose_at(urscript_argument(text_, argument));
+    return pose ? KnownFrame{"set_tcp", *pose, ""} : KnownFrame::computed("the tool of set_tcp");
   }
 
   /// pose_trans(feature, pose).
   void in_feature(std::size_t open, const ArmHint& hint) {
-    const std::size_t second = argument_end(open + 1);
+    const std::size_t second = urscript_argument_end(text_, open + 1);
     if (second >= code_.size() || code_[second] != ',') return;
     const StatedFrames outside = use_.frames;
     set_frame(use_.frames, feature(open + 1, second));
@@ -200,10 +203,10 @@ class UrReader {
   }
 
   void inverse_kinematics(std::size_t open) {
-    const std::size_t second = argument_end(open + 1);
+    const std::size_t second = urscript_argument_end(text_, open + 1);
     ArmHint hint;
-    if (second < code_.size() && code_[second] == ',') hint.near = joints_at(after_keyword(second + 1));
-    target_at(after_keyword(open + 1), hint);
+    if (second < code_.size() && code_[second] == ',') hint.near = joints_at(urscript_argument(text_, second + 1));
+    target_at(urscript_argument(text_, open + 1), hint);
   }
 
   /// The joints that a literal or a variable gives; empty where it gives none.
@@ -260,7 +263,7 @@ class UrReader {
   std::map<std::string, std::vector<std::size_t>> assigned_;
   std::set<std::string> computed_;  ///< variables that are given something else, too
   std::set<std::size_t> seen_;
-  std::optional<KnownFrame> tool_;
+  UrScriptWay way_;
   TargetUse use_;                                          ///< the motion that is being read
   std::map<std::size_t, std::vector<TargetUse>> uses_at_;  ///< of every literal
   std::map<std::size_t, std::size_t> literal_of_;          ///< the literal of a target, by its first number

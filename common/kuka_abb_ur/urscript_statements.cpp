@@ -41,6 +41,24 @@ std::optional<std::size_t> urscript_literal(const ProgramText& text, std::size_t
   return pose || code[offset] == '[' ? std::optional(offset) : std::nullopt;
 }
 
+std::size_t urscript_argument(const ProgramText& text, std::size_t offset) {
+  const std::size_t begin = text.skip_spaces(offset), end = text.word_end(begin);
+  if (end == begin || text.next(end) != '=') return offset;
+  const std::size_t sign = text.skip_spaces(end);
+  return text.code().substr(sign).starts_with("==") ? offset : sign + 1;
+}
+
+std::size_t urscript_argument_end(const ProgramText& text, std::size_t offset) {
+  const std::string_view code = text.code();
+  int depth = 0;
+  for (; offset < code.size(); ++offset) {
+    const char letter = code[offset];
+    if (depth == 0 && (letter == ',' || letter == ')')) return offset;
+    depth += letter == '(' || letter == '[' ? 1 : letter == ')' || letter == ']' ? -1 : 0;
+  }
+  return offset;
+}
+
 void mark_changed(const ProgramText& text, const std::set<std::size_t>& plain, std::vector<Target>& targets) {
   std::set<std::string> names;
   for (const Target& target : targets) names.insert(target.name);

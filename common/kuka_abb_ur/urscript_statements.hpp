@@ -1,5 +1,5 @@
-// Universal Robots URScript: where variables are given what no reader can follow, and rotation vectors that cannot be
-// meant in rad.
+// Universal Robots URScript: literals and arguments, where variables are given what no reader can follow, and rotation
+// vectors that cannot be meant in rad.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,11 @@ namespace demecal::inline kuka_abb_ur {
 
 /// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
 std::optional<std::size_t> urscript_literal(const ProgramText& text, std::size_t offset);
+
+/// Past "NAME =", where the argument is given by name.
+std::size_t urscript_argument(const ProgramText& text, std::size_t offset);
+/// The comma or parenthesis that ends the argument at `offset`.
+std::size_t urscript_argument_end(const ProgramText& text, std::size_t offset);
 
 /// Marks the targets of variables that are also given anything but numbers, and of those that stand anywhere but where
 /// motions, features and tools take them (`plain`, by offset), and are not copied to another either.

@@ -24,14 +24,15 @@ std::size_t FrameFlow::add(std::size_t at) {
   if (routines_.empty()) begin_routine(0, "", 0);
   const std::size_t made = nodes_.size();
   for (const std::size_t before : current_) nodes_[before].next.push_back(made);
-  nodes_.push_back({.at = at, .routine = routines_.size() - 1});
+  nodes_.push_back({.at = at, .routine = present_});
+  routines_[present_].nodes.push_back(made);
   current_ = {made};
   return made;
 }
 
 void FrameFlow::end_routine() {
   if (routines_.empty()) return;
-  Routine& routine = routines_.back();
+  Routine& routine = routines_[present_];
   for (const OpenBlock& block : blocks_) routine.exits.insert(block.ends.begin(), block.ends.end());
   blocks_.clear();
   routine.exits.insert(current_.begin(), current_.end());
@@ -41,23 +42,45 @@ void FrameFlow::end_routine() {
   current_.clear();
 }
 
+void FrameFlow::start_routine(std::size_t at, const std::string& name, std::size_t file) {
+  present_ = routines_.size();
+  if (!name.empty()) by_name_[name].push_back(present_);
+  routines_.push_back({.name = name, .file = file, .entry = nodes_.size()});
+  add(at);
+}
+
 void FrameFlow::begin_routine(std::size_t at, const std::string& name, std::size_t file) {
   end_routine();
-  if (!name.empty()) by_name_[name].push_back(routines_.size());
-  routines_.push_back({.name = name, .file = file, .entry = nodes_.size()});
+  start_routine(at, name, file);
+}
+
+void FrameFlow::open_routine(std::size_t at, const std::string& name, std::size_t file) {
+  if (routines_.empty()) start_routine(0, "", file);
+  interrupted_.push_back({present_, std::exchange(current_, {}), std::exchange(blocks_, {})});
+  start_routine(at, name, file);
+}
+
+void FrameFlow::close_routine(std::size_t at) {
+  if (interrupted_.empty()) return;
+  end_routine();
+  OpenRoutine outer = std::move(interrupted_.back());
+  interrupted_.pop_back();
+  present_ = outer.routine;
+  current_ = std::move(outer.current);
+  blocks_ = std::move(outer.blocks);
   add(at);
 }
 
 void FrameFlow::set_tool(std::size_t at, const KnownFrame& tool) {
   nodes_[add(at)].tool = values_.size();
   values_.push_back(tool);
-  routines_.back().sets_tool = true;
+  routines_[present_].sets_tool = true;
 }
 
 void FrameFlow::set_frame(std::size_t at, const KnownFrame& frame) {
   nodes_[add(at)].frame = values_.size();
   values_.push_back(frame);
-  routines_.back().sets_frame = true;
+  routines_[present_].sets_frame = true;
 }
 
 void FrameFlow::call(std::size_t at, const std::string& name, bool is_routine) {
@@ -97,30 +120,43 @@ void FrameFlow::close(std::size_t at) {
   add(at);
 }
 
-void FrameFlow::leave_loop(std::size_t at) {
-  const std::size_t node = add(at);
+FrameFlow::OpenBlock* FrameFlow::innermost_loop() {
   const auto loop = std::find_if(blocks_.rbegin(), blocks_.rend(), [](const OpenBlock& block) {
     return block.kind != Block::branch && block.kind != Block::selection;
   });
-  if (loop == blocks_.rend()) return;
+  return loop == blocks_.rend() ? nullptr : &*loop;
+}
+
+void FrameFlow::leave_loop(std::size_t at) {
+  const std::size_t node = add(at);
+  OpenBlock* loop = innermost_loop();
+  if (loop == nullptr) return;
   loop->ends.push_back(node);
+  current_.clear();
+}
+
+void FrameFlow::repeat_loop(std::size_t at) {
+  const std::size_t node = add(at);
+  const OpenBlock* loop = innermost_loop();
+  if (loop == nullptr) return;
+  nodes_[node].next.push_back(loop->node);
   current_.clear();
 }
 
 void FrameFlow::leave_routine(std::size_t at) {
   const std::size_t node = add(at);
-  routines_.back().exits.insert(node);
+  routines_[present_].exits.insert(node);
   current_.clear();
 }
 
 void FrameFlow::label(std::size_t at, const std::string& name) {
   const std::size_t node = add(at);
-  routines_.back().labels.try_emplace(name, node);
+  routines_[present_].labels.try_emplace(name, node);
 }
 
 void FrameFlow::jump(std::size_t at, const std::string& name, bool always) {
   const std::size_t node = add(at);
-  routines_.back().jumps.emplace_back(node, name);
+  routines_[present_].jumps.emplace_back(node, name);
   if (always) current_.clear();
 }
 
@@ -130,9 +166,9 @@ std::set<std::size_t> FrameFlow::called_by(std::size_t routine) const {
   std::set<std::size_t> found{routine};
   std::vector<std::size_t> due{routine};
   while (!due.empty()) {
-    const std::size_t entry = routines_[due.back()].entry;
+    const std::vector<std::size_t>& nodes = routines_[due.back()].nodes;
     due.pop_back();
-    for (std::size_t node = entry; node < nodes_.size() && nodes_[node].routine == nodes_[entry].routine; ++node) {
+    for (const std::size_t node : nodes) {
       if (nodes_[node].called != kNone && found.insert(nodes_[node].called).second) due.push_back(nodes_[node].called);
     }
   }
@@ -171,9 +207,8 @@ void FrameFlow::begin_called_routines() {
   const auto hand_on = [&] {
     while (!due.empty()) {
       const Routine& routine = routines_[due.front()];
-      const std::size_t number = due.front();
       due.pop_front();
-      for (std::size_t node = routine.entry; node < nodes_.size() && nodes_[node].routine == number; ++node) {
+      for (const std::size_t node : routine.nodes) {
         if (nodes_[node].called == kNone) continue;
         if (join(begun(nodes_[node].in, routine.begin), routines_[nodes_[node].called].begin))
           due.push_back(nodes_[node].called);
@@ -191,6 +226,7 @@ void FrameFlow::begin_called_routines() {
 }
 
 void FrameFlow::finish() {
+  while (!interrupted_.empty()) close_routine(nodes_.back().at);
   end_routine();
   resolve_calls();
   follow();
@@ -211,10 +247,8 @@ KnownFrame FrameFlow::value_of(const Value& value, bool of_tool) const {
 }
 
 FrameFlow::Held FrameFlow::at(std::size_t offset) const {
-  const auto next = std::upper_bound(nodes_.begin(), nodes_.end(), offset,
-                                     [](std::size_t byte, const Node& node) { return byte < node.at; });
-  if (next == nodes_.begin()) return {};
-  const Node& node = *std::prev(next);
+  if (node_at(offset) == nullptr) return {};
+  const Node& node = *node_at(offset);
   const State state = begun(out_of(node), routines_[node.routine].begin);
   Held held;
   const KnownFrame tool = value_of(state.tool, true), frame = value_of(state.frame, false);
@@ -234,7 +268,8 @@ std::set<std::size_t> FrameFlow::calls_elsewhere() const {
 }
 
 void note_calls_elsewhere(const ProgramText& text, const std::set<std::size_t>& calls,
-                          const std::map<std::size_t, std::string>& names_of, Program& program) {
+                          const std::map<std::size_t, std::string>& names_of, Program& program,
+                          const std::string& remedy) {
   constexpr std::size_t kNamed = 3;
   std::vector<std::string> names;
   std::set<std::string> seen;
@@ -249,8 +284,7 @@ void note_calls_elsewhere(const ProgramText& text, const std::set<std::size_t>& 
   const bool one = names.size() == 1;
   program.remarks.push_back({text.place(*calls.begin()), "",
                              list + (one ? " is" : " are") + " not in the files given, and " + (one ? "is" : "are") +
-                                 " taken to leave tool and frame as they are; where that is not so, --with FILE takes "
-                                 "the file in"});
+                                 " taken to leave tool and frame as they are; where that is not so, " + remedy});
 }
 
 }  // namespace demecal::inline parsed_programs

@@ -28,11 +28,14 @@ class FrameFlow {
     endless     ///< only leave_loop() ends it
   };
 
-  /// `tool` and `frame` are what sentences call them: "$TOOL" and "$BASE".
+  /// `tool` and `frame` are what sentences call them: "$TOOL" and "$BASE"; empty: no statement sets it.
   FrameFlow(std::string tool, std::string frame);
 
-  /// A routine of this name (in small letters; empty: none) in this file begins, and the one before it ends.
+  /// A routine of this name (as calls name it; empty: none) in this file begins, and the one before it ends.
   void begin_routine(std::size_t at, const std::string& name, std::size_t file);
+  /// A routine inside the present one begins; behind close_routine() the present one goes on.
+  void open_routine(std::size_t at, const std::string& name, std::size_t file);
+  void close_routine(std::size_t at);
   void set_tool(std::size_t at, const KnownFrame& tool);
   void set_frame(std::size_t at, const KnownFrame& frame);
   /// `is_routine`: whether a name that is none of these routines is one of another file.
@@ -43,6 +46,8 @@ class FrameFlow {
   void alternative(std::size_t at, bool takes_all_left);
   void close(std::size_t at);
   void leave_loop(std::size_t at);
+  /// Goes back to where the innermost loop begins.
+  void repeat_loop(std::size_t at);
   void leave_routine(std::size_t at);
   void label(std::size_t at, const std::string& name);
   void jump(std::size_t at, const std::string& name, bool always);
@@ -55,6 +60,9 @@ class FrameFlow {
     std::optional<std::size_t> call{};
   };
   Held at(std::size_t offset) const;
+  /// Tells `program`, whose motions are known, where the motion before one in the text is not the one that the arm
+  /// comes from: where a routine begins, where one inside another ends, and behind calls of those that move.
+  void end_at_routines(Program& program) const;
   /// The calls of routines of other files.
   std::set<std::size_t> calls_elsewhere() const;
 
@@ -85,6 +93,7 @@ class FrameFlow {
     std::string name;
     std::size_t file = 0, entry = 0;
     State exit{}, begin{};
+    std::vector<std::size_t> nodes{};
     std::set<std::size_t> exits{};    ///< nodes
     std::set<std::size_t> callers{};  ///< nodes
     bool sets_tool = false, sets_frame = false;
@@ -98,8 +107,17 @@ class FrameFlow {
     bool complete = false;
   };
 
+  /// A routine that another has interrupted in the text.
+  struct OpenRoutine {
+    std::size_t routine;
+    std::vector<std::size_t> current;
+    std::vector<OpenBlock> blocks;
+  };
+
   std::size_t add(std::size_t at);
+  void start_routine(std::size_t at, const std::string& name, std::size_t file);
   void end_routine();
+  OpenBlock* innermost_loop();
   void join(const Value& other, std::size_t differing, Value& value) const;
   bool join(const State& other, State& state) const;
   static Value after(const Value& before, const Value& change);
@@ -110,6 +128,7 @@ class FrameFlow {
   void begin_called_routines();
   KnownFrame initial(std::size_t routine, bool of_tool) const;
   std::set<std::size_t> called_by(std::size_t routine) const;
+  const Node* node_at(std::size_t offset) const;
   KnownFrame value_of(const Value& value, bool of_tool) const;
 
   std::string tool_, frame_;
@@ -120,11 +139,14 @@ class FrameFlow {
   std::set<std::string> at_any_time_;
   std::vector<std::size_t> current_;  ///< the nodes that lead to the next
   std::vector<OpenBlock> blocks_;
+  std::size_t present_ = 0;  ///< the routine that statements are of
+  std::vector<OpenRoutine> interrupted_;
 };
 
 /// Says in `program`, at the first of these calls, that their routines are taken to leave tool and frame alone. `names`
-/// has what each call is called by.
+/// has what each call is called by; `remedy` says what helps where they do not.
 void note_calls_elsewhere(const ProgramText& text, const std::set<std::size_t>& calls,
-                          const std::map<std::size_t, std::string>& names, Program& program);
+                          const std::map<std::size_t, std::string>& names, Program& program,
+                          const std::string& remedy = "--with FILE takes the file in");
 
 }  // namespace demecal::inline parsed_programs

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -66,7 +67,7 @@ FrameFlow::State FrameFlow::out_of(const Node& node) const {
   if (node.called != kNone) return begun(routines_[node.called].exit, state);
   if (!node.believed) return state;
   state.tool.call = std::min(state.tool.call, node.at);
-  state.frame.call = std::min(state.frame.call, node.at);
+  if (!frame_.empty()) state.frame.call = std::min(state.frame.call, node.at);
   return state;
 }
 
@@ -80,6 +81,37 @@ void FrameFlow::resolve_calls() {
     if (own == named->second.end() && named->second.size() > 1) continue;
     nodes_[i].called = own == named->second.end() ? named->second.front() : *own;
     routines_[nodes_[i].called].callers.insert(i);
+  }
+}
+
+/// The last that is told at or before a byte; null where there is none.
+const FrameFlow::Node* FrameFlow::node_at(std::size_t offset) const {
+  const auto next = std::ranges::upper_bound(nodes_, offset, {}, &Node::at);
+  return next == nodes_.begin() ? nullptr : &*std::prev(next);
+}
+
+void FrameFlow::end_at_routines(Program& program) const {
+  std::set<std::size_t> moving;  // routines
+  std::size_t first = kNone;
+  const auto take_motion = [&](std::size_t offset) {
+    first = std::min(first, offset);
+    if (const Node* node = node_at(offset)) moving.insert(node->routine);
+  };
+  for (const Target& target : program.targets) {
+    take_motion(target.order);
+    std::ranges::for_each(target.further_motions, take_motion);
+  }
+  std::ranges::for_each(program.unknown_motions, take_motion);
+  const auto moves = [&](std::size_t routine) {
+    const std::set<std::size_t> called = called_by(routine);
+    return std::ranges::any_of(called, [&](std::size_t one) { return moving.contains(one); });
+  };
+  std::size_t last = kNone;
+  for (const Node& node : nodes_) {
+    const bool another = last != kNone && node.routine != last;
+    if (node.at > first && (another || (node.called != kNone && moves(node.called))))
+      program.unknown_motions.push_back(node.at);
+    last = node.routine;
   }
 }
 

@@ -95,8 +95,8 @@ struct Program {
   std::vector<Target> targets;         ///< in the order of the text
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
   std::vector<Remark> remarks{};       ///< what else should be known before it runs
-  /// Bytes at which a motion goes to a place that is none of the targets: the joints before it say nothing of those
-  /// after it.
+  /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
+  /// routines that begin, and of calls of those that move.
   std::vector<std::size_t> unknown_motions{};
 
   /// The name of a file by its number (TextPlace::file).

@@ -1,5 +1,6 @@
 #include "simulation/truth.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -77,6 +78,15 @@ double deviation(const Hysteresis& error, const Situation& situation) {
 
 double deviation(const Compliance& error, const Situation& situation) {
   return error.rad_per_nm * situation.loads[static_cast<std::size_t>(error.joint)].effort;
+}
+
+double deviation(const BalanceSpring& error, const Situation& situation) {
+  const Eigen::Rotation2Dd turn(situation.commanded[error.joint] - error.shortest_rad);
+  const Eigen::Vector2d fixed_m(error.fixed_m, 0.0), moving_m = turn * Eigen::Vector2d(error.moving_m, 0.0);
+  const Eigen::Vector2d along_m = fixed_m - moving_m;
+  const double shortest_m = std::abs(error.fixed_m - error.moving_m);
+  const Eigen::Vector2d pull_n = (error.force_n + error.n_per_m * (along_m.norm() - shortest_m)) * along_m.normalized();
+  return error.rad_per_nm * (moving_m.x() * pull_n.y() - moving_m.y() * pull_n.x());
 }
 
 Eigen::Vector3d tilt(const LinkBending& error, const Situation& situation) {

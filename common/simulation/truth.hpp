@@ -130,6 +130,29 @@ struct Compliance {
 };
 double deviation(const Compliance& error, const Situation& situation);
 
+/// A spring between a pivot `fixed_m` from the joint's axis on the link before it and one `moving_m` from it on the
+/// link behind, nearest where the joint is at shortest_rad: it pulls with force_n there and n_per_m more as it grows,
+/// and the joint gives way to it.
+struct BalanceSpring {
+  int joint = 0;
+  double fixed_m = 0.0;
+  double moving_m = 0.0;
+  double shortest_rad = 0.0;
+  double force_n = 0.0;
+  double n_per_m = 0.0;
+  double rad_per_nm = 0.0;
+
+  void visit_fields(auto&& visit) {
+    visit.positive("fixed_m", fixed_m);
+    visit.positive("moving_m", moving_m);
+    visit.optional_motion("shortest", shortest_rad);
+    visit.optional("force_n", force_n);
+    visit.optional("n_per_m", n_per_m);
+    visit.number("rad_per_nm", rad_per_nm);
+  }
+};
+double deviation(const BalanceSpring& error, const Situation& situation);
+
 /// A joint's zero that moves as the arm warms up.
 struct ThermalOffset {
   int joint = 0;
@@ -218,6 +241,7 @@ struct TrueErrors {
   std::vector<Backlash> backlash;
   std::vector<Hysteresis> hysteresis;
   std::vector<Compliance> compliance;
+  std::vector<BalanceSpring> balance_springs;
   std::vector<ThermalOffset> thermal_offsets;
   std::vector<SymbolicError> symbolic;
   std::vector<LinkBending> link_bending;
@@ -244,6 +268,7 @@ void visit_joint_errors(Errors& errors, Visit&& visit) {
   visit("backlash", errors.backlash);
   visit("hysteresis", errors.hysteresis);
   visit("compliance", errors.compliance);
+  visit("balancer", errors.balance_springs);
   visit("thermal_offset", errors.thermal_offsets);
   visit("symbolic", errors.symbolic);
   visit("link_bending", errors.link_bending);

@@ -61,7 +61,7 @@ class AsReader {
     }
     statements_.note_approaches(text_, program_);
     finish();
-    statements_.way().note_calls_elsewhere(text_, program_);
+    statements_.way().note_routines(text_, program_);
     return std::move(program_);
   }
 

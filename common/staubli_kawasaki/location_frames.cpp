@@ -84,8 +84,9 @@ LocationFrames::Words LocationFrames::at(std::size_t offset, bool of_pose) {
   return {word_of(held.frames.unknown_tool), word_of(held.frames.unknown_frame)};
 }
 
-void LocationFrames::note_calls_elsewhere(const ProgramText& text, Program& program) const {
-  if (believed_) demecal::note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
+void LocationFrames::note_routines(const ProgramText& text, Program& program) const {
+  flow_.end_at_routines(program);
+  if (believed_) note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
 }
 
 }  // namespace demecal::inline staubli_kawasaki

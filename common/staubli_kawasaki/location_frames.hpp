@@ -40,8 +40,9 @@ class LocationFrames {
   };
   /// What holds at a motion, which is of a pose or of joints.
   Words at(std::size_t offset, bool of_pose);
-  /// Says once which calls of other files' programs were believed to leave tool and base alone.
-  void note_calls_elsewhere(const ProgramText& text, Program& program) const;
+  /// When all targets are known: where programs end what is known of the arm, and once which calls of other files'
+  /// programs were believed to leave tool and base alone.
+  void note_routines(const ProgramText& text, Program& program) const;
 
  private:
   void read_way(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);

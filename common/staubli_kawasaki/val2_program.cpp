@@ -196,13 +196,13 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
     take_uses(uses, target);
   }
   changes_.mark(program.targets);
-  way_.note_calls_elsewhere(text_, program);
   for (const Approach& approach : approaches_)
     note_offset(program, text_.place(approach.begin), approach.name, approach.distance_mm);
   for (const auto& [begin, what] : computed_) {
     note_unknown_motion(program, begin, {.name = "", .place = text_.place(begin)},
                         '\'' + what + "' is computed when the program runs");
   }
+  way_.note_routines(text_, program);
 }
 
 }  // namespace demecal::inline staubli_kawasaki

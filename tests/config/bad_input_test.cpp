@@ -134,6 +134,16 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadInput{"UnknownConvention", "robot.yaml", "standard_dh", "dh", "robot.yaml:4", "dh",
                  "convention must be one of: standard_dh modified_dh"},
+        BadInput{"BalancerOfASlide", "robot.yaml", "tool_mm:",
+                 "balancers: [{joint: 2, fixed_mm: 100, moving_mm: 200, shortest_deg: 0}]\ntool_mm:", "robot.yaml:8",
+                 "2", "joint slides"},
+        BadInput{"BalancerWithoutLength", "robot.yaml", "tool_mm:",
+                 "balancers: [{joint: 1, fixed_mm: 100, moving_mm: 100, shortest_deg: 0}]\ntool_mm:", "robot.yaml:8",
+                 "100", "moving_mm must differ from fixed_mm"},
+        BadInput{"TwoBalancersOfAJoint", "robot.yaml", "tool_mm:",
+                 "balancers: [{joint: 1, fixed_mm: 100, moving_mm: 200, shortest_deg: 0}, {joint: 1, fixed_mm: 100, "
+                 "moving_mm: 300, shortest_deg: 0}]\ntool_mm:",
+                 "robot.yaml:8", "1", "has a balancer already"},
         BadInput{"UnknownJointKey", "robot.yaml", "d_mm: 10", "d_m: 10", "robot.yaml:7", "d_m",
                  "is no key of joints[2]; the nearest is 'd_mm'"},
         BadInput{"MissingLength", "robot.yaml", "a_mm: 400, ", "", "robot.yaml:6", "", "joints[1].a_mm is missing"},

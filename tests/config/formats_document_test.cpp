@@ -237,7 +237,8 @@ TEST(FormatsDocument, GivesTheDefaultsOfJobs) {
 std::map<std::string, std::set<std::string>> names_of_coefficients() {
   static const std::regex link("moment_[0-9]_");
   RandomStream stream{1601};
-  const Robot turning = heavy(stream, wrist_arm());
+  Robot turning = heavy(stream, wrist_arm());
+  turning.balancers = {{1, 0.25, 0.4, 0.5}};
   Robot sliding = turning;
   for (Joint& joint : sliding.chain.joints) joint.type = JointType::prismatic;
   std::vector<Effect> effects = all_proposals(turning);

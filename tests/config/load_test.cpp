@@ -279,6 +279,9 @@ TEST(LoadScenario, ReadsEveryErrorCountingJointsFromOne) {
   EXPECT_DOUBLE_EQ(scenario.couplings.at(0).sine_rad, 1e-4);
   EXPECT_DOUBLE_EQ(scenario.axis_wobble.at(0).cosine_rad.x(), radians(0.01));
   EXPECT_EQ(scenario.axis_wobble.at(0).sine_rad.y(), 1e-4);
+  EXPECT_EQ(scenario.balance_springs.at(0).moving_m, 0.4);
+  EXPECT_DOUBLE_EQ(scenario.balance_springs.at(0).shortest_rad, radians(90.0));
+  EXPECT_EQ(scenario.balance_springs.at(0).n_per_m, 15000.0);
   EXPECT_EQ(scenario.thermal_offsets.at(0).rad_per_kelvin, 1e-5);
   EXPECT_EQ(scenario.thermal_lengths.at(0).per_kelvin, 1.2e-5);
   EXPECT_EQ(scenario.symbolic.size(), 1u);

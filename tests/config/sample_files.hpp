@@ -117,6 +117,7 @@ errors:
   thermal_offset: [{joint: 1, rad_per_kelvin: 1e-5}]
   thermal_length: [{joint: 1, share_per_kelvin: 1.2e-5}]
   symbolic: [{joint: 1, formula: "0.0001 * SIN(q1 + 2 * q2) * s"}]
+  balancer: [{joint: 1, fixed_m: 0.25, moving_m: 0.4, shortest_deg: 90, force_n: 2000, n_per_m: 15000, rad_per_nm: 1e-6}]
   drift: {mm_per_s: [0.001, 0, 0], deg_per_s: [0, 0, 1e-5]}
   sensor_scale: {share: 1e-5}
   tool_mm: [0.1, 0, -0.1]

@@ -52,6 +52,9 @@ Robot random_robot(RandomStream& random) {
   }
   for (std::size_t i = 0; i < joints && random.chance(0.9); ++i) robot.pulses_per_deg.push_back(random.real(500, 2000));
   if (robot.pulses_per_deg.size() < joints) robot.pulses_per_deg.clear();
+  if (is_revolute(robot.chain, 0) && random.chance(0.5)) {
+    robot.balancers.push_back({0, random.real(0.1, 0.2), random.real(0.3, 0.5), random.real(-2.0, 2.0)});
+  }
   return robot;
 }
 
@@ -111,6 +114,13 @@ void expect_same_robot(const Robot& back, const Robot& robot) {
   EXPECT_EQ(back.gravity_mps2, robot.gravity_mps2);
   expect_same(*back.repeatability_m, *robot.repeatability_m);
   EXPECT_EQ(back.pulses_per_deg, robot.pulses_per_deg);
+  ASSERT_EQ(back.balancers.size(), robot.balancers.size());
+  for (std::size_t i = 0; i < robot.balancers.size(); ++i) {
+    EXPECT_EQ(back.balancers[i].joint, robot.balancers[i].joint);
+    expect_same(back.balancers[i].fixed_m, robot.balancers[i].fixed_m);
+    expect_same(back.balancers[i].moving_m, robot.balancers[i].moving_m);
+    expect_same(back.balancers[i].shortest_rad, robot.balancers[i].shortest_rad);
+  }
   ASSERT_EQ(back.home.size(), robot.home.size());
   if (robot.home.size() > 0) expect_same_vector(back.home, robot.home);
 }

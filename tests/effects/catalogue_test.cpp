@@ -60,7 +60,7 @@ TEST(Catalogue, KnowsTheWordsOfTheReportsInTheirOrder) {
   for (const EffectLaw* law : catalogue()) kinds.push_back(law->kind());
   EXPECT_THAT(kinds,
               ElementsAre("registration", "tool", "joint_offset", "geometry", "gain", "eccentricity", "gear_harmonic",
-                          "compliance", "link_bending", "coupling", "backlash", "hysteresis", "axis_wobble",
+                          "compliance", "balancer", "link_bending", "coupling", "backlash", "hysteresis", "axis_wobble",
                           "thermal_offset", "thermal_length", "drift", "sensor_scale", "symbolic"));
   for (const EffectLaw* law : catalogue()) EXPECT_EQ(find_law(law->kind()), law);
   EXPECT_EQ(find_law("weather"), nullptr);
@@ -112,6 +112,7 @@ TEST(Catalogue, NamesEveryCoefficientWithItsUnit) {
                                                       {"m", "_m"},
                                                       {"rad/Nm", "rad_per_nm"},
                                                       {"m/N", "m_per_n"},
+                                                      {"rad/m^2", "_rad_per_m2"},
                                                       {"rad/K", "rad_per_kelvin"},
                                                       {"m/K", "m_per_kelvin"},
                                                       {"1/K", "share_per_kelvin"},
@@ -252,6 +253,24 @@ TEST(Catalogue, SpeaksOfBacklashAsEngineersDo) {
   EXPECT_EQ(law_of(effect).formula(effect, robot), "dq2 = -0.0005 rad s2");
   EXPECT_EQ(law_of(effect).diagnosis(effect, robot),
             "Joint 2 stops 0.5 mrad (103 arcsec) short on either side of where it is sent: lost motion in its gear.");
+}
+
+TEST(Catalogue, SaysWhereABalanceSpringMayBeTakenForAnEccentricGear) {
+  RandomStream stream{33, 12};
+  Robot robot = laden_arm(stream, Arm::standard);
+  const auto names_balancers = [&](int joint) {
+    const Effect effect{.kind = "eccentricity", .joint = joint, .settings = {{"order", 1.0}}, .values = {1e-3, 0.0}};
+    return law_of(effect).diagnosis(effect, robot).find("(balancers)") != std::string::npos;
+  };
+  robot.gravity_mps2 = 9.81 * Eigen::Vector3d::UnitX();  // across the first axis
+  robot.balancers.clear();
+  EXPECT_TRUE(names_balancers(0));
+  EXPECT_FALSE(names_balancers(4));
+  robot.balancers = {{0, 0.3, 0.4, 0.0}};
+  EXPECT_FALSE(names_balancers(0));
+  robot.balancers.clear();
+  robot.gravity_mps2 = -9.81 * Eigen::Vector3d::UnitZ();  // along it
+  EXPECT_FALSE(names_balancers(0));
 }
 
 TEST(LikelyCauses, AreTheKindsOfTheCatalogueAndNoOthers) {

@@ -30,6 +30,7 @@ inline Robot laden_arm(RandomStream& stream, Arm arm) {
   }
   const Eigen::Vector3d down(stream.normal(), stream.normal(), stream.normal());
   robot.gravity_mps2 = 9.81 * down.normalized();
+  robot.balancers = {{0, 0.25, 0.4, 1.2}, {1, 0.5, 0.2, -0.7}};
   return robot;
 }
 

@@ -46,7 +46,7 @@ TEST(Causes, HaveAWordAndAnAdviceForEveryKindOfTheCatalogue) {
     EXPECT_FALSE(to_string(cause).empty()) << law->kind();
     EXPECT_TRUE(advice_on(cause).ends_with('.')) << law->kind();
   }
-  EXPECT_EQ(words.size(), 8U);
+  EXPECT_EQ(words.size(), 9U);
 }
 
 /// An arm whose joint 2 has lost motion, and whose joint 3 gives way a little: found, and judged.

@@ -164,6 +164,28 @@ TEST(UntoldPlaces, OfAsAndVal2AreReported) {
   expect_untold(WrittenIn::kawasaki_as, as + " POINT lost = TRANS(x,2,3,4,5,6)\n LMOVE lost\n", 6, "lost: ");
 }
 
+TEST(UntoldPlaces, EndsOfRoutinesAndCallsOfThoseThatMoveEndWhatIsKnown) {
+  const std::string krl_point = "{X 1,Y 2,Z 3,A 4,B 5,C 6}\n";
+  const std::string krl = "DEF a()\nLIN " + krl_point + "b()\nLIN " + krl_point + "END\nDEF b()\nLIN " + krl_point +
+                          "c()\nEND\nDEF c()\nHALT\nEND\n";
+  const std::string rapid =
+      "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];\nPROC a()\nMoveL "
+      "p,v1,fine,tool0;\nb;\n"
+      "MoveL p,v1,fine,tool0;\nENDPROC\nPROC b()\nMoveL p,v1,fine,tool0;\nc;\nENDPROC\nPROC c()\nStop;\nENDPROC\n";
+  const std::string as =
+      ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n LMOVE p\n CALL b\n LMOVE p\n.END\n.PROGRAM b()\n LMOVE p\n CALL "
+      "c\n.END\n.PROGRAM c()\n PAUSE\n.END\n";
+  for (const auto& [language, text, call, next] :
+       {std::tuple{WrittenIn::krl, krl, 3, 6}, std::tuple{WrittenIn::rapid, rapid, 5, 8},
+        std::tuple{WrittenIn::kawasaki_as, as, 6, 9}}) {
+    SCOPED_TRACE(text);
+    const Program program = read_program(language, text, "p", wrist_arm());
+    EXPECT_TRUE(ends_in_line(program, text, static_cast<std::size_t>(call))) << "the program called moves";
+    EXPECT_TRUE(ends_in_line(program, text, static_cast<std::size_t>(next))) << "another begins";
+    EXPECT_FALSE(ends_in_line(program, text, static_cast<std::size_t>(next + 2))) << "the program called does not move";
+  }
+}
+
 TEST(UntoldPlaces, AreThoseOfNamesThatStandInTwoFiles) {
   const ProgramSource source({{"a.src", "PTP XP1\nLIN XP2\n"},
                               {"a.dat", "E6POS XP1={X 1,Y 2,Z 3,A 4,B 5,C 6}\nE6POS XP2={X 1,Y 2,Z 3,A 4,B 5,C 6}\n"},

@@ -58,6 +58,7 @@ TEST(CorrectedArm, FollowsEveryEffectOfTheCatalogueAsTheModelPredictsIt) {
     for (const EffectLaw* law : catalogue()) {
       CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
       robot.described = heavy(stream, nominal);
+      robot.described.balancers = {{1, 0.25, 0.4, 0.5}};
       for (const Effect& effect : random_effects(robot.described, stream, 2e-3, 2)) {
         if (effect.kind == law->kind()) robot.effects.push_back(effect);
       }

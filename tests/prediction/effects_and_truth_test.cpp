@@ -189,6 +189,19 @@ TEST(EffectsAndTruth, AgreeForEveryJointOfEveryArm) {
   }
 }
 
+TEST(EffectsAndTruth, AgreeOnBalanceSprings) {
+  RandomStream stream{35, 7};
+  for (const Arm arm : kArms) {
+    const Robot robot = laden_arm(stream, arm);
+    for (const int i : {0, 1, 3, 4, 5}) {
+      const Effect effect =
+          valued("balancer", i, {{"fixed_m", 0.25}, {"moving_m", 0.4}, {"shortest_rad", 1.2}}, {1e-3, 5e-3});
+      const auto inject = [i](Scenario& s) { s.balance_springs = {{i, 0.25, 0.4, 1.2, 1000.0, 5000.0, 1e-6}}; };
+      expect_twins({effect, inject}, robot, stream);
+    }
+  }
+}
+
 TEST(EffectsAndTruth, AgreeForToolBaseAndInstrument) {
   RandomStream stream{35, 2};
   for (const Arm arm : kArms) {

@@ -53,6 +53,19 @@ TEST(Configuration, ComesFromTheJointsBeforeOrFromTheUser) {
   EXPECT_TRUE(named.warnings.empty());
 }
 
+TEST(Configuration, IsNotThatOfAnotherRoutinesLastMotion) {
+  const Configured of;
+  const JointVector before = of.meant + JointVector::Constant(6, 0.05);
+  const std::string known = joints_line(WrittenIn::urscript, before, 1, 9) + '\n';
+  const auto from = [&](const std::string& text) { return of.correct(text).targets.back().from; };
+  const std::string moves = "def f():\n" + known + "end\n", waits = "def f():\nsleep(1)\nend\n";
+  EXPECT_EQ(from("def m():\n" + known + of.line(of.meant) + "end\n"), JointsFrom::line);
+  EXPECT_EQ(from(moves + "def m():\n" + of.line(of.meant) + "end\n"), JointsFrom::undetermined);
+  EXPECT_EQ(from("def m():\n" + moves + of.line(of.meant) + "end\n"), JointsFrom::undetermined);
+  EXPECT_EQ(from(moves + "def m():\n" + known + "f()\n" + of.line(of.meant) + "end\n"), JointsFrom::undetermined);
+  EXPECT_EQ(from(waits + "def m():\n" + known + "f()\n" + of.line(of.meant) + "end\n"), JointsFrom::line);
+}
+
 TEST(Configuration, IsKeptAlongAStraightLineHoweverNearAnotherIs) {
   const Configured of;
   RandomStream stream{7507};

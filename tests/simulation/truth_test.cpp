@@ -1,6 +1,8 @@
 // What each true error does to the tool point of a planar arm, against formulas worked out by hand.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "expression/text.hpp"
 #include "planar_arm.hpp"
 
@@ -116,6 +118,14 @@ TEST(Truth, ToolErrorMovesTheToolPointWithTheFlange) {
   scenario.tool_error_m = {0.001, 0.0, 0.002};
   const Eigen::Vector3d lifted = planar_tip(kQ1, kQ2, kFirstLink, kSecondLink + 0.001);
   expect_near(tip(scenario, visit()), lifted + Eigen::Vector3d(0, 0, 0.002));
+}
+
+TEST(Truth, ABalanceSpringPullsItsPivotsTogether) {
+  Scenario scenario = planar_scenario();
+  // The moving pivot stands a quarter of a turn before the fixed one, 0.4 and 0.3 m from the axis: 0.5 m apart, 0.24 m
+  // from the axis, and 0.4 m longer than where it is shortest.
+  scenario.balance_springs = {{0, 0.3, 0.4, kQ1 + std::numbers::pi / 2.0, 1000.0, 5000.0, 1e-6}};
+  expect_near(tip(scenario, visit()), planar_tip(kQ1 + 1e-6 * 0.24 * 3000.0, kQ2));
 }
 
 TEST(Truth, WarmthShiftsZerosAndGrowsLinks) {

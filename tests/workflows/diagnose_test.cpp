@@ -9,6 +9,7 @@
 
 #include "config/model_file.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/units.hpp"
 #include "workflows/lacking_puma.hpp"
 
 namespace demecal {
@@ -49,6 +50,23 @@ TEST(Diagnose, NamesAJointThatGivesWayByLoggedTorquesWhereMassesAreNotKnown) {
   const double logged_mm = accept_rms(model.robot, data);
   for (MeasuredPose& pose : data.poses) pose.torque.reset();
   EXPECT_LT(accept_rms(model.robot, data), 1.05 * logged_mm);  // the weights that they told of are enough
+}
+
+TEST(Diagnose, NamesABalancerThatPullsItsJointAndNoneThatDoesNot) {
+  Scenario scenario = lacking_puma(false);
+  scenario.joint_errors.clear();
+  scenario.robot.balancers = {{1, 0.25, 0.4, radians(80.0)}};
+  const DeclaredModel links{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
+  const auto effects = [&] {
+    return diagnose(simulate(scenario), diagnosing_job(links), {}, {}).result.model.robot.effects;
+  };
+  EXPECT_TRUE(effects().empty());
+  scenario.balance_springs = {{1, 0.25, 0.4, radians(80.0), 2000.0, 8000.0, 1e-6}};
+  const std::vector<Effect> found = effects();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].kind == "balancer" && found[0].joint == 1);
+  EXPECT_NEAR(found[0].value(0), 2e-3, 4.0 * found[0].standard_errors.at(0));
+  EXPECT_NEAR(found[0].value(1), 8e-3, 4.0 * found[0].standard_errors.at(1));
 }
 
 TEST(Diagnose, FindsNothingMoreInTheModelThatItLeft) {
