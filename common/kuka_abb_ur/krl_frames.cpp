@@ -21,6 +21,7 @@
 namespace demecal::inline kuka_abb_ur {
 namespace {
 
+constexpr int kAnyNumber = -2;  // where it is computed which one is changed
 constexpr std::array<std::string_view, 6> kFrameParts{"x", "y", "z", "a", "b", "c"};
 
 /// The values of an aggregate's components by name, in small letters.
@@ -102,8 +103,14 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
   if ((word == "tool_data" || word == "base_data") && text_.next(next) == '[') {
     const std::size_t close = std::min(code.find(']', next), code.size());
     const auto number = cell_at(code, next + 1, close - std::min(close, next + 1), {});
-    const std::size_t sign = text_.skip_spaces(std::min(close + 1, code.size()));
-    if (!number || text_.next(sign) != '=' || text_.next(sign + 1) != '{') return;
+    std::size_t sign = text_.skip_spaces(std::min(close + 1, code.size()));
+    const bool part = text_.next(sign) == '.';
+    if (part) sign = text_.skip_spaces(text_.word_end(text_.skip_spaces(sign + 1)));
+    if (text_.next(sign) != '=' || text_.next(text_.skip_spaces(sign) + 1) == '=') return;
+    if (part || !number || text_.next(sign + 1) != '{') {
+      changed_.insert({word == "tool_data", number ? frame_number(number->value) : kAnyNumber});
+      return;
+    }
     const auto frame = frame_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
     const std::string name = numbered_name(word == "tool_data", frame_number(number->value));
     auto& data = word == "tool_data" ? tool_data_ : base_data_;
@@ -125,6 +132,8 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
 KnownFrame KrlFrames::numbered(bool of_tool, int number) const {
   const std::string name = numbered_name(of_tool, number);
   if (number == 0) return {of_tool ? "flange" : "base", Eigen::Isometry3d::Identity(), ""};
+  if (changed_.contains({of_tool, number}) || changed_.contains({of_tool, kAnyNumber}))
+    return KnownFrame::computed(name);
   const auto& data = of_tool ? tool_data_ : base_data_;
   const auto found = data.find(number);
   if (found != data.end()) return found->second;
@@ -250,7 +259,7 @@ void KrlFrames::complete(Target& target) {
 }
 
 void KrlFrames::note_routines(Program& program) const {
-  flow_.end_at_routines(program);
+  flow_.end_at_ways(program);
   if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "parsed_programs/frame_flow.hpp"
@@ -53,6 +54,7 @@ class KrlFrames {
   const ProgramText& text_;
   const ControllerData& controller_;
   std::map<int, KnownFrame> tool_data_, base_data_;
+  std::set<std::pair<bool, int>> changed_;       ///< of tools or not, and by number: those that statements change
   std::map<std::string, FrameNumbers> data_of_;  ///< by the FDAT's name
   FrameFlow flow_{"$TOOL", "$BASE"};
   std::map<std::size_t, std::string> calls_;  ///< of routines, where they stand

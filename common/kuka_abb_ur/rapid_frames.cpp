@@ -67,6 +67,7 @@ RapidFrames::RapidFrames(const ProgramText& text, const ControllerData& controll
   };
   for_each_word([&](std::size_t, std::size_t end, const std::string& word) {
     if (word == "tooldata" || word == "wobjdata") read_declaration(word, end);
+    if (word == "proc" || word == "func") read_header(word == "proc" ? end : text.word_end(text.skip_spaces(end)));
   });
   for_each_word(
       [&](std::size_t begin, std::size_t end, const std::string& word) { forget_assigned(word, begin, end); });
@@ -95,16 +96,35 @@ void RapidFrames::read_declaration(const std::string& type, std::size_t at) {
   declare(data, key, tool ? tool_of(text_, list, name) : object_of(text_, list, name));
 }
 
-/// Data that statements change are computed.
+/// Data that statements change are computed, and so are those that are handed to a procedure that may change them.
 void RapidFrames::forget_assigned(const std::string& word, std::size_t begin, std::size_t end) {
   if (declared_.contains(begin)) return;
-  const std::size_t next = text_.skip_spaces(end);
-  const std::string_view rest = text_.code().substr(next);
-  if (!rest.starts_with(":=") && !rest.starts_with('.')) return;
-  if (begin > 0 && text_.code()[begin - 1] == '\\') return;  // an argument's name, such as \WObj:=
-  for (auto* data : {&tools_, &frames_}) {
-    const auto found = data->find(word);
-    if (found != data->end()) found->second = KnownFrame::computed((data == &tools_ ? "tool " : "work object ") + word);
+  const std::string_view code = text_.code();
+  const std::string_view rest = code.substr(text_.skip_spaces(end));
+  const bool argument_name = begin > 0 && code[begin - 1] == '\\';  // such as \WObj:=
+  if (!argument_name && (rest.starts_with(":=") || rest.starts_with('.'))) changed_.insert(word);
+  if (!changers_.contains(word)) return;
+  const std::size_t stop = std::min(code.find(';', end), code.size());
+  for (std::size_t at = end; at < stop; ++at) {
+    if (!text_.begins_word(at)) continue;
+    changed_.insert(text_.word_at(at));
+    at = text_.word_end(at) - 1;
+  }
+}
+
+/// PROC NAME(... PERS tooldata ...): it may change what it is handed.
+void RapidFrames::read_header(std::size_t end) {
+  const std::size_t name = text_.skip_spaces(end), open = text_.skip_spaces(text_.word_end(name));
+  if (open >= text_.code().size() || text_.code()[open] != '(') return;
+  const std::size_t close = std::min(text_.code().find(')', open), text_.code().size());
+  std::string before;
+  for (std::size_t at = open; at < close; ++at) {
+    if (!text_.begins_word(at)) continue;
+    const std::string word = text_.word_at(at);
+    const bool data = word == "tooldata" || word == "wobjdata";
+    if (data && (before == "pers" || before == "inout" || before == "var")) changers_.insert(text_.word_at(name));
+    before = word;
+    at = text_.word_end(at) - 1;
   }
 }
 
@@ -116,12 +136,14 @@ bool RapidFrames::is_hidden(const std::string& name, std::size_t begin) const {
 
 KnownFrame RapidFrames::known_tool(const std::string& name, std::size_t begin) const {
   if (is_hidden(name, begin)) return hidden("tool " + name);
+  if (changed_.contains(name)) return KnownFrame::computed("tool " + name);
   const auto found = tools_.find(name);
   return found != tools_.end() ? found->second : controller_.tool(name, "tool " + name);
 }
 
 KnownFrame RapidFrames::known_object(const std::string& name, std::size_t begin) const {
   if (is_hidden(name, begin)) return hidden("work object " + name);
+  if (changed_.contains(name)) return KnownFrame::computed("work object " + name);
   const auto found = frames_.find(name);
   return found != frames_.end() ? found->second : controller_.frame(name, "work object " + name);
 }

@@ -27,6 +27,7 @@ class RapidFrames {
   std::vector<TargetUse> uses_of(const std::string& name) const;
   void read_declaration(const std::string& type, std::size_t at);
   void read_move(std::size_t begin, const std::string& word, std::size_t end);
+  void read_header(std::size_t end);
   void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
   /// Of a tool that the motion at `begin` names.
   KnownFrame known_tool(const std::string& name, std::size_t begin) const;
@@ -39,6 +40,9 @@ class RapidFrames {
   std::map<std::string, KnownFrame> tools_, frames_;
   std::map<std::string, std::size_t> local_to_;  ///< names that are LOCAL, and to which file
   std::set<std::size_t> declared_;               ///< where the names of declarations stand
+  std::set<std::string> changed_;                ///< names that are given anything when the program runs
+  /// Procedures that may change the tool or work object that they are handed.
+  std::set<std::string> changers_{"mtooltcpcalib", "mtoolrotcalib", "stooltcpcalib", "stoolrotcalib"};
   std::map<std::string, std::vector<TargetUse>> uses_;
   struct Held {
     std::size_t begin, end;  ///< of a motion's targets

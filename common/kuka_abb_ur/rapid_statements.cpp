@@ -101,7 +101,7 @@ void end_at_rapid_routines(const ProgramText& text, Program& program) {
     if (begin != own && routines.contains(word)) flow.call(begin, word, false);
   });
   flow.finish();
-  flow.end_at_routines(program);
+  flow.end_at_ways(program);
 }
 
 RapidStatements::RapidStatements(const ProgramText& text, Program& program)

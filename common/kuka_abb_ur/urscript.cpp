@@ -25,13 +25,6 @@
 namespace demecal::inline kuka_abb_ur {
 namespace {
 
-/// How many of its first arguments a command moves to; 0 for words that are none.
-int targets_of(std::string_view word) {
-  if (word == "movec") return 2;
-  constexpr std::array<std::string_view, 5> kCommands{"movej", "movel", "movep", "servoj", "servoc"};
-  return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end() ? 1 : 0;
-}
-
 class UrReader {
  public:
   explicit UrReader(const ReaderInput& input)
@@ -39,19 +32,19 @@ class UrReader {
         code_(text_.code()),
         arm_(input.arm),
         controller_(input.controller),
+        variables_(urscript_variables(text_)),
         way_(text_) {
     require_six_joints(input.arm, input.source.file(), "URScript");
   }
 
   Program read() {
-    find_assignments();
     follow_tools();
     text_.for_each_word([&](std::size_t begin, std::size_t end) {
       const std::string_view word = code_.substr(begin, end - begin);
-      const int targets = targets_of(word);
+      const int targets = urscript_targets(word);
       if (targets == 0 || text_.next(end) != '(') return;
-      use_ = {begin, word == "movej" || word == "servoj" ? Motion::joints : Motion::line, {}};
-      use_.frames = way_.held(begin, is_to_pose(text_.skip_spaces(end) + 1));
+      use_ = {begin, word == "movej" || word == "servoj" || word == "optimovej" ? Motion::joints : Motion::line, {}};
+      use_.frames = way_.held(end_of_call(end), is_to_pose(text_.skip_spaces(end) + 1));
       read_call(text_.skip_spaces(end), targets);
     });
     leave_targets_on_targets();
@@ -60,39 +53,37 @@ class UrReader {
     std::sort(program_.targets.begin(), program_.targets.end(),
               [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
     way_.note_routines(program_);
+    for (Target& target : program_.targets) {
+      if (!way_.displaces().empty())
+        target.not_sent_to =
+            "the program displaces motions (" + way_.displaces() + "), and where it does is not followed";
+    }
     return std::move(program_);
   }
 
  private:
   std::optional<std::size_t> literal_at(std::size_t offset) const { return urscript_literal(text_, offset); }
 
-  /// Remembers where every variable is given a literal.
-  void find_assignments() {
-    text_.for_each_word([&](std::size_t begin, std::size_t end) {
-      const std::size_t sign = text_.skip_spaces(end);
-      if (sign >= code_.size() || code_[sign] != '=' || code_.substr(sign).starts_with("==")) return;
-      const std::string name(code_.substr(begin, end - begin));
-      if (const auto literal = literal_at(sign + 1)) {
-        assigned_[name].push_back(*literal);
-      } else {
-        computed_.insert(name);
-      }
-    });
-  }
-
   void follow_tools() {
     text_.for_each_word([&](std::size_t begin, std::size_t end) {
       const bool sets_tool = code_.substr(begin, end - begin) == "set_tcp" && text_.next(end) == '(';
-      sets_tool ? way_.set_tool(begin, tool_at(text_.skip_spaces(end) + 1)) : way_.read_word(begin, end);
+      way_.read_word(begin, end);
+      if (sets_tool) way_.set_tool(end_of_call(end), tool_at(text_.skip_spaces(end) + 1));
     });
     way_.finish();
+  }
+
+  /// Where the call whose name ends at `end` is made: behind all that its arguments call.
+  std::size_t end_of_call(std::size_t end) const {
+    const std::size_t open = text_.skip_spaces(end);
+    return urscript_close(text_, open).value_or(open);
   }
 
   /// Whether what a motion goes to is told by the tool: anything but joints.
   bool is_to_pose(std::size_t argument) const {
     std::size_t begin = text_.skip_spaces(argument);
-    const auto variable = assigned_.find(word_from(argument));
-    if (variable != assigned_.end()) begin = variable->second.front();
+    const auto variable = variables_.literals.find(word_from(argument));
+    if (variable != variables_.literals.end()) begin = variable->second.front();
     return begin >= code_.size() || code_[begin] != '[';
   }
 
@@ -115,12 +106,14 @@ class UrReader {
     if (word == "get_inverse_kin" && text_.next(end) == '(') return inverse_kinematics(text_.skip_spaces(end));
     if (word == "pose_trans" && text_.next(end) == '(' && use_.frames.frame.empty())
       return in_feature(text_.skip_spaces(end), hint);
-    const auto variable = assigned_.find(word);
+    const auto variable = variables_.literals.find(word);
     const char after = text_.next(end);
-    if (variable != assigned_.end() && (after == ',' || after == ')')) {
+    if (variables_.parameters.contains(word) && (after == ',' || after == ')')) {
+      elsewhere({.name = word, .place = text_.place(begin)}, word + " is handed to the function when the program runs");
+    } else if (variable != variables_.literals.end() && (after == ',' || after == ')')) {
       plain_.insert(begin);
       for (const std::size_t literal : variable->second) add(literal, word, Numbers::or_expressions, hint);
-    } else if (computed_.contains(word) && (after == ',' || after == ')')) {
+    } else if (variables_.computed.contains(word) && (after == ',' || after == ')')) {
       elsewhere({.name = word, .place = text_.place(begin)}, word + " is computed when the program runs");
     } else {
       std::size_t first = begin;
@@ -144,12 +137,8 @@ class UrReader {
   /// The pose of a literal, or of a variable that is given one and no other.
   std::optional<Eigen::Isometry3d> pose_at(std::size_t offset) {
     std::optional<std::size_t> literal = literal_at(offset);
-    const std::string word = word_from(offset);
     plain_.insert(text_.skip_spaces(offset));
-    const auto variable = assigned_.find(word);
-    if (!literal && variable != assigned_.end() && variable->second.size() == 1 && !computed_.contains(word)) {
-      literal = variable->second.front();
-    }
+    if (!literal) literal = variables_.only_literal(word_from(offset));
     if (!literal || code_[*literal] != 'p') return std::nullopt;
     const auto values = list_numbers(text_, read_list(text_, text_.skip_spaces(*literal + 1), '['), 6);
     if (!values) return std::nullopt;
@@ -185,7 +174,7 @@ class UrReader {
     }
     if (argument.empty() || argument != name) return KnownFrame::computed("the feature of pose_trans");
     if (pose) return {name, *pose, ""};
-    const bool set = assigned_.contains(name) || computed_.contains(name);
+    const bool set = variables_.literals.contains(name) || variables_.computed.contains(name);
     return set ? KnownFrame::computed("feature " + name) : controller_.frame(name, "feature " + name);
   }
 
@@ -193,8 +182,8 @@ class UrReader {
   void leave_targets_on_targets() {
     for (auto& [begin, uses] : uses_at_) {
       for (TargetUse& use : uses) {
-        const auto variable = assigned_.find(use.frames.frame);
-        if (variable == assigned_.end()) continue;
+        const auto variable = variables_.literals.find(use.frames.frame);
+        if (variable == variables_.literals.end()) continue;
         const bool moved_to = std::any_of(variable->second.begin(), variable->second.end(),
                                           [&](std::size_t literal) { return seen_.contains(literal); });
         if (moved_to) use.frames.unknown_frame = "it hangs on " + use.frames.frame + ", which is itself moved to";
@@ -202,20 +191,32 @@ class UrReader {
     }
   }
 
+  /// get_inverse_kin(x, qnear, ..., tcp): arguments by place or by name.
   void inverse_kinematics(std::size_t open) {
-    const std::size_t second = urscript_argument_end(text_, open + 1);
+    constexpr std::array<std::string_view, 5> kArguments{"x", "qnear", "maxPositionError", "maxOrientationError",
+                                                         "tcp"};
+    std::map<std::string, std::size_t> given;
+    std::size_t offset = open + 1;
+    for (std::size_t i = 0; i < kArguments.size(); ++i) {
+      const std::size_t value = urscript_argument(text_, offset);
+      given.try_emplace(value == offset ? std::string(kArguments.at(i)) : word_from(offset), value);
+      offset = urscript_argument_end(text_, offset);
+      if (offset >= code_.size() || code_[offset] != ',') break;
+      ++offset;
+    }
     ArmHint hint;
-    if (second < code_.size() && code_[second] == ',') hint.near = joints_at(urscript_argument(text_, second + 1));
-    target_at(urscript_argument(text_, open + 1), hint);
+    if (const auto near = given.find("qnear"); near != given.end()) hint.near = joints_at(near->second);
+    const StatedFrames outside = use_.frames;
+    if (const auto tool = given.find("tcp"); tool != given.end()) set_tool(use_.frames, tool_at(tool->second));
+    if (const auto pose = given.find("x"); pose != given.end()) target_at(pose->second, hint);
+    use_.frames = outside;
   }
 
   /// The joints that a literal or a variable gives; empty where it gives none.
   JointVector joints_at(std::size_t offset) {
     std::optional<std::size_t> literal = literal_at(offset);
-    const std::size_t begin = text_.skip_spaces(offset);
-    plain_.insert(begin);
-    const auto variable = assigned_.find(std::string(code_.substr(begin, text_.word_end(begin) - begin)));
-    if (!literal && variable != assigned_.end()) literal = variable->second.front();
+    plain_.insert(text_.skip_spaces(offset));
+    if (!literal) literal = variables_.only_literal(word_from(offset));
     if (!literal || code_[*literal] != '[') return {};
     const auto values = list_numbers(text_, read_list(text_, *literal, '['), arm_.joints.size());
     if (!values) return {};
@@ -260,8 +261,7 @@ class UrReader {
   const ControllerData& controller_;
   Program program_;
   std::set<std::size_t> plain_;  ///< where variables stand for what they were given
-  std::map<std::string, std::vector<std::size_t>> assigned_;
-  std::set<std::string> computed_;  ///< variables that are given something else, too
+  UrScriptVariables variables_;
   std::set<std::size_t> seen_;
   UrScriptWay way_;
   TargetUse use_;                                          ///< the motion that is being read

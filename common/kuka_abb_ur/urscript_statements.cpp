@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -13,6 +14,12 @@ namespace {
 
 /// What a statement does with a variable whose name stands at [begin, end).
 enum class VariableUse { given_numbers, changed, copied, handed_on };
+
+/// The last sign before `begin` that is no blank; a line end at the text's begin.
+char previous_sign(const ProgramText& text, std::size_t begin) {
+  const std::size_t before = begin == 0 ? std::string_view::npos : text.code().find_last_not_of(" \t", begin - 1);
+  return before == std::string_view::npos ? '\n' : text.code()[before];
+}
 
 VariableUse use_of(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code();
@@ -33,12 +40,75 @@ VariableUse use_of(const ProgramText& text, std::size_t begin, std::size_t end) 
 
 }  // namespace
 
+int urscript_targets(std::string_view word) {
+  if (word == "movec") return 2;
+  constexpr std::array<std::string_view, 7> kCommands{"movej",  "movel",     "movep",    "servoj",
+                                                      "servoc", "optimovej", "optimovel"};
+  return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end() ? 1 : 0;
+}
+
 std::optional<std::size_t> urscript_literal(const ProgramText& text, std::size_t offset) {
   const std::string_view code = text.code();
   offset = text.skip_spaces(offset);
   if (offset >= code.size()) return std::nullopt;
   const bool pose = code[offset] == 'p' && text.next(offset + 1) == '[' && text.word_end(offset) == offset + 1;
-  return pose || code[offset] == '[' ? std::optional(offset) : std::nullopt;
+  if (!pose && code[offset] != '[') return std::nullopt;
+  int depth = 0;
+  std::size_t end = code.find('[', offset);
+  for (; end < code.size(); ++end) {
+    depth += code[end] == '[' ? 1 : code[end] == ']' ? -1 : 0;
+    if (depth == 0) break;
+  }
+  const std::size_t behind = std::min(code.find_first_not_of(" \t\r", std::min(end + 1, code.size())), code.size());
+  const bool ends = behind == code.size() || is_word_letter(code[behind]) ||
+                    std::string_view(",)];\n").find(code[behind]) != std::string_view::npos;
+  return ends ? std::optional(offset) : std::nullopt;
+}
+
+std::optional<std::size_t> UrScriptVariables::only_literal(const std::string& name) const {
+  const auto found = literals.find(name);
+  const bool only = found != literals.end() && found->second.size() == 1;
+  return only && !computed.contains(name) && !parameters.contains(name) ? std::optional(found->second.front())
+                                                                        : std::nullopt;
+}
+
+std::optional<std::size_t> urscript_close(const ProgramText& text, std::size_t open) {
+  const std::string_view code = text.code();
+  int depth = 0;
+  for (std::size_t at = open; at < code.size(); ++at) {
+    depth += code[at] == '(' ? 1 : code[at] == ')' ? -1 : 0;
+    if (depth == 0) return at;
+  }
+  return std::nullopt;
+}
+
+UrScriptVariables urscript_variables(const ProgramText& text) {
+  const std::string_view code = text.code();
+  UrScriptVariables variables;
+  std::size_t header_end = 0;  // of the function whose header is being read
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    const std::string name(code.substr(begin, end - begin));
+    if (name == "def" || name == "thread" || name == "sec") {
+      const std::size_t open = text.skip_spaces(text.word_end(text.skip_spaces(end)));
+      if (open < code.size() && code[open] == '(') header_end = urscript_close(text, open).value_or(open);
+      return;
+    }
+    const char before = previous_sign(text, begin);
+    if (begin < header_end) {
+      if (before == '(' || before == ',') variables.parameters.insert(name);
+      return;
+    }
+    if (before == '(' || before == ',') return;  // an argument, by name or not
+    std::size_t sign = text.skip_spaces(end);
+    const bool part = sign < code.size() && (code[sign] == '[' || code[sign] == '.');
+    while (sign < code.size() && (code[sign] == '[' || code[sign] == '.'))
+      sign = text.skip_spaces(code[sign] == '[' ? std::min(code.find(']', sign), code.size() - 1) + 1
+                                                : text.word_end(text.skip_spaces(sign + 1)));
+    if (sign >= code.size() || code[sign] != '=' || code.substr(sign).starts_with("==")) return;
+    const auto literal = part ? std::nullopt : urscript_literal(text, sign + 1);
+    literal ? variables.literals[name].push_back(*literal) : void(variables.computed.insert(name));
+  });
+  return variables;
 }
 
 std::size_t urscript_argument(const ProgramText& text, std::size_t offset) {

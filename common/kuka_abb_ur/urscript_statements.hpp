@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "parsed_programs/program.hpp"
@@ -13,8 +15,25 @@
 
 namespace demecal::inline kuka_abb_ur {
 
-/// Where a literal [...] or p[...] begins at or after `offset`, if that is what comes next.
+/// How many of its first arguments a command moves to; 0 for words that are none.
+int urscript_targets(std::string_view word);
+
+/// Where a literal [...] or p[...] begins at or after `offset`, if that and nothing else is the value there.
 std::optional<std::size_t> urscript_literal(const ProgramText& text, std::size_t offset);
+
+/// What the variables of a program are given, wherever that stands.
+struct UrScriptVariables {
+  std::map<std::string, std::vector<std::size_t>> literals{};  ///< where each is given one
+  std::set<std::string> computed{};    ///< those that are given anything else, or an element of it
+  std::set<std::string> parameters{};  ///< of functions
+
+  /// The literal of a variable that is given this one and nothing else.
+  std::optional<std::size_t> only_literal(const std::string& name) const;
+};
+UrScriptVariables urscript_variables(const ProgramText& text);
+
+/// The parenthesis that closes the one at `open`; nothing where none does.
+std::optional<std::size_t> urscript_close(const ProgramText& text, std::size_t open);
 
 /// Past "NAME =", where the argument is given by name.
 std::size_t urscript_argument(const ProgramText& text, std::size_t offset);

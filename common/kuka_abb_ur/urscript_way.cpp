@@ -1,7 +1,10 @@
 #include "kuka_abb_ur/urscript_way.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
+
+#include "kuka_abb_ur/urscript_statements.hpp"
 
 namespace demecal::inline kuka_abb_ur {
 namespace {
@@ -14,7 +17,8 @@ bool is_of_the_language(const std::string& word) {
       "end_screw_driving end_teach_mode enter_critical exit_critical force_mode force_mode_set_damping "
       "force_mode_set_gain_scaling freedrive_mode ft_rtde_input_enable modbus_add_signal "
       "modbus_delete_signal modbus_send_custom_command modbus_set_output_register modbus_set_output_signal "
-      "modbus_set_runstate_dependent_choice modbus_set_signal_update_frequency movec movej movel movep "
+      "modbus_set_runstate_dependent_choice modbus_set_signal_update_frequency movec movej movel movep optimovej "
+      "optimovel "
       "path_offset_disable path_offset_enable path_offset_set popup position_deviation_warning powerdown "
       "protective_stop reset_revolution_counter rtde_set_watchdog screw_driving servoc servoj "
       "set_analog_out set_configurable_digital_out set_digital_out set_gravity set_payload set_payload_cog "
@@ -24,6 +28,13 @@ bool is_of_the_language(const std::string& word) {
       "textmsg track_conveyor_circular track_conveyor_linear write_output_boolean_register "
       "write_output_float_register write_output_integer_register zero_ftsensor ";
   return kWords.find(' ' + word + ' ') != std::string::npos;
+}
+
+/// Statements behind which the arm stands where no target says.
+bool moves_untold(const std::string& word) {
+  constexpr std::array<std::string_view, 7> kWords{
+      "speedj", "speedl", "freedrive_mode", "force_mode", "teach_mode", "screw_driving", "run"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
 }  // namespace
@@ -40,33 +51,41 @@ std::string UrScriptWay::word_before(std::size_t begin) const {
 }
 
 void UrScriptWay::read_word(std::size_t begin, std::size_t end) {
+  if (begin < read_up_to_) return;
   const std::string word(text_.code().substr(begin, end - begin));
+  if (word == "track_conveyor_linear" || word == "track_conveyor_circular" || word == "path_offset_enable")
+    displaces_ = word;
+  if (moves_untold(word)) untold_.push_back(begin);
   if (read_control(word, begin, end) || text_.next(end) != '(') return;
   const std::string before = word_before(begin);
   if (before == "def" || before == "thread" || before == "sec") return;
   if (before == "run") return flow_.call_at_any_time(word);
-  read_call(word, begin);
+  read_call(begin, end, is_statement(begin) && !is_of_the_language(word));
 }
 
 bool UrScriptWay::read_control(std::string_view word, std::size_t begin, std::size_t end) {
   using Block = FrameFlow::Block;
-  const auto open = [&](Block kind) {
-    open_.push_back(false);
-    flow_.open(begin, kind);
-  };
   if (word == "def" || word == "thread" || word == "sec") {
     const std::size_t name = text_.skip_spaces(end);
     open_.push_back(true);
     flow_.open_routine(begin, std::string(text_.code().substr(name, text_.word_end(name) - name)),
                        text_.source().file_at(begin));
-  } else if (word == "if") {
-    open(Block::branch);
-  } else if (word == "while") {
-    open(Block::loop);
-  } else if (word == "elif" || word == "else") {
-    flow_.alternative(begin, word == "else");
-  } else if (word == "return" || word == "halt") {
-    read_calls(end, std::min(text_.code().find('\n', end), text_.code().size()));
+  } else if (word == "if" || word == "while" || word == "elif") {
+    if (word != "elif") open_.push_back(false);
+    if (word == "while") flow_.open(begin, Block::loop);
+    if (word == "elif") flow_.alternative(begin, false);
+    const std::size_t colon = expression_end(end, ':');
+    read_calls(end, colon);
+    word == "if" ? flow_.open(colon, Block::branch) : flow_.condition_ends(colon);
+    read_up_to_ = colon;
+  } else if (word == "else") {
+    flow_.alternative(begin, true);
+  } else if (word == "return") {
+    const std::size_t stop = expression_end(end, '\n');
+    read_calls(end, stop);
+    flow_.leave_routine(std::max(begin, stop - 1));
+    read_up_to_ = stop;
+  } else if (word == "halt") {
     flow_.leave_routine(begin);
   } else if (word == "break") {
     flow_.leave_loop(begin);
@@ -82,25 +101,54 @@ bool UrScriptWay::read_control(std::string_view word, std::size_t begin, std::si
   return true;
 }
 
-/// Those of an expression.
+/// Where the expression that begins at `begin` ends: at the sign, a line's end or a word that ends a block, outside of
+/// parentheses.
+std::size_t UrScriptWay::expression_end(std::size_t begin, char sign) const {
+  const std::string_view code = text_.code();
+  int depth = 0;
+  for (std::size_t at = begin; at < code.size(); ++at) {
+    const char letter = code[at];
+    depth += letter == '(' || letter == '[' ? 1 : letter == ')' || letter == ']' ? -1 : 0;
+    if (depth > 0) continue;
+    if (letter == sign || letter == '\n') return at;
+    if (!text_.begins_word(at)) continue;
+    const std::string word = text_.word_at(at);
+    if (word == "end" || word == "else" || word == "elif") return at;
+    at = text_.word_end(at) - 1;
+  }
+  return code.size();
+}
+
+/// Those of an expression, the inner ones first.
 void UrScriptWay::read_calls(std::size_t begin, std::size_t end) {
   for (; begin < end; ++begin) {
     if (!text_.begins_word(begin)) continue;
     const std::size_t word_end = text_.word_end(begin);
-    if (text_.next(word_end) == '(')
-      flow_.call(begin, std::string(text_.code().substr(begin, word_end - begin)), false);
-    begin = word_end - 1;
+    if (text_.next(word_end) == '(') {
+      read_call(begin, word_end, false);
+      begin = std::max(begin, read_up_to_);
+    } else {
+      begin = word_end - 1;
+    }
   }
 }
 
-/// NAME(...); where it is a statement, NAME may be a function that is not in the files.
-void UrScriptWay::read_call(const std::string& word, std::size_t begin) {
+/// NAME(...), made behind what its arguments call; where it is `stated`, NAME may be a function that is not in the
+/// files.
+void UrScriptWay::read_call(std::size_t begin, std::size_t end, bool stated) {
+  const std::string name(text_.code().substr(begin, end - begin));
+  const std::size_t open = text_.skip_spaces(end), close = urscript_close(text_, open).value_or(open);
+  read_calls(open + 1, close);
+  if (stated) calls_[close] = name + "()";
+  flow_.call(close, name, stated);
+  read_up_to_ = close;
+}
+
+/// Whether a statement begins there.
+bool UrScriptWay::is_statement(std::size_t begin) const {
   const std::string_view code = text_.code();
   const std::size_t last = begin == 0 ? std::string_view::npos : code.find_last_not_of(" \t\r", begin - 1);
-  const bool statement =
-      (last == std::string_view::npos || code[last] == '\n' || code[last] == ':') && !is_of_the_language(word);
-  if (statement) calls_[begin] = word + "()";
-  flow_.call(begin, word, statement);
+  return last == std::string_view::npos || code[last] == '\n' || code[last] == ':';
 }
 
 StatedFrames UrScriptWay::held(std::size_t begin, bool by_pose) {
@@ -110,7 +158,8 @@ StatedFrames UrScriptWay::held(std::size_t begin, bool by_pose) {
 }
 
 void UrScriptWay::note_routines(Program& program) const {
-  flow_.end_at_routines(program);
+  program.unknown_motions.insert(program.unknown_motions.end(), untold_.begin(), untold_.end());
+  flow_.end_at_ways(program);
   if (!believed_.empty())
     note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program, "put what they do into this file");
 }

@@ -20,25 +20,32 @@ class UrScriptWay {
  public:
   explicit UrScriptWay(const ProgramText& text);
 
-  /// Every word in the order of the text, and where set_tcp() stands its tool; then finish().
+  /// Every word in the order of the text, and behind that of set_tcp() its tool; then finish().
   void read_word(std::size_t begin, std::size_t end);
   void set_tool(std::size_t begin, const KnownFrame& tool) { flow_.set_tool(begin, tool); }
   void finish() { flow_.finish(); }
 
   /// What holds for a motion, of a pose or of joints.
   StatedFrames held(std::size_t begin, bool by_pose);
+  /// The word by which the program displaces motions; empty: none does.
+  const std::string& displaces() const { return displaces_; }
   /// When all targets are known: where functions end what is known of the arm, and once which calls of functions that
   /// are not here were taken to leave the tool as it is.
   void note_routines(Program& program) const;
 
  private:
   bool read_control(std::string_view word, std::size_t begin, std::size_t end);
-  void read_call(const std::string& word, std::size_t begin);
+  void read_call(std::size_t begin, std::size_t end, bool stated);
   void read_calls(std::size_t begin, std::size_t end);
+  std::size_t expression_end(std::size_t begin, char sign) const;
+  bool is_statement(std::size_t begin) const;
   std::string word_before(std::size_t begin) const;
 
   const ProgramText& text_;
   FrameFlow flow_{"the tool of set_tcp", ""};
+  std::size_t read_up_to_ = 0;
+  std::string displaces_;
+  std::vector<std::size_t> untold_;           ///< where the arm is moved by no target
   std::vector<bool> open_;                    ///< whether each block that is not ended is a routine
   std::map<std::size_t, std::string> calls_;  ///< that stand as statements
   std::set<std::size_t> believed_;            ///< calls that a tool was believed through

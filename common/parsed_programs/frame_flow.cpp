@@ -58,6 +58,7 @@ void FrameFlow::open_routine(std::size_t at, const std::string& name, std::size_
   if (routines_.empty()) start_routine(0, "", file);
   interrupted_.push_back({present_, std::exchange(current_, {}), std::exchange(blocks_, {})});
   start_routine(at, name, file);
+  routines_[present_].around = interrupted_.back().routine;
 }
 
 void FrameFlow::close_routine(std::size_t at) {
@@ -91,7 +92,8 @@ void FrameFlow::call(std::size_t at, const std::string& name, bool is_routine) {
 
 void FrameFlow::open(std::size_t at, Block kind) {
   const std::size_t node = add(at);
-  blocks_.push_back({kind, node});
+  blocks_.push_back({kind, node, node});
+  blocks_.back().joints = {at};
   if (kind == Block::selection) current_.clear();
 }
 
@@ -100,9 +102,15 @@ void FrameFlow::alternative(std::size_t at, bool takes_all_left) {
     OpenBlock& block = blocks_.back();
     block.ends.insert(block.ends.end(), current_.begin(), current_.end());
     block.complete = block.complete || takes_all_left;
-    current_ = {block.node};
+    block.joints.push_back(at);
+    current_ = {block.skip};
   }
   add(at);
+}
+
+void FrameFlow::condition_ends(std::size_t at) {
+  const std::size_t node = add(at);
+  if (!blocks_.empty()) blocks_.back().skip = node;
 }
 
 void FrameFlow::close(std::size_t at) {
@@ -114,8 +122,10 @@ void FrameFlow::close(std::size_t at) {
       if (loops) nodes_[last].next.push_back(block.node);
     }
     if (block.kind == Block::loop || block.kind == Block::endless) current_.clear();
-    if (block.kind == Block::loop || (!loops && !block.complete)) current_.push_back(block.node);
+    if (block.kind == Block::loop || (!loops && !block.complete)) current_.push_back(block.skip);
     current_.insert(current_.end(), block.ends.begin(), block.ends.end());
+    block.joints.push_back(at);
+    if (!loops) branches_.push_back(std::move(block.joints));
   }
   add(at);
 }
@@ -162,26 +172,14 @@ void FrameFlow::jump(std::size_t at, const std::string& name, bool always) {
 
 // What follows from it
 
-std::set<std::size_t> FrameFlow::called_by(std::size_t routine) const {
-  std::set<std::size_t> found{routine};
-  std::vector<std::size_t> due{routine};
-  while (!due.empty()) {
-    const std::vector<std::size_t>& nodes = routines_[due.back()].nodes;
-    due.pop_back();
-    for (const std::size_t node : nodes) {
-      if (nodes_[node].called != kNone && found.insert(nodes_[node].called).second) due.push_back(nodes_[node].called);
-    }
-  }
-  return found;
-}
-
 /// What a routine that nothing here calls begins with.
 KnownFrame FrameFlow::initial(std::size_t routine, bool of_tool) const {
   const std::string& what = of_tool ? tool_ : frame_;
   const bool set =
       std::ranges::any_of(routines_, [&](const Routine& one) { return of_tool ? one.sets_tool : one.sets_frame; });
   if (!set) return {};
-  const std::set<std::size_t> own = called_by(routine);
+  const std::set<std::size_t> own =
+      at_any_time_.contains(routines_[routine].name) ? std::set<std::size_t>{} : called_by(routine);
   bool here = false, elsewhere = false;
   for (std::size_t other = 0; other < routines_.size(); ++other) {
     if (here) break;
@@ -238,9 +236,8 @@ KnownFrame FrameFlow::value_of(const Value& value, bool of_tool) const {
   for (const std::string& name : at_any_time_) {
     const auto named = by_name_.find(name);
     if (named == by_name_.end()) continue;
-    const bool sets = std::ranges::any_of(
-        named->second, [&](std::size_t one) { return of_tool ? routines_[one].sets_tool : routines_[one].sets_frame; });
-    if (sets) return {what, Eigen::Isometry3d::Identity(), what + " is set by " + name + ", which may run at any time"};
+    if (std::ranges::any_of(named->second, [&](std::size_t one) { return sets(one, of_tool); }))
+      return {what, Eigen::Isometry3d::Identity(), what + " is set by " + name + ", which may run at any time"};
   }
   if (value.kind == Value::Kind::known) return values_[value.index];
   return {what, Eigen::Isometry3d::Identity(), what + " is not known where no path leads to"};
@@ -284,7 +281,8 @@ void note_calls_elsewhere(const ProgramText& text, const std::set<std::size_t>& 
   const bool one = names.size() == 1;
   program.remarks.push_back({text.place(*calls.begin()), "",
                              list + (one ? " is" : " are") + " not in the files given, and " + (one ? "is" : "are") +
-                                 " taken to leave tool and frame as they are; where that is not so, " + remedy});
+                                 " taken to leave tool, frame and the arm as they are; where that is not so, " +
+                                 remedy});
 }
 
 }  // namespace demecal::inline parsed_programs

@@ -44,6 +44,8 @@ class FrameFlow {
   void call_at_any_time(const std::string& name) { at_any_time_.insert(name); }
   void open(std::size_t at, Block kind);
   void alternative(std::size_t at, bool takes_all_left);
+  /// What the innermost block's condition calls has been told: its body, or this alternative's, is skipped from here.
+  void condition_ends(std::size_t at);
   void close(std::size_t at);
   void leave_loop(std::size_t at);
   /// Goes back to where the innermost loop begins.
@@ -60,9 +62,10 @@ class FrameFlow {
     std::optional<std::size_t> call{};
   };
   Held at(std::size_t offset) const;
-  /// Tells `program`, whose motions are known, where the motion before one in the text is not the one that the arm
-  /// comes from: where a routine begins, where one inside another ends, and behind calls of those that move.
-  void end_at_routines(Program& program) const;
+  /// Tells `program`, whose motions are known, where the motion before one in the text is not, or not always, the one
+  /// that the arm comes from: where a routine begins, where one inside another ends, behind calls of those that move,
+  /// and at the alternatives and the end of branches in which it moves.
+  void end_at_ways(Program& program) const;
   /// The calls of routines of other files.
   std::set<std::size_t> calls_elsewhere() const;
 
@@ -92,6 +95,7 @@ class FrameFlow {
   struct Routine {
     std::string name;
     std::size_t file = 0, entry = 0;
+    std::size_t around = kNone;  ///< the routine that it is inside of
     State exit{}, begin{};
     std::vector<std::size_t> nodes{};
     std::set<std::size_t> exits{};    ///< nodes
@@ -102,9 +106,11 @@ class FrameFlow {
   };
   struct OpenBlock {
     Block kind;
-    std::size_t node;
+    std::size_t node;  ///< where a loop goes back to
+    std::size_t skip;  ///< where the next alternative, or what is behind the block, begins
     std::vector<std::size_t> ends{};
     bool complete = false;
+    std::vector<std::size_t> joints{};  ///< bytes of its alternatives
   };
 
   /// A routine that another has interrupted in the text.
@@ -129,6 +135,8 @@ class FrameFlow {
   KnownFrame initial(std::size_t routine, bool of_tool) const;
   std::set<std::size_t> called_by(std::size_t routine) const;
   const Node* node_at(std::size_t offset) const;
+  bool sets(std::size_t routine, bool of_tool) const;
+  std::vector<std::size_t> routines_named(const std::string& name, std::size_t routine) const;
   KnownFrame value_of(const Value& value, bool of_tool) const;
 
   std::string tool_, frame_;
@@ -141,6 +149,7 @@ class FrameFlow {
   std::vector<OpenBlock> blocks_;
   std::size_t present_ = 0;  ///< the routine that statements are of
   std::vector<OpenRoutine> interrupted_;
+  std::vector<std::vector<std::size_t>> branches_;  ///< bytes of each branch's begin, alternatives and end
 };
 
 /// Says in `program`, at the first of these calls, that their routines are taken to leave tool and frame alone. `names`

@@ -71,16 +71,60 @@ FrameFlow::State FrameFlow::out_of(const Node& node) const {
   return state;
 }
 
-/// A name is that of its own file's routine, else that of the only one there is.
+std::set<std::size_t> FrameFlow::called_by(std::size_t routine) const {
+  std::set<std::size_t> found{routine};
+  std::vector<std::size_t> due{routine};
+  while (!due.empty()) {
+    const std::vector<std::size_t>& nodes = routines_[due.back()].nodes;
+    due.pop_back();
+    for (const std::size_t node : nodes) {
+      if (nodes_[node].called != kNone && found.insert(nodes_[node].called).second) due.push_back(nodes_[node].called);
+    }
+  }
+  return found;
+}
+
+/// Whether the routine, or one that it calls, sets it.
+bool FrameFlow::sets(std::size_t routine, bool of_tool) const {
+  return std::ranges::any_of(called_by(routine), [&](std::size_t one) {
+    return of_tool ? routines_[one].sets_tool : routines_[one].sets_frame;
+  });
+}
+
+/// Those that a call in `routine` may mean: the nearest around it, else its own file's, else the only one there is.
+std::vector<std::size_t> FrameFlow::routines_named(const std::string& name, std::size_t routine) const {
+  const auto named = by_name_.find(name);
+  if (named == by_name_.end()) return {};
+  const auto those = [&](const auto& is_meant) {
+    std::vector<std::size_t> found;
+    std::ranges::copy_if(named->second, std::back_inserter(found), is_meant);
+    return found;
+  };
+  for (std::size_t scope = routine; scope != kNone; scope = routines_[scope].around) {
+    const std::vector<std::size_t> near = those([&](std::size_t one) { return routines_[one].around == scope; });
+    if (!near.empty()) return near;
+  }
+  const std::vector<std::size_t> own =
+      those([&](std::size_t one) { return routines_[one].file == routines_[routine].file; });
+  if (!own.empty()) return own;
+  return named->second.size() == 1 ? named->second : std::vector<std::size_t>{};
+}
+
 void FrameFlow::resolve_calls() {
+  std::vector<std::size_t> several;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const auto named = by_name_.find(nodes_[i].callee);
-    if (named == by_name_.end()) continue;
-    const std::size_t file = routines_[nodes_[i].routine].file;
-    const auto own = std::ranges::find_if(named->second, [&](std::size_t one) { return routines_[one].file == file; });
-    if (own == named->second.end() && named->second.size() > 1) continue;
-    nodes_[i].called = own == named->second.end() ? named->second.front() : *own;
-    routines_[nodes_[i].called].callers.insert(i);
+    const std::vector<std::size_t> meant = routines_named(nodes_[i].callee, nodes_[i].routine);
+    if (meant.size() > 1) several.push_back(i);
+    if (meant.size() != 1) continue;
+    nodes_[i].called = meant.front();
+    routines_[meant.front()].callers.insert(i);
+  }
+  for (const std::size_t i : several) {  // which of them is meant is not told
+    for (const std::size_t one : routines_named(nodes_[i].callee, nodes_[i].routine)) {
+      if (sets(one, true)) nodes_[i].tool = kDifferingTool;
+      if (sets(one, false)) nodes_[i].frame = kDifferingFrame;
+      routines_[one].callers.insert(i);
+    }
   }
 }
 
@@ -90,26 +134,31 @@ const FrameFlow::Node* FrameFlow::node_at(std::size_t offset) const {
   return next == nodes_.begin() ? nullptr : &*std::prev(next);
 }
 
-void FrameFlow::end_at_routines(Program& program) const {
-  std::set<std::size_t> moving;  // routines
-  std::size_t first = kNone;
-  const auto take_motion = [&](std::size_t offset) {
-    first = std::min(first, offset);
-    if (const Node* node = node_at(offset)) moving.insert(node->routine);
-  };
+void FrameFlow::end_at_ways(Program& program) const {
+  std::set<std::size_t> motions;
   for (const Target& target : program.targets) {
-    take_motion(target.order);
-    std::ranges::for_each(target.further_motions, take_motion);
+    motions.insert(target.order);
+    motions.insert(target.further_motions.begin(), target.further_motions.end());
   }
-  std::ranges::for_each(program.unknown_motions, take_motion);
+  motions.insert(program.unknown_motions.begin(), program.unknown_motions.end());
+  if (motions.empty()) return;
+  std::set<std::size_t> moving;  // routines
+  for (const std::size_t motion : motions) {
+    if (const Node* node = node_at(motion)) moving.insert(node->routine);
+  }
   const auto moves = [&](std::size_t routine) {
     const std::set<std::size_t> called = called_by(routine);
     return std::ranges::any_of(called, [&](std::size_t one) { return moving.contains(one); });
   };
+  for (const std::vector<std::size_t>& branch : branches_) {
+    const auto inside = motions.lower_bound(branch.front());
+    if (inside != motions.end() && *inside < branch.back())
+      program.unknown_motions.insert(program.unknown_motions.end(), std::next(branch.begin()), branch.end());
+  }
   std::size_t last = kNone;
   for (const Node& node : nodes_) {
     const bool another = last != kNone && node.routine != last;
-    if (node.at > first && (another || (node.called != kNone && moves(node.called))))
+    if (node.at > *motions.begin() && (another || (node.called != kNone && moves(node.called))))
       program.unknown_motions.push_back(node.at);
     last = node.routine;
   }

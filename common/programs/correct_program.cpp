@@ -173,8 +173,9 @@ class Corrector {
         "the arm's configuration" +
         (words.empty() ? "" : ", stated as '" + words + "', which does not mean the same on all arms,") +
         " is not known (" + difference_of(arm, corrected.nominal, alternatives[other].nominal) +
-        "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
-        " mm: " + moved_text(corrected) + " or " + moved_text(alternatives[other]) + "; this line was not corrected; " +
+        "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) + " mm and " +
+        fixed_text(degrees(difference.tail<3>().norm()), 3) + " deg: " + moved_text(corrected) + " or " +
+        moved_text(alternatives[other]) + "; this line was not corrected; " +
         (words.empty() ? "a joint move to joints near its own before it, or --near, tells"
                        : "joints within 0.5 rad of its own tell, before it or by --near")};
     corrected.outcome = CorrectionOutcome::uncorrected;

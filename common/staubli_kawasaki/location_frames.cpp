@@ -85,7 +85,7 @@ LocationFrames::Words LocationFrames::at(std::size_t offset, bool of_pose) {
 }
 
 void LocationFrames::note_routines(const ProgramText& text, Program& program) const {
-  flow_.end_at_routines(program);
+  flow_.end_at_ways(program);
   if (believed_) note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
 }
 

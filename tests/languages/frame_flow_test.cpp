@@ -201,74 +201,27 @@ TEST(LocationFlow, TakesTheBaseFromTheControllersData) {
   for (const Target& target : program.targets) EXPECT_NE(target.name, "q") << "a correction would move the base";
 }
 
-/// Of every motion in the order of the text: the tool's z in hundreds of mm as a word, "unset", or why it is unknown.
-std::vector<std::string> ur_tools(const std::string& text) {
-  std::vector<std::string> found;
-  for (const Target& target : read_program(WrittenIn::urscript, text, "p", wrist_arm()).targets) {
-    const StatedFrames& frames = target.frames;
-    found.push_back(!frames.unknown_tool.empty() ? frames.unknown_tool
-                    : !frames.tool               ? "unset"
-                                                 : std::to_string(std::lround(10.0 * frames.tool->translation().z())));
-  }
-  return found;
+TEST(KrlFrames, OfNumbersThatStatementsChangeAreComputed) {
+  const std::string given = "BASE_DATA[1]={X 100,Y 0,Z 0,A 0,B 0,C 0}\n", use = "$BASE=BASE_DATA[1]\n" + kLine;
+  EXPECT_THAT(krl_bases(given + use), ::testing::ElementsAre("1"));
+  for (const char* change : {"BASE_DATA[1]=camera()\n", "BASE_DATA[n]=camera()\n", "BASE_DATA[1].X=7\n"})
+    EXPECT_THAT(krl_bases(given + change + use), ::testing::ElementsAre(HasSubstr("is computed"))) << change;
+  EXPECT_THAT(krl_bases(given + "x=BASE_DATA[1].X\nBASE_DATA[2].X=7\n" + use), ::testing::ElementsAre("1"));
 }
 
-std::string tcp(int number) {
-  return "set_tcp(p[0,0,0." + std::to_string(number) + ",0,0,0])\n";
-}
-
-const std::string kLineTo = "movel(p[0.1,0.2,0.3,0,0,0])\n";
-const char* const kToolsPath = "the tool of set_tcp depends on the path that the program takes here";
-
-TEST(UrScriptFlow, FollowsFunctionsThatSetTheTool) {
-  EXPECT_THAT(ur_tools("def m():\n def f():\n" + tcp(2) + " end\n" + tcp(1) + kLineTo + "f()\n" + kLineTo + "end\n"),
-              ::testing::ElementsAre("1", "2"));
-  EXPECT_THAT(ur_tools("def f():\n" + tcp(2) + "end\ndef m():\n" + kLineTo + tcp(1) + kLineTo + "x = f() + 1\n" +
-                       kLineTo + "end\n"),
-              ::testing::ElementsAre("unset", "1", "2"));
-  EXPECT_THAT(
-      ur_tools("def g():\n" + tcp(3) + " return 1\nend\ndef f():\n return g()\nend\n" + tcp(1) + "f()\n" + kLineTo),
-      ::testing::ElementsAre("3"));
-}
-
-TEST(UrScriptFlow, BeginsFunctionsWithWhatTheirCallersHold) {
-  const std::string go = " def go():\n" + kLineTo + " end\n";
-  EXPECT_THAT(ur_tools("def m():\n" + go + tcp(1) + "go()\n" + kLineTo + "end\n"), ::testing::ElementsAre("1", "1"));
-  EXPECT_THAT(ur_tools("def m():\n" + go + tcp(1) + "go()\n" + tcp(2) + "go()\nend\n"),
-              ::testing::ElementsAre(kToolsPath));
-  EXPECT_THAT(ur_tools("def a():\n" + tcp(1) + "end\ndef b():\n" + kLineTo + "end\n"),
-              ::testing::ElementsAre(HasSubstr("is set in another routine")));
-}
-
-TEST(UrScriptFlow, DoesNotBelieveOneOfTwoPaths) {
-  EXPECT_THAT(ur_tools(tcp(1) + "if x:\n" + tcp(2) + "end\n" + kLineTo), ::testing::ElementsAre(kToolsPath));
-  EXPECT_THAT(ur_tools(tcp(1) + "if x:\n" + tcp(2) + "elif y:\n" + tcp(2) + "else:\n" + tcp(2) + "end\n" + kLineTo),
-              ::testing::ElementsAre("2"));
-  EXPECT_THAT(ur_tools(tcp(1) + "while x:\n" + kLineTo + tcp(2) + kLineTo + "end\n"),
-              ::testing::ElementsAre(kToolsPath, "2"));
-  EXPECT_THAT(ur_tools(tcp(1) + "while x:\n" + kLineTo + "if y:\n" + tcp(2) + "continue\nend\n" + tcp(1) + "end\n"),
-              ::testing::ElementsAre(kToolsPath));
-  EXPECT_THAT(ur_tools(tcp(1) + "while x:\nif y:\n" + tcp(2) + "break\nend\nend\n" + kLineTo),
-              ::testing::ElementsAre(kToolsPath));
-  EXPECT_THAT(ur_tools("def f():\nif x:\nreturn 1\nend\n" + tcp(2) + "end\n" + tcp(1) + "f()\n" + kLineTo),
-              ::testing::ElementsAre(kToolsPath));
-}
-
-TEST(UrScriptFlow, KnowsNoToolWhereAThreadSetsIt) {
-  const std::string thread = "thread t():\n" + tcp(2) + "end\n";
-  EXPECT_THAT(ur_tools(thread + tcp(1) + "h = run t()\n" + kLineTo), ::testing::ElementsAre(HasSubstr("at any time")));
-  EXPECT_THAT(ur_tools("thread t():\nsleep(1)\nend\n" + tcp(1) + "run t()\n" + kLineTo), ::testing::ElementsAre("1"));
-}
-
-TEST(UrScriptFlow, SaysWhichFunctionsItCannotSee) {
-  const auto remarks = [](const std::string& text) {
-    return read_program(WrittenIn::urscript, text, "p", wrist_arm()).remarks;
+TEST(RapidFrames, OfDataThatProceduresMayChangeAreComputed) {
+  const std::string data =
+      "PERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+      "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
+  const auto unknown = [&](const std::string& statements) {
+    const std::string text = "MODULE m\n" + data + "PROC main()\n" + statements + "MoveL p,v1,fine,t;\nENDPROC\n" +
+                             "PROC longer(PERS tooldata x)\nx.tframe.trans.z:=300;\nENDPROC\nPROC reads(tooldata x)\n" +
+                             "TPWrite \"x\";\nENDPROC\nENDMODULE\n";
+    return read_program(WrittenIn::rapid, text, "p", wrist_arm()).targets.at(0).frames.unknown_tool;
   };
-  EXPECT_THAT(remarks(tcp(1) + "sleep(1)\n" + kLineTo), IsEmpty());
-  const auto said = remarks(tcp(1) + "gripper_open(3)\n" + kLineTo);
-  ASSERT_THAT(said, SizeIs(1));
-  EXPECT_THAT(said[0].sentence, HasSubstr("gripper_open() is not in the files given"));
-  EXPECT_THAT(remarks("gripper_open(3)\n" + tcp(1) + kLineTo), IsEmpty());
+  EXPECT_THAT(unknown("reads t;\n"), IsEmpty());
+  EXPECT_THAT(unknown("longer t;\n"), HasSubstr("is computed"));
+  EXPECT_THAT(unknown("MToolTCPCalib j1,j2,j3,j4,t,err;\n"), HasSubstr("is computed"));
 }
 
 }  // namespace
