@@ -136,6 +136,9 @@ class Corrector {
   CorrectedTarget with_known_frames(const Target& target, const CommandModel& model) {
     const Configurations found = configurations(target, model.nominal.chain);
     if (found.joints.empty()) return {};
+    if (target.is_pose() && contradictions(target.hint, found.joints.front()) > 0)
+      return left(
+          "no joints were found that reach the pose in the configuration that is stated; this line was not corrected");
     note_motion(found.joints.front());
     std::vector<CorrectedTarget> alternatives;
     for (const JointVector& joints : found.joints)

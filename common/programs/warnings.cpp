@@ -82,9 +82,7 @@ void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, s
 
 void check_configuration(const Target& target, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
   if (!target.is_pose() || target.hint.empty()) return;
-  if (contradictions(target.hint, corrected.nominal) > 0) {
-    sentences.emplace_back("no joints were found that reach the pose in the configuration that is stated");
-  } else if (contradictions(target.hint, corrected.command) > 0) {
+  if (contradictions(target.hint, corrected.command) > 0) {
     sentences.emplace_back("the correction takes a joint out of the configuration that is stated");
   }
 }

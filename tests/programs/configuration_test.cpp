@@ -53,6 +53,20 @@ TEST(Configuration, ComesFromTheJointsBeforeOrFromTheUser) {
   EXPECT_TRUE(named.warnings.empty());
 }
 
+TEST(Configuration, ThatNoJointsHaveLeavesTheLine) {
+  Configured of;
+  JointVector stated = of.meant;
+  stated[0] += radians(90.0);
+  of.model.nominal.chain.tool_m.setZero();
+  std::string text = pose_line(WrittenIn::rapid, of.model.nominal_tool(of.meant), stated, 1, 9) + "\n";
+  text.replace(text.find("t_test"), 6, "tool0");
+  const Program program = read_program(WrittenIn::rapid, text, "p.mod", of.model.nominal.chain);
+  const CorrectedProgram corrected = correct_program(text, program, of.model, {.temperature_celsius = 20.0});
+  EXPECT_EQ(corrected.text, text);
+  ASSERT_FALSE(corrected.warnings.empty());
+  EXPECT_THAT(corrected.warnings.back().sentence, HasSubstr("in the configuration that is stated; this line was not"));
+}
+
 TEST(Configuration, IsNotThatOfAnotherRoutinesLastMotion) {
   const Configured of;
   const JointVector before = of.meant + JointVector::Constant(6, 0.05);
