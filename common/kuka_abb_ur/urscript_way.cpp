@@ -9,25 +9,31 @@
 namespace demecal::inline kuka_abb_ur {
 namespace {
 
-/// What the language itself can do as a statement; none but set_tcp() changes the tool.
+/// What the language itself has before a parenthesis; none but set_tcp() changes the tool.
 bool is_of_the_language(const std::string& word) {
   static const std::string kWords =
-      " assert conveyor_pulse_decode enable_external_ft_sensor encoder_enable_pulse_decode "
-      "encoder_enable_set_tick_count encoder_set_tick_count end_force_mode end_freedrive_mode "
-      "end_screw_driving end_teach_mode enter_critical exit_critical force_mode force_mode_set_damping "
-      "force_mode_set_gain_scaling freedrive_mode ft_rtde_input_enable modbus_add_signal "
-      "modbus_delete_signal modbus_send_custom_command modbus_set_output_register modbus_set_output_signal "
-      "modbus_set_runstate_dependent_choice modbus_set_signal_update_frequency movec movej movel movep optimovej "
-      "optimovel "
-      "path_offset_disable path_offset_enable path_offset_set popup position_deviation_warning powerdown "
-      "protective_stop reset_revolution_counter rtde_set_watchdog screw_driving servoc servoj "
-      "set_analog_out set_configurable_digital_out set_digital_out set_gravity set_payload set_payload_cog "
+      " acos and asin assert atan atan2 binary_list_to_integer ceil conveyor_pulse_decode cos d2r "
+      "enable_external_ft_sensor encoder_enable_pulse_decode encoder_enable_set_tick_count "
+      "encoder_set_tick_count end_force_mode end_freedrive_mode end_screw_driving end_teach_mode "
+      "enter_critical exit_critical exp floor force force_mode force_mode_set_damping "
+      "force_mode_set_gain_scaling freedrive_mode ft_rtde_input_enable integer_to_binary_list "
+      "interpolate_pose inv join kill length log make_list modbus_add_signal modbus_delete_signal "
+      "modbus_send_custom_command modbus_set_output_register modbus_set_output_signal "
+      "modbus_set_runstate_dependent_choice modbus_set_signal_update_frequency movec movej movel movep "
+      "norm not optimovej optimovel path_offset_disable path_offset_enable path_offset_set point_dist "
+      "popup position_deviation_warning pow powerdown protective_stop r2d random reset_revolution_counter "
+      "return rpc_factory rtde_set_watchdog run screw_driving servoc servoj set_analog_out "
+      "set_configurable_digital_out set_digital_out set_gravity set_payload set_payload_cog "
       "set_payload_mass set_standard_analog_out set_standard_digital_out set_target_payload set_tcp "
-      "set_tool_digital_out set_tool_voltage sleep socket_close socket_open socket_send_line "
-      "socket_send_string socket_set_var speedj speedl stop_conveyor_tracking stopj stopl sync teach_mode "
-      "textmsg track_conveyor_circular track_conveyor_linear write_output_boolean_register "
-      "write_output_float_register write_output_integer_register zero_ftsensor ";
-  return kWords.find(' ' + word + ' ') != std::string::npos;
+      "set_tool_digital_out set_tool_voltage sin size sleep socket_close socket_open socket_send_line "
+      "socket_send_string socket_set_var speedj speedl sqrt stop_conveyor_tracking stopj stopl struct sync "
+      "tan teach_mode textmsg time tool_contact tool_contact_examples track_conveyor_circular "
+      "track_conveyor_linear transpose wrench_trans write_output_boolean_register "
+      "write_output_float_register write_output_integer_register xor zero_ftsensor ";
+  constexpr std::array<std::string_view, 9> kFamilies{"get_",    "is_",  "modbus_", "pose_", "read_",
+                                                      "socket_", "str_", "to_",     "rtde_"};
+  return kWords.find(' ' + word + ' ') != std::string::npos ||
+         std::ranges::any_of(kFamilies, [&](std::string_view family) { return word.starts_with(family); });
 }
 
 /// Statements behind which the arm stands where no target says.
@@ -60,7 +66,7 @@ void UrScriptWay::read_word(std::size_t begin, std::size_t end) {
   const std::string before = word_before(begin);
   if (before == "def" || before == "thread" || before == "sec") return;
   if (before == "run") return flow_.call_at_any_time(word);
-  read_call(begin, end, is_statement(begin) && !is_of_the_language(word));
+  read_call(begin, end);
 }
 
 bool UrScriptWay::read_control(std::string_view word, std::size_t begin, std::size_t end) {
@@ -125,7 +131,7 @@ void UrScriptWay::read_calls(std::size_t begin, std::size_t end) {
     if (!text_.begins_word(begin)) continue;
     const std::size_t word_end = text_.word_end(begin);
     if (text_.next(word_end) == '(') {
-      read_call(begin, word_end, false);
+      read_call(begin, word_end);
       begin = std::max(begin, read_up_to_);
     } else {
       begin = word_end - 1;
@@ -133,22 +139,17 @@ void UrScriptWay::read_calls(std::size_t begin, std::size_t end) {
   }
 }
 
-/// NAME(...), made behind what its arguments call; where it is `stated`, NAME may be a function that is not in the
-/// files.
-void UrScriptWay::read_call(std::size_t begin, std::size_t end, bool stated) {
+/// NAME(...), made behind what its arguments call; NAME may be a function that is not in the files, but no part of
+/// something else.
+void UrScriptWay::read_call(std::size_t begin, std::size_t end) {
   const std::string name(text_.code().substr(begin, end - begin));
   const std::size_t open = text_.skip_spaces(end), close = urscript_close(text_, open).value_or(open);
   read_calls(open + 1, close);
-  if (stated) calls_[close] = name + "()";
-  flow_.call(close, name, stated);
+  const bool part = begin > 0 && text_.code()[begin - 1] == '.';
+  const bool may_be_elsewhere = !part && !is_of_the_language(name);
+  if (may_be_elsewhere) calls_[close] = name + "()";
+  flow_.call(close, name, may_be_elsewhere);
   read_up_to_ = close;
-}
-
-/// Whether a statement begins there.
-bool UrScriptWay::is_statement(std::size_t begin) const {
-  const std::string_view code = text_.code();
-  const std::size_t last = begin == 0 ? std::string_view::npos : code.find_last_not_of(" \t\r", begin - 1);
-  return last == std::string_view::npos || code[last] == '\n' || code[last] == ':';
 }
 
 StatedFrames UrScriptWay::held(std::size_t begin, bool by_pose) {

@@ -35,10 +35,9 @@ class UrScriptWay {
 
  private:
   bool read_control(std::string_view word, std::size_t begin, std::size_t end);
-  void read_call(std::size_t begin, std::size_t end, bool stated);
+  void read_call(std::size_t begin, std::size_t end);
   void read_calls(std::size_t begin, std::size_t end);
   std::size_t expression_end(std::size_t begin, char sign) const;
-  bool is_statement(std::size_t begin) const;
   std::string word_before(std::size_t begin) const;
 
   const ProgramText& text_;
@@ -47,7 +46,7 @@ class UrScriptWay {
   std::string displaces_;
   std::vector<std::size_t> untold_;           ///< where the arm is moved by no target
   std::vector<bool> open_;                    ///< whether each block that is not ended is a routine
-  std::map<std::size_t, std::string> calls_;  ///< that stand as statements
+  std::map<std::size_t, std::string> calls_;  ///< that may be of functions elsewhere
   std::set<std::size_t> believed_;            ///< calls that a tool was believed through
 };
 

@@ -132,6 +132,8 @@ TEST(UrScriptFlow, SaysWhichFunctionsItCannotSee) {
   const auto said = remarks(tcp(1) + "gripper_open(3)\n" + kLineTo);
   ASSERT_THAT(said, SizeIs(1));
   EXPECT_THAT(said[0].sentence, HasSubstr("gripper_open() is not in the files given"));
+  EXPECT_THAT(remarks(tcp(1) + "if attach(2) and not (get_x() > norm(v)):\nstop()\nend\n" + kLineTo), SizeIs(1));
+  EXPECT_THAT(remarks(tcp(1) + "x = sin(get_x()) + rpc.attach(3)\n" + kLineTo), IsEmpty());
   EXPECT_THAT(remarks("gripper_open(3)\n" + tcp(1) + kLineTo), IsEmpty());
 }
 
