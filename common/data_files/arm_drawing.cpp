@@ -1,12 +1,19 @@
 #include "data_files/robot_file.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/drawn_arm.hpp"
+#include "yaml/yaml_node.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "data/text.hpp"

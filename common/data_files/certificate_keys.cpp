@@ -1,8 +1,16 @@
+#include "data/certificate_fields.hpp"
 #include "data_files/data_set_file.hpp"
+#include "yaml/yaml_node.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinematics/units.hpp"

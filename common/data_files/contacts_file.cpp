@@ -1,7 +1,16 @@
+#include "data/columns.hpp"
+#include "data/contacts.hpp"
+#include "data/data_set.hpp"
 #include "data_files/data_set_file.hpp"
+#include "yaml/yaml_node.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <ranges>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 

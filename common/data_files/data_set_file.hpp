@@ -8,6 +8,7 @@
 
 #include "data/certificate_fields.hpp"
 #include "data/columns.hpp"
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "yaml/yaml_node.hpp"
 

@@ -1,12 +1,17 @@
 #include "data_files/robot_file.hpp"
+#include "parsed_programs/program.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "data/text.hpp"

@@ -1,10 +1,21 @@
+#include "data/columns.hpp"
+#include "data/csv.hpp"
+#include "data/read_poses.hpp"
 #include "data_files/pose_files.hpp"
+#include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
+#include "yaml/yaml_node.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"

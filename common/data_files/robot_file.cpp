@@ -1,8 +1,10 @@
 #include "data_files/robot_file.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -16,6 +18,7 @@
 #include "kinematics/drawn_arm.hpp"
 #include "kinematics/units.hpp"
 #include "symbolic/parse_expression.hpp"
+#include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 

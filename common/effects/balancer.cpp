@@ -1,4 +1,5 @@
 // What a balance spring does to the joint that it relieves, where the robot's file says how it hangs.
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,6 @@
 #include "effects/weight_parts.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>

@@ -1,6 +1,7 @@
 // The correction of a program: every target is sent to where the real robot then reaches what was meant.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>

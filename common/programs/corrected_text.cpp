@@ -2,12 +2,15 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "errors/check.hpp"
+#include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "programs/correct_program.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal::inline programs {
 

@@ -1,7 +1,12 @@
+#include "effects/arm_state.hpp"
+#include "kinematics/inverse.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "programs/target_correction.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>

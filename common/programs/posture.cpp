@@ -1,3 +1,4 @@
+#include "kinematics/chain.hpp"
 #include "programs/configuration.hpp"
 
 #include <Eigen/Core>
@@ -6,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "kinematics/forward.hpp"
 

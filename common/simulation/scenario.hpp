@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
 #include "simulation/truth.hpp"

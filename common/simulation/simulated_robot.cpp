@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "data/contacts.hpp"
 #include "random/random_purpose.hpp"
 #include "simulation/stance.hpp"
 #include "simulation/touching.hpp"

@@ -1,10 +1,13 @@
 #include "simulation/touching.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"

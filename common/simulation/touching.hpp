@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "random/random_stream.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/simulated_robot.hpp"

@@ -83,6 +83,7 @@ struct ExpressionNode {
 class Algebra {
  public:
   Algebra() = default;
+  ~Algebra() = default;
   Algebra(const Algebra&) = delete;
   Algebra& operator=(const Algebra&) = delete;
 
