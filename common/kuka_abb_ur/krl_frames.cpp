@@ -81,6 +81,13 @@ bool is_line(const std::string& word) {
 
 KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    const auto data = data_of_.find(text.word_at(begin));
+    if (data == data_of_.end() || text.next(end) != '.') return;
+    const std::size_t sign = text.skip_spaces(text.word_end(text.skip_spaces(text.skip_spaces(end) + 1)));
+    if (text.next(sign) == '=' && text.next(sign + 1) != '=')
+      data->second.unknown = data->first + " is changed when the program runs";
+  });
   const std::string_view code = text.code();
   std::size_t file = text.source().files().size();
   for (std::size_t begin = 0; begin < code.size();) {
@@ -104,6 +111,9 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
     const std::size_t close = std::min(code.find(']', next), code.size());
     const auto number = cell_at(code, next + 1, close - std::min(close, next + 1), {});
     std::size_t sign = text_.skip_spaces(std::min(close + 1, code.size()));
+    const char before = begin == 0 ? ' ' : code[std::min(code.find_last_not_of(" \t", begin - 1), begin - 1)];
+    const bool handed_on = (before == '(' || before == ',') && (text_.next(sign) == ')' || text_.next(sign) == ',');
+    if (handed_on) changed_.insert({word == "tool_data", number ? frame_number(number->value) : kAnyNumber});
     const bool part = text_.next(sign) == '.';
     if (part) sign = text_.skip_spaces(text_.word_end(text_.skip_spaces(sign + 1)));
     if (text_.next(sign) != '=' || text_.next(text_.skip_spaces(sign) + 1) == '=') return;
@@ -190,6 +200,7 @@ void KrlFrames::read_bas(std::size_t begin, std::size_t open) {
   const std::size_t hash = text_.skip_spaces(text_.skip_spaces(open) + 1);
   if (text_.next(hash) != '#') return;
   const std::string word = text_.word_at(hash + 1);
+  if (word == "ex_base") return flow_.set_frame(begin, KnownFrame::computed("the base of BAS"));
   if (word != "tool" && word != "base") return;
   const std::size_t comma = text_.skip_spaces(text_.word_end(text_.skip_spaces(hash + 1)));
   const std::size_t close = std::min(code.find(')', comma), code.size());
@@ -222,6 +233,14 @@ void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
   const std::string word = lower_case(text_.code().substr(begin, end - begin));
   if (word == "$tool" || word == "$base") return read_assignment(word == "$tool", begin, end);
   if (word == "bas") return read_bas(begin, end);
+  if (word == "$ipo_mode" && text_.next(end) == '=')
+    tool_beside_ = tool_beside_ ||
+                   !lower_case(text_.code().substr(text_.skip_spaces(text_.skip_spaces(end) + 1))).starts_with("#base");
+  if (word == "$robroot" && text_.next(end) != ',') flow_.set_frame(begin, KnownFrame::computed("$ROBROOT"));
+  if (word == "fdat_act" && text_.next(end) == '.') {
+    flow_.set_tool(begin, KnownFrame::computed("the tool of FDAT_ACT"));
+    flow_.set_frame(begin, KnownFrame::computed("the base of FDAT_ACT"));
+  }
   if (word == "fdat_act" && text_.next(end) == '=') {
     const std::string name = text_.word_at(text_.skip_spaces(end) + 1);
     const auto data = data_of_.find(name);
@@ -236,7 +255,14 @@ void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
 StatedFrames KrlFrames::held(std::size_t begin, bool by_pose) {
   const FrameFlow::Held found = flow_.at(begin);
   if (found.call && by_pose) believed_.insert(*found.call);
-  return found.frames;
+  StatedFrames frames = found.frames;
+  for (const With& with : with_) {
+    if (begin < with.begin || begin >= with.end) continue;
+    (with.of_tool ? frames.unknown_tool : frames.unknown_frame) =
+        std::string(with.of_tool ? "$TOOL" : "$BASE") + " is set for this motion by WITH, which is not followed";
+  }
+  if (tool_beside_) frames.unknown_tool = "the tool may stand beside the robot ($IPO_MODE)";
+  return frames;
 }
 
 void KrlFrames::complete(Target& target) {

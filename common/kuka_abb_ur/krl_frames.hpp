@@ -40,6 +40,7 @@ class KrlFrames {
   bool read_routine(const std::string& word, std::size_t begin, std::size_t next, std::size_t line_end);
   bool read_control(const std::string& word, std::size_t end, std::size_t next);
   void read_call(const std::string& word, std::size_t begin, std::size_t end, bool statement);
+  void read_with(const std::string& word, std::size_t statement, std::size_t end, const std::string& what);
   void read_statement(std::size_t begin, std::size_t end);
   StatedFrames held(std::size_t begin, bool by_pose);
   void read_assignment(bool of_tool, std::size_t begin, std::size_t next);
@@ -57,6 +58,13 @@ class KrlFrames {
   std::set<std::pair<bool, int>> changed_;       ///< of tools or not, and by number: those that statements change
   std::map<std::string, FrameNumbers> data_of_;  ///< by the FDAT's name
   FrameFlow flow_{"$TOOL", "$BASE"};
+  /// Bytes of motions for which alone a WITH sets tool or base.
+  struct With {
+    std::size_t begin, end;
+    bool of_tool;
+  };
+  std::vector<With> with_;
+  bool tool_beside_ = false;                  ///< $IPO_MODE may let it stand beside the robot
   std::map<std::size_t, std::string> calls_;  ///< of routines, where they stand
   std::set<std::size_t> believed_;            ///< calls that targets' frames were believed through
   std::map<std::string, std::vector<TargetUse>> uses_;

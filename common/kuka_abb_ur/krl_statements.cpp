@@ -53,10 +53,22 @@ void KrlStatements::read_motion(std::size_t begin, std::size_t end) {
     read_destination(begin, std::min(text_.skip_spaces(at), line_end), line_end, points == 1);
 }
 
+/// Whether ":" follows the aggregate that begins there; its target is then none.
+bool KrlStatements::is_part_of_sum(std::size_t begin, std::size_t line_end) {
+  if (code_[begin] != '{') return false;
+  const std::size_t close = std::min(code_.find('}', begin), line_end),
+                    after = text_.skip_spaces(std::min(close + 1, line_end));
+  if (after >= line_end || code_[after] != ':') return false;
+  for (Target& target : program_.targets) {
+    if (target.begin() > begin && target.begin() < close) target.not_sent_to = "it is part of a sum (:)";
+  }
+  return true;
+}
+
 /// A point that the motion at `motion` goes to (`last`) or only by.
 void KrlStatements::read_destination(std::size_t motion, std::size_t begin, std::size_t line_end, bool last) {
   if (last) moved_mm_ = 0.0;
-  if (begin >= line_end || is_point(begin)) return;
+  if (begin >= line_end || (is_point(begin) && !is_part_of_sum(begin, line_end))) return;
   const std::size_t stop = std::min(next_krl_argument(code_, begin, line_end) - 1, line_end);
   const std::size_t name_end = after_index(text_.word_end(begin), line_end), after = text_.skip_spaces(name_end);
   const bool whole = after >= stop || (text_.begins_word(after) && after > name_end);

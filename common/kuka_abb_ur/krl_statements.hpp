@@ -41,6 +41,7 @@ class KrlStatements {
   bool is_declaration(const Place& place) const;
   /// Whether the aggregate at `begin` gives a point all its numbers.
   bool is_point(std::size_t begin) const;
+  bool is_part_of_sum(std::size_t begin, std::size_t line_end);
   bool is_destination(const Place& place) const;
   bool is_copied(const Place& place) const;
 

@@ -27,6 +27,8 @@ void KrlFrames::read_line(std::size_t begin, std::size_t end) {
   if (read_routine(word, begin, next, end)) return;
   const bool deferred = word == "interrupt" || word == "trigger";
   const std::size_t statement = begin;
+  const bool moves = points_of_krl_motion(word) > 0 || word == "spline";
+  bool with = false;
   for (std::size_t at = begin; at < end; ++at) {
     if (!text_.begins_word(at)) continue;
     const std::size_t word_end = std::min(text_.word_end(at), end);
@@ -34,10 +36,23 @@ void KrlFrames::read_line(std::size_t begin, std::size_t end) {
     const bool opens = text_.next(word_end) == '(' && text_.skip_spaces(word_end) < end;
     if (opens && deferred) flow_.call_at_any_time(called);
     if (opens && !deferred) read_call(called, at, word_end, at == statement);
-    read_statement(at, word_end);
+    with = with || (moves && called == "with");
+    if (!with || (called != "$tool" && called != "$base")) {
+      read_statement(at, word_end);
+    } else {
+      read_with(word, statement, end, called);
+    }
     at = word_end - 1;
   }
   read_control(word, end, next);
+}
+
+/// SLIN XP1 WITH $TOOL=..: for this motion alone; SPLINE WITH ..: up to ENDSPLINE.
+void KrlFrames::read_with(const std::string& word, std::size_t statement, std::size_t end, const std::string& what) {
+  const std::string all = word == "spline" ? lower_case(text_.code().substr(end)) : "";
+  const std::size_t block = all.find("endspline");
+  const std::size_t stop = word != "spline" ? end : block == std::string::npos ? text_.code().size() : end + block;
+  with_.push_back({statement, stop, what == "$tool"});
 }
 
 /// DEF and END, and what is no statement.

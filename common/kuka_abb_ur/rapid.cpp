@@ -64,6 +64,7 @@ class RapidReader {
     for (Target& target : program_.targets) complete(frames, target);
     const RapidStatements statements(text_, program_);
     end_at_rapid_routines(text_, program_);
+    forget_stated_configurations(text_, program_);
     if (!frames.has_motions() && std::any_of(program_.targets.begin(), program_.targets.end(),
                                              [](const Target& target) { return target.is_pose(); }))
       program_.remarks.push_back({kWholeProgram, "",

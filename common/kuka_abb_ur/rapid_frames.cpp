@@ -103,11 +103,16 @@ void RapidFrames::forget_assigned(const std::string& word, std::size_t begin, st
   const std::string_view rest = code.substr(text_.skip_spaces(end));
   const bool argument_name = begin > 0 && code[begin - 1] == '\\';  // such as \WObj:=
   if (!argument_name && (rest.starts_with(":=") || rest.starts_with('.'))) changed_.insert(word);
+  if (word == "setdataval") {  // by names that may be computed
+    for (const auto* data : {&tools_, &frames_}) {
+      for (const auto& [name, frame] : *data) changed_.insert(name);
+    }
+  }
   if (!changers_.contains(word)) return;
   const std::size_t stop = std::min(code.find(';', end), code.size());
   for (std::size_t at = end; at < stop; ++at) {
     if (!text_.begins_word(at)) continue;
-    changed_.insert(text_.word_at(at));
+    if (const std::string name = text_.word_at(at); name != "tool0" && name != "wobj0") changed_.insert(name);
     at = text_.word_end(at) - 1;
   }
 }

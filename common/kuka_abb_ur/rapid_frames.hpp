@@ -42,7 +42,8 @@ class RapidFrames {
   std::set<std::size_t> declared_;               ///< where the names of declarations stand
   std::set<std::string> changed_;                ///< names that are given anything when the program runs
   /// Procedures that may change the tool or work object that they are handed.
-  std::set<std::string> changers_{"mtooltcpcalib", "mtoolrotcalib", "stooltcpcalib", "stoolrotcalib"};
+  std::set<std::string> changers_{"mtooltcpcalib", "mtoolrotcalib", "stooltcpcalib", "stoolrotcalib", "getsysdata",
+                                  "strtoval",      "readanybin",    "rmqgetmsgdata", "unpackrawbytes"};
   std::map<std::string, std::vector<TargetUse>> uses_;
   struct Held {
     std::size_t begin, end;  ///< of a motion's targets

@@ -78,6 +78,19 @@ std::vector<TextRange> displaced_by_pdisp(const ProgramText& text) {
   return ranges;
 }
 
+void forget_stated_configurations(const ProgramText& text, Program& program) {
+  bool off = false;
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    const std::string word = text.word_at(begin);
+    if (word != "confj" && word != "confl") return;
+    const std::size_t option = text.skip_spaces(end);
+    off = off || (text.next(option) == '\\' && text.word_at(option + 1) == "off");
+  });
+  for (Target& target : program.targets) {
+    if (off) target.hint = {};
+  }
+}
+
 void end_at_rapid_routines(const ProgramText& text, Program& program) {
   const auto name_after = [&](const std::string& word, std::size_t end) -> std::size_t {
     const std::size_t next = text.skip_spaces(end);

@@ -28,6 +28,9 @@ struct TextRange {
 /// all of the program.
 std::vector<TextRange> displaced_by_pdisp(const ProgramText& text);
 
+/// Where ConfJ \Off or ConfL \Off stands in the program, robots need not take the configurations that targets state.
+void forget_stated_configurations(const ProgramText& text, Program& program);
+
 /// Tells `program`, whose motions are known, where its routines end what is known of the arm.
 void end_at_rapid_routines(const ProgramText& text, Program& program);
 

@@ -45,7 +45,7 @@ class FanucReader {
   }
 
   Program read() {
-    const std::size_t instructions = section("/mn"), positions = section("/pos");
+    const std::size_t instructions = fanuc_section(text_, "/mn"), positions = fanuc_section(text_, "/pos");
     if (instructions < positions) motions_.read(text_, instructions, positions, changes_);
     for (const std::size_t begin : motions_.to_registers())
       skip_target(program_, {.name = "", .place = text_.place(begin)},
@@ -56,6 +56,10 @@ class FanucReader {
     }
     changes_.mark(program_.targets);
     end_at_motions_elsewhere();
+    for (Target& target : program_.targets) {
+      if (target.is_pose() && tracks_a_line(text_))
+        target.frames.unknown_frame = "it may move with a line that is tracked";
+    }
     return std::move(program_);
   }
 
@@ -74,17 +78,6 @@ class FanucReader {
           skip_target(program_, {.name = name, .place = text_.place(use.begin)}, "it is not given in this file");
       }
     }
-  }
-
-  /// Past the line that is this section's heading; the end where there is none.
-  std::size_t section(std::string_view heading) const {
-    for (std::size_t begin = 0; begin < code_.size();) {
-      const std::size_t end = std::min(code_.find('\n', begin), code_.size());
-      std::size_t first = begin;
-      if (lower_case(text_.trimmed(first, end)) == heading) return end;
-      begin = end + 1;
-    }
-    return code_.size();
   }
 
   /// Reads P[n]{...}, whose bracket opens at `open`; returns the last byte that was read.

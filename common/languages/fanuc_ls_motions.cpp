@@ -57,6 +57,29 @@ void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, C
 
 }  // namespace
 
+std::size_t fanuc_section(const ProgramText& text, std::string_view heading) {
+  const std::string_view code = text.code();
+  for (std::size_t begin = 0; begin < code.size();) {
+    const std::size_t end = std::min(code.find('\n', begin), code.size());
+    std::size_t first = begin;
+    if (lower_case(text.trimmed(first, end)) == heading) return end;
+    begin = end + 1;
+  }
+  return code.size();
+}
+
+bool tracks_a_line(const ProgramText& text) {
+  bool tracks = false;
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    const std::string word = text.word_at(begin);
+    if (word == "settrig" || (word == "line" && text.next(end) == '[')) tracks = true;
+    if (word != "line_track_schedule_number") return;
+    const char number = text.next(text.skip_spaces(end) + 1);  // behind the colon
+    tracks = tracks || (number != '0' && number != ';');
+  });
+  return tracks;
+}
+
 int position_number(const ProgramText& text, std::size_t open) {
   constexpr double kMost = 1e6;
   std::size_t begin = open + 1;

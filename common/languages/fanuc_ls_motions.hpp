@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "parsed_programs/changed_names.hpp"
@@ -13,6 +14,12 @@
 #include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
+
+/// Past the line that is this section's heading; the end where there is none.
+std::size_t fanuc_section(const ProgramText& text, std::string_view heading);
+
+/// Whether the program tracks a line: by its header, LINE[..] or SETTRIG.
+bool tracks_a_line(const ProgramText& text);
 
 class FanucMotions {
  public:

@@ -30,7 +30,8 @@ constexpr std::size_t kPositionNumbers = 6;
 /// "C3" of C00003 and of C0003; empty where the word names no position of the arm.
 std::string position_name(std::string_view word) {
   constexpr std::size_t kMostDigits = 9;
-  const std::string name = lower_case(word);
+  std::string name = lower_case(word);
+  if (name.starts_with("px")) name.erase(1, 1);  // the name of P with its external axes
   const bool named = name.size() > 1 && name.size() <= kMostDigits + 1 &&
                      (name.front() == 'c' || name.front() == 'p') &&
                      std::all_of(name.begin() + 1, name.end(), is_digit);
@@ -53,6 +54,7 @@ class JobReader {
   }
 
   Program read() {
+    shifts_ = always_shifts_ = may_shift_anywhere();
     for (std::size_t begin = 0; begin < code_.size();) {
       const std::size_t end = std::min(code_.find('\n', begin), code_.size());
       read_line(begin, end);
@@ -170,11 +172,23 @@ class JobReader {
     set_frame(target.frames, {name, Eigen::Isometry3d::Identity(), name + " is not given in this file"});
   }
 
+  /// Whether the job shifts motions and does not only go from line to line.
+  bool may_shift_anywhere() const {
+    bool shifts = false, turns = false;
+    text_.for_each_word([&](std::size_t begin, std::size_t end) {
+      const std::string word = lower_case(code_.substr(begin, end - begin));
+      shifts = shifts || word == "sfton";
+      turns = turns || word == "jump" || word == "ifthen" || word == "call" || word == "while" || word == "for";
+    });
+    return shifts && turns;
+  }
+
   /// An instruction with the positions that it names.
   void read_instruction(std::size_t begin, std::size_t end) {
     const std::string word = lower_case(code_.substr(begin, text_.word_end(begin) - begin));
     if (word == "sfton") shifts_ = true;
-    if (word == "sftof") shifts_ = false;
+    if (word == "sftof") shifts_ = always_shifts_;
+    if (word == "settool" || word == "mframe") changes_of_controller_ = word;
     const bool motion = word.starts_with("mov"), coordinated = word.starts_with("smov"), relative = word == "imov";
     bool named = false;
     for (std::size_t at = begin; at < end; ++at) {
@@ -213,6 +227,9 @@ class JobReader {
       Uses& uses = uses_[position.key];
       uses.given = true;
       if (position.why.empty()) position.why = uses.why;
+      const bool kept = !target.frames.tool_name.empty() || target.frames.tool || !target.frames.frame.empty();
+      if (position.why.empty() && !changes_of_controller_.empty() && kept)
+        position.why = "the job changes the controller's tools or user frames (" + changes_of_controller_ + ')';
       if (position.why.empty() && several_robots_) position.why = "the job moves several robots";
       if (position.why.empty() && uses.motions.empty() && position.key.starts_with('P'))
         position.why = "no motion of this job goes to it";
@@ -247,7 +264,9 @@ class JobReader {
   const ControllerData& controller_;
   Program program_;
   JobSetting setting_;
-  bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false, shifts_ = false;
+  bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false, shifts_ = false,
+       always_shifts_ = false;
+  std::string changes_of_controller_;  ///< the instruction that does
   std::vector<Position> positions_;
   std::map<std::string, Uses> uses_;  ///< by position_name
 };

@@ -1,6 +1,7 @@
 #include "staubli_kawasaki/location_frames.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -17,6 +18,12 @@ std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t en
     at = std::min(text.word_end(at), end) - 1;
   }
   return end;
+}
+
+/// Instructions behind which the arm stands where no location says.
+bool moves_untold(const std::string& word) {
+  constexpr std::array<std::string_view, 7> kWords{"drive", "draw", "tdraw", "home", "home2", "align", "ready"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
 LocationFrames::Word word_of(const std::string& unknown) {
@@ -48,12 +55,13 @@ void LocationFrames::read_line(const ProgramText& text, std::size_t begin, std::
 
 void LocationFrames::read_way(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end) {
   using Block = FrameFlow::Block;
+  if (moves_untold(word)) untold_[begin] = word;
   if (word == "if" && find_word(text, begin, end, "then") < end) return flow_.open(begin, Block::branch);
-  if (word == "case") return flow_.open(begin, Block::selection);
+  if (word == "case" || word == "scase") return flow_.open(begin, Block::selection);
   if (word == "while" || word == "for") return flow_.open(begin, Block::loop);
   if (word == "do") return flow_.open(begin, Block::repeated);
   if (word == "else" || word == "any") return flow_.alternative(begin, true);
-  if (word == "value") return flow_.alternative(begin, false);
+  if (word == "value" || word == "svalue" || word == "elseif") return flow_.alternative(begin, false);
   if (word == "end" || word == "until") return flow_.close(begin);
   if (word == "exit") return flow_.leave_loop(begin);
   if (word == "return") return flow_.leave_routine(begin);
@@ -62,7 +70,12 @@ void LocationFrames::read_way(const ProgramText& text, const std::string& word, 
     const bool conditional = find_word(text, begin, end, "if") < end;
     return flow_.jump(begin, program_name(text, text.skip_spaces(text.word_end(to))), !conditional);
   }
-  const bool reacts = word.starts_with("react") || word == "oni" || word == "onenab";
+  const bool reacts = word.starts_with("react") || word == "on" || word == "oni" || word == "onenab";
+  if (word == "pcexecute") {
+    const std::size_t colon = std::min(text.code().find(':', begin), end);
+    const std::size_t name = colon < end ? colon + 1 : text.word_end(begin);
+    return flow_.call_at_any_time(program_name(text, text.skip_spaces(name)));
+  }
   if (reacts) {
     const std::size_t comma = std::min(text.code().find(',', begin), end);
     const std::size_t name = called < end ? text.word_end(called) : std::min(comma + 1, end);
@@ -85,6 +98,10 @@ LocationFrames::Words LocationFrames::at(std::size_t offset, bool of_pose) {
 }
 
 void LocationFrames::note_routines(const ProgramText& text, Program& program) const {
+  for (const auto& [at, word] : untold_) {
+    note_unknown_motion(program, at, {.name = "", .place = text.place(at)},
+                        "the motion of " + word + " goes to no location of this program");
+  }
   flow_.end_at_ways(program);
   if (believed_) note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
 }

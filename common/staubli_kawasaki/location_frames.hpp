@@ -50,6 +50,7 @@ class LocationFrames {
 
   FrameFlow flow_{"TOOL", "BASE"};
   std::map<std::size_t, std::string> calls_{};
+  std::map<std::size_t, std::string> untold_{};  ///< motions without a location
   bool believed_ = false;
 };
 

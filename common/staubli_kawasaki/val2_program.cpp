@@ -82,6 +82,9 @@ void Val2Statements::read_line(std::size_t begin, std::size_t end) {
   const std::size_t argument = std::min(text_.skip_spaces(word_end), end);
   if (is_motion_of_val2(word)) return read_motion(word, begin, argument, end);
   if (word == "set") return read_set(argument, end);
+  constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "flip", "noflip"};
+  if (std::find(kConfigurations.begin(), kConfigurations.end(), word) != kConfigurations.end())
+    sets_configuration_ = word;
   if (word == "here") return changes_.recorded(location_name(text_, argument, end), begin);
   if (word != "tool" && word != "base") return;
   std::string named = lower_case(code.substr(word_end, end - word_end));
@@ -196,6 +199,11 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
     take_uses(uses, target);
   }
   changes_.mark(program.targets);
+  for (Target& target : program.targets) {
+    if (sets_configuration_.empty() || !target.is_pose() || !target.not_sent_to.empty()) continue;
+    target.not_sent_to =
+        "the program sets the arm's configuration (" + sets_configuration_ + "), and where it holds is not followed";
+  }
   for (const Approach& approach : approaches_)
     note_offset(program, text_.place(approach.begin), approach.name, approach.distance_mm);
   for (const auto& [begin, what] : computed_) {

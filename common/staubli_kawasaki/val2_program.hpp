@@ -53,6 +53,7 @@ class Val2Statements {
   };
   std::vector<Approach> approaches_{};
   std::vector<std::pair<std::size_t, std::string>> computed_{};  ///< destinations that are no locations
+  std::string sets_configuration_{};                             ///< an instruction that does
 };
 
 }  // namespace demecal::inline staubli_kawasaki

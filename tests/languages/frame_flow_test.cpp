@@ -224,5 +224,74 @@ TEST(RapidFrames, OfDataThatProceduresMayChangeAreComputed) {
   EXPECT_THAT(unknown("MToolTCPCalib j1,j2,j3,j4,t,err;\n"), HasSubstr("is computed"));
 }
 
+/// Why the tool of each target is not known, or its frame; empty where both are.
+std::vector<std::string> unknown_of(WrittenIn language, const std::string& text) {
+  std::vector<std::string> found;
+  for (const Target& target : read_program(language, text, "p", wrist_arm()).targets)
+    found.push_back(target.frames.unknown_tool + target.frames.unknown_frame + target.not_sent_to);
+  return found;
+}
+
+TEST(KrlFrames, OfWithHoldForTheirMotionAlone) {
+  const std::string line = kLine.substr(0, kLine.size() - 1);
+  EXPECT_THAT(unknown_of(WrittenIn::krl, base_of(1) + line + " WITH $BASE={X 7,Y 0,Z 0,A 0,B 0,C 0}\n" + kLine),
+              ::testing::ElementsAre(HasSubstr("by WITH"), IsEmpty()));
+  EXPECT_THAT(unknown_of(WrittenIn::krl,
+                         base_of(1) + "SPLINE WITH $TOOL=f(1)\nSPL {X 1,Y 0,Z 0,A 0,B 0,C 0}\nENDSPLINE\n" + kLine),
+              ::testing::ElementsAre(HasSubstr("by WITH"), IsEmpty()));
+}
+
+TEST(KrlFrames, AreUnknownWhereTheControllerChangesThem) {
+  const auto only = [](const std::string& text) { return unknown_of(WrittenIn::krl, text).at(0); };
+  EXPECT_THAT(only(base_of(1) + kLine), IsEmpty());
+  EXPECT_THAT(only(base_of(1) + "$IPO_MODE=#TCP\n" + kLine), HasSubstr("$IPO_MODE"));
+  EXPECT_THAT(only(base_of(1) + "$IPO_MODE=#BASE\n" + kLine), IsEmpty());
+  EXPECT_THAT(only(base_of(1) + "BAS(#EX_BASE,1)\n" + kLine), HasSubstr("is computed"));
+  const std::string data = "FDAT FP1={TOOL_NO 0,BASE_NO 0,IPO_FRAME #BASE}\n", act = "FDAT_ACT=FP1\n";
+  EXPECT_THAT(only(data + act + kLine), IsEmpty());
+  EXPECT_THAT(only(data + act + "FDAT_ACT.TOOL_NO=2\n" + kLine), HasSubstr("is computed"));
+  EXPECT_THAT(only(data + "FP1.TOOL_NO=2\n" + act + kLine), HasSubstr("is changed"));
+  EXPECT_THAT(only("BASE_DATA[1]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nchange(BASE_DATA[1])\n$BASE=BASE_DATA[1]\n" + kLine),
+              HasSubstr("is computed"));
+  EXPECT_THAT(only(kLine.substr(0, kLine.size() - 1) + ":f\n"), HasSubstr("part of a sum"));
+}
+
+TEST(RapidConfigurations, AreNotBelievedWhereTheyAreOff) {
+  const auto quadrants = [](const std::string& statement) {
+    const std::string text = "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,1,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n" +
+                             statement + "MoveL p,v1,fine,tool0;\n";
+    return read_program(WrittenIn::rapid, text, "p", wrist_arm()).targets.at(0).hint.quadrants;
+  };
+  EXPECT_THAT(quadrants("ConfL\\On;\n"), SizeIs(6));
+  EXPECT_THAT(quadrants("ConfL\\Off;\n"), IsEmpty());
+}
+
+TEST(OtherFrames, AreUnknownWhereInstructionsMoveThem) {
+  const std::string as = ".TRANS\np 1 2 3 4 5 6\nta 0 0 9 0 0 0\n.END\n.PROGRAM s()\n TOOL ta\n.END\n.PROGRAM a()\n";
+  EXPECT_THAT(unknown_of(WrittenIn::kawasaki_as, as + " TOOL ta\n ON 5 CALL s\n LMOVE p\n.END\n"),
+              ::testing::Contains(HasSubstr("at any time")));
+  EXPECT_THAT(
+      unknown_of(WrittenIn::kawasaki_as, as + " TOOL ta\n SCASE $x OF\n SVALUE \"b\":\n TOOL\n END\n LMOVE p\n.END\n"),
+      ::testing::Contains(HasSubstr("depends on the path")));
+  const std::string job = "//POS\n///POSTYPE BASE\n///RECTAN\nC00001=1,2,3,4,5,6\nP00002=1,2,3,4,5,6\n//INST\nNOP\n";
+  EXPECT_THAT(unknown_of(WrittenIn::yaskawa_jbi, job + "MOVL C00001\nMOVL P002\nEND\n"), SizeIs(2));
+  EXPECT_THAT(unknown_of(WrittenIn::yaskawa_jbi, job + "MOVL C00001\nGETS PX002 $PX000\nMOVL P002\nEND\n"), SizeIs(1));
+  EXPECT_THAT(
+      unknown_of(WrittenIn::yaskawa_jbi, job + "JUMP *A IF IN#(1)=ON\nSFTON P002\nSFTOF\n*A\nMOVL C00001\nEND\n"),
+      IsEmpty());
+  const std::string fanuc = "/MN\n  1:L P[1] 9mm/sec FINE ;\n",
+                    at = "/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n X = 1 mm, Y = 1 mm, Z = 1 mm, W = 1 deg, P = 1 deg, R "
+                         "= 1 deg\n};\n/END\n";
+  EXPECT_THAT(unknown_of(WrittenIn::fanuc_ls, fanuc + at), ::testing::ElementsAre(IsEmpty()));
+  EXPECT_THAT(unknown_of(WrittenIn::fanuc_ls, fanuc + "  2:  LINE[1] ON ;\n" + at),
+              ::testing::ElementsAre(HasSubstr("a line that is tracked")));
+  EXPECT_THAT(unknown_of(WrittenIn::val2,
+                         ".LOCATIONS\np 1 0 0 0 1 0 0 0 1 10 20 30\n.END\n.PROGRAM a\n FLIP\n MOVES p\n.END\n"),
+              ::testing::ElementsAre(HasSubstr("configuration (flip)")));
+  const std::string drives = ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n LMOVE p\n DRIVE 5,180\n LMOVE p\n.END\n";
+  EXPECT_THAT(read_program(WrittenIn::kawasaki_as, drives, "p", wrist_arm()).unknown_motions,
+              ::testing::Contains(drives.find("DRIVE")));
+}
+
 }  // namespace
 }  // namespace demecal
