@@ -114,7 +114,7 @@ void end_at_rapid_routines(const ProgramText& text, Program& program) {
     if (begin != own && routines.contains(word)) flow.call(begin, word, false);
   });
   flow.finish();
-  flow.end_at_ways(program);
+  flow.note_unknown_arrivals(program);
 }
 
 RapidStatements::RapidStatements(const ProgramText& text, Program& program)

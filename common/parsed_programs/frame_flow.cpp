@@ -93,7 +93,7 @@ void FrameFlow::call(std::size_t at, const std::string& name, bool is_routine) {
 void FrameFlow::open(std::size_t at, Block kind) {
   const std::size_t node = add(at);
   blocks_.push_back({kind, node, node});
-  blocks_.back().joints = {at};
+  blocks_.back().alternatives = {at};
   if (kind == Block::selection) current_.clear();
 }
 
@@ -102,7 +102,7 @@ void FrameFlow::alternative(std::size_t at, bool takes_all_left) {
     OpenBlock& block = blocks_.back();
     block.ends.insert(block.ends.end(), current_.begin(), current_.end());
     block.complete = block.complete || takes_all_left;
-    block.joints.push_back(at);
+    block.alternatives.push_back(at);
     current_ = {block.skip};
   }
   add(at);
@@ -124,8 +124,8 @@ void FrameFlow::close(std::size_t at) {
     if (block.kind == Block::loop || block.kind == Block::endless) current_.clear();
     if (block.kind == Block::loop || (!loops && !block.complete)) current_.push_back(block.skip);
     current_.insert(current_.end(), block.ends.begin(), block.ends.end());
-    block.joints.push_back(at);
-    if (!loops) branches_.push_back(std::move(block.joints));
+    block.alternatives.push_back(at);
+    if (!loops) branches_.push_back(std::move(block.alternatives));
   }
   add(at);
 }

@@ -65,7 +65,7 @@ class FrameFlow {
   /// Tells `program`, whose motions are known, where the motion before one in the text is not, or not always, the one
   /// that the arm comes from: where a routine begins, where one inside another ends, behind calls of those that move,
   /// and at the alternatives and the end of branches in which it moves.
-  void end_at_ways(Program& program) const;
+  void note_unknown_arrivals(Program& program) const;
   /// The calls of routines of other files.
   std::set<std::size_t> calls_elsewhere() const;
 
@@ -110,7 +110,7 @@ class FrameFlow {
     std::size_t skip;  ///< where the next alternative, or what is behind the block, begins
     std::vector<std::size_t> ends{};
     bool complete = false;
-    std::vector<std::size_t> joints{};  ///< bytes of its alternatives
+    std::vector<std::size_t> alternatives{};  ///< bytes of its begin, alternatives and end
   };
 
   /// A routine that another has interrupted in the text.

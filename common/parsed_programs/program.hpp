@@ -96,7 +96,7 @@ struct Program {
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
   std::vector<Remark> remarks{};       ///< what else should be known before it runs
   /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
-  /// routines that begin, and of calls of those that move.
+  /// routines that begin, of calls of those that move, and where branches in which the arm moves turn or end.
   std::vector<std::size_t> unknown_motions{};
 
   /// The name of a file by its number (TextPlace::file).
