@@ -52,7 +52,7 @@ void set_absorbed(std::vector<DetectableCandidate>& candidates, const FinishedLo
   const RowMatrix terms = loop.model.smooth.columns(fitted);
   const RowMatrix left =
       beyond.unexplained(terms, RowMatrix::Zero(loop.linearization.validation.rows(), terms.cols())).fitted;
-  const Eigen::MatrixXd gram = left.transpose() * left;
+  const Eigen::MatrixXd gram = square_product(left);
   const Eigen::MatrixXd moments = loop.columns.transposed_times(fitted, left);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ColumnSpan& span = loop.columns.spans()[i];

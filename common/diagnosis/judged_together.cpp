@@ -132,7 +132,7 @@ std::vector<Round> judged_together(const LoopEnd& end, const DiagnosedModel& mod
   const NewColumns columns = new_columns(end, linearization, effects);
   const Projection::Trial all = linearization.projection.trial(columns.over_fitted, columns.over_validation);
   const Eigen::VectorXd left = linearization.projection.residual() - all.fitted * all.coefficients;
-  const Eigen::MatrixXd gram = all.fitted.transpose() * all.fitted + all.prior.transpose() * all.prior;
+  const Eigen::MatrixXd gram = square_product(all.fitted) + all.prior.transpose() * all.prior;
   const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
   scaled.diagonal().array() += kNewShare;

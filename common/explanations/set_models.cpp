@@ -79,11 +79,8 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
 void SetModels::project(const RowMatrix& columns, const std::vector<ColumnSpan>& spans) {
   if (columns.cols() == 0) return;
   const Projection& projection = linearization_.projection;
-  Eigen::MatrixXd along = columns.transpose() * projection.basis();
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  if (along.cols() > 0) gram.selfadjointView<Eigen::Lower>().rankUpdate(along, -1.0);
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  const Eigen::MatrixXd along = transposed_product(columns, projection.basis());
+  const Eigen::MatrixXd gram = square_product(columns) - square_product(along.transpose());
   Eigen::Index found = 0;
   for (const ColumnSpan& span : spans) {
     const Eigen::MatrixXd own = gram.block(span.first, span.first, span.count, span.count);

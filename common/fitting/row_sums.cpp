@@ -3,6 +3,10 @@
 #include <Eigen/Dense>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "pieces/pieces.hpp"
 
 namespace demecal::inline fitting {
 namespace {
@@ -31,15 +35,15 @@ void Information::reduce() {
     filled_ = 0;
     return;
   }
-  seen_.noalias() = rows_.topRows(filled_) * basis_;
-  squares_.selfadjointView<Eigen::Lower>().rankUpdate(seen_.transpose());
+  seen_ = product(rows_.topRows(filled_), basis_);
+  squares_ += square_product(seen_);
   gradient_.noalias() += seen_.transpose() * residuals_.head(filled_);
   filled_ = 0;
 }
 
 Eigen::MatrixXd Information::squares() {
   reduce();
-  return squares_.selfadjointView<Eigen::Lower>();
+  return squares_;
 }
 
 Eigen::VectorXd Information::gradient() {
@@ -49,8 +53,7 @@ Eigen::VectorXd Information::gradient() {
 
 TriangularFactor::TriangularFactor(int columns) : stack_(Eigen::MatrixXd::Zero(columns + kFactorRows, columns)) {}
 
-void TriangularFactor::add(
-    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& rows) {
+void TriangularFactor::add(const RowsOf& rows) {
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     if (filled_ == stack_.rows()) reduce();
     stack_.row(filled_++) = rows.row(i);
@@ -72,6 +75,21 @@ void TriangularFactor::reduce() {
 Eigen::MatrixXd TriangularFactor::factor() {
   reduce();
   return stack_.topRows(stack_.cols());
+}
+
+Eigen::MatrixXd triangular_factor(const RowsOf& first, const RowsOf& others) {
+  constexpr Eigen::Index kRowsOfPart = 4096;
+  const auto parts = static_cast<std::size_t>((first.rows() + kRowsOfPart - 1) / kRowsOfPart);
+  const auto columns = static_cast<int>(first.cols());
+  std::vector<TriangularFactor> factors(std::max<std::size_t>(parts, 1), TriangularFactor(columns));
+  in_pieces(parts, [&](std::size_t part) {
+    const Eigen::Index begin = static_cast<Eigen::Index>(part) * kRowsOfPart;
+    factors[part].add(first.middleRows(begin, std::min(kRowsOfPart, first.rows() - begin)));
+    if (part > 0) factors[part].factor();
+  });
+  for (std::size_t part = 1; part < parts; ++part) factors.front().add(factors[part].factor());
+  factors.front().add(others);
+  return factors.front().factor();
 }
 
 }  // namespace demecal::inline fitting

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "fitting/tall_products.hpp"
+
 namespace demecal::inline fitting {
 
 /// Takes weighed rows piece by piece and sums them up over a basis B: B^T J^T W J B and B^T J^T W r. Rows are
@@ -33,9 +35,9 @@ class Information {
   void reduce();
 
   const Eigen::MatrixXd& basis_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;
+  RowMatrix rows_;
   Eigen::VectorXd residuals_;
-  Eigen::MatrixXd seen_;  ///< rows over the basis
+  RowMatrix seen_;  ///< rows over the basis
   Eigen::Index filled_ = 0;
   Eigen::MatrixXd squares_;
   Eigen::VectorXd gradient_;
@@ -48,7 +50,7 @@ class TriangularFactor {
   explicit TriangularFactor(int columns);
 
   /// Adds rows (any number x columns).
-  void add(const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& rows);
+  void add(const RowsOf& rows);
   /// Upper triangular, columns x columns, of the rows added so far.
   Eigen::MatrixXd factor();
 
@@ -58,5 +60,8 @@ class TriangularFactor {
   Eigen::MatrixXd stack_;
   Eigen::Index filled_ = 0;
 };
+
+/// The same of the first rows and then the others, by several threads where the caller has them.
+Eigen::MatrixXd triangular_factor(const RowsOf& first, const RowsOf& others);
 
 }  // namespace demecal::inline fitting

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -172,9 +173,11 @@ FormulaSearch FormulaSearcher::run(double family_error, RandomStream random) {
   if (!found || found->empty() || found->front().gain_nats <= 0.0) return {};
   FormulaSearch result;
   const NullNoise noise(linearization_.fitted, linearization_.projection);
+  std::vector<Eigen::Index> all_rows(static_cast<std::size_t>(linearization_.fitted.rows()));
+  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.null_nats.size() + 1 < searches) {
-    const PricedFormulas of_noise = evolve_formulas(noise.residuals(1, random), Purpose::null_distribution);
+    const PricedFormulas of_noise = evolve_formulas(noise.residuals(1, all_rows, random), Purpose::null_distribution);
     if (!of_noise) return {};
     const double gain_nats = of_noise->empty() ? 0.0 : std::max(0.0, of_noise->front().gain_nats);
     if (gain_nats >= found->front().gain_nats) return {};

@@ -7,7 +7,7 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/row_sums.hpp"
+#include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 #include "random/distributions.hpp"
@@ -60,7 +60,7 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& s
   if (terms == 0) return {};
   const RowMatrix rows = beside(columns.fitted, residual + columns.fitted.rightCols(terms) * present);
   const RowMatrix known = beside(columns.known, columns.known_residual);
-  Eigen::MatrixXd products = rows.transpose() * rows + known.transpose() * known;
+  Eigen::MatrixXd products = square_product(rows) + known.transpose() * known;
   const Eigen::ArrayXd beliefs = columns.precision.head(others).array().square();
   const Eigen::ArrayXd believed = -beliefs * columns.offset.head(others).array();
   products.diagonal().head(others).array() += beliefs;
@@ -70,7 +70,7 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& s
   if (shared.cols() > 0) {
     Eigen::MatrixXd own = shared.transpose() * shared;
     own.diagonal().array() += 1.0;
-    const Eigen::MatrixXd across = shared.transpose() * rows;
+    const Eigen::MatrixXd across = transposed_product(shared, rows);
     products -= across.transpose() * own.llt().solve(across);
   }
   return relevance(products, smooth.families(), static_cast<double>(residual.size()));

@@ -109,9 +109,9 @@ RowMatrix columns_of_drift(const SharedInOrder& drift, const ResidualField& fiel
 Eigen::Vector3d variances_found(const Projection& model, double fitted_rows) {
   constexpr double kTakenAsKnown = 2.0;  ///< rows' worth of the assumption
   const Eigen::Index shared = model.shared(), own = model.prior_residual().size() - shared;
-  const auto gram = [](const auto& basis) { return Eigen::MatrixXd(basis.transpose() * basis); };
-  const std::array<Eigen::MatrixXd, 3> grams{gram(model.basis()), gram(model.prior_basis().topRows(own)),
-                                             gram(model.prior_basis().bottomRows(shared))};
+  const std::array<Eigen::MatrixXd, 3> grams{square_product(model.basis()),
+                                             square_product(model.prior_basis().topRows(own)),
+                                             square_product(model.prior_basis().bottomRows(shared))};
   const auto believed = [&](Eigen::Index first, Eigen::Index count) {
     const auto begin = model.has_prior().begin() + first;
     return static_cast<double>(std::count(begin, begin + count, true));
@@ -210,21 +210,22 @@ NullNoise::Rows NullNoise::draw(RandomStream& random) const {
   return drawn;
 }
 
-Eigen::MatrixXd NullNoise::residuals(Eigen::Index count, RandomStream& random) const {
-  Eigen::MatrixXd fitted(field_.rows(), count), beliefs(model_.prior_residual().size(), count);
+Eigen::MatrixXd NullNoise::residuals(Eigen::Index count, const std::vector<Eigen::Index>& rows,
+                                     RandomStream& random) const {
+  RowMatrix fitted(field_.rows(), count), beliefs(model_.prior_residual().size(), count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Rows drawn = draw(random);
     fitted.col(i) = drawn.fitted;
     beliefs.col(i) = drawn.beliefs;
   }
-  const Eigen::MatrixXd along = model_.basis().transpose() * fitted + model_.prior_basis().transpose() * beliefs;
-  fitted.noalias() -= model_.basis() * along;
-  beliefs.noalias() -= model_.prior_basis() * along;
+  const Eigen::MatrixXd along =
+      transposed_product(model_.basis(), fitted) + transposed_product(model_.prior_basis(), beliefs);
+  Eigen::MatrixXd left = fitted(rows, Eigen::all) - product(model_.basis()(rows, Eigen::all), along);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double whole = fitted.col(i).squaredNorm() + beliefs.col(i).squaredNorm();
-    if (whole > 0) fitted.col(i) *= std::sqrt(model_.squares() / whole);
+    const double whole = fitted.col(i).squaredNorm() + beliefs.col(i).squaredNorm() - along.col(i).squaredNorm();
+    if (whole > 0) left.col(i) *= std::sqrt(model_.squares() / whole);
   }
-  return fitted;
+  return left;
 }
 
 }  // namespace demecal::inline residuals

@@ -40,9 +40,9 @@ class NullNoise {
     Eigen::VectorXd fitted, beliefs;
   };
   Rows draw(RandomStream& random) const;
-  /// What the model leaves of the rows of `count` draws, each of the residual's sum of squares (beliefs included):
-  /// rows x count.
-  Eigen::MatrixXd residuals(Eigen::Index count, RandomStream& random) const;
+  /// What the model leaves, in `rows` of the field, of `count` draws, each of the residual's sum of squares (all rows
+  /// and beliefs included): rows x count.
+  Eigen::MatrixXd residuals(Eigen::Index count, const std::vector<Eigen::Index>& rows, RandomStream& random) const;
 
  private:
   const ResidualField& field_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fitting/row_sums.hpp"
+#include "fitting/tall_products.hpp"
 
 namespace demecal::inline residuals {
 namespace {
@@ -43,20 +44,17 @@ Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted,
       validation_residual_(validation),
       prior_residual_(model.known.rows() + model.precision.size()),
       shared_(model.shared) {
-  TriangularFactor factor(static_cast<int>(model.fitted.cols()));
-  factor.add(model.fitted);
   const Eigen::Index columns = model.precision.size(), known = model.known.rows();
   RowMatrix prior(known + columns, columns);
   if (known > 0) prior.topRows(known) = model.known;
   prior.bottomRows(columns) = model.precision.asDiagonal().toDenseMatrix();
   if (known > 0) prior_residual_.head(known) = model.known_residual;
   prior_residual_.tail(columns) = -model.precision.cwiseProduct(model.offset);
-  factor.add(prior);
-  to_basis_ = orthonormaliser(factor.factor());
+  to_basis_ = orthonormaliser(triangular_factor(model.fitted, prior));
   has_prior_.assign(static_cast<std::size_t>(known), true);
   for (const double precision : model.precision) has_prior_.push_back(precision != 0.0);
-  basis_ = model.fitted * to_basis_;
-  validation_basis_ = model.validation * to_basis_;
+  basis_ = product(model.fitted, to_basis_);
+  validation_basis_ = product(model.validation, to_basis_);
   prior_basis_ = prior * to_basis_;
   const Eigen::VectorXd along = basis_.transpose() * residual_ + prior_basis_.transpose() * prior_residual_;
   changes_ = to_basis_ * along;
@@ -70,8 +68,8 @@ double Projection::freedom() const {
 }
 
 Projection::Unexplained Projection::unexplained(const RowMatrix& fitted, const RowMatrix& validation) const {
-  const Eigen::MatrixXd along = basis_.transpose() * fitted;
-  return {fitted - basis_ * along, validation - validation_basis_ * along, -prior_basis_ * along};
+  const Eigen::MatrixXd along = transposed_product(basis_, fitted);
+  return {fitted - product(basis_, along), validation - product(validation_basis_, along), -prior_basis_ * along};
 }
 
 Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& validation) const {
@@ -79,7 +77,7 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& va
   Eigen::VectorXd scale = fitted.colwise().norm().transpose();
   for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
   const Eigen::MatrixXd gram = scale.asDiagonal() *
-                               (result.fitted.transpose() * result.fitted + result.prior.transpose() * result.prior) *
+                               (square_product(result.fitted) + result.prior.transpose() * result.prior) *
                                scale.asDiagonal();
   const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * residual_);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);

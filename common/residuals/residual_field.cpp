@@ -99,13 +99,27 @@ std::vector<std::pair<Eigen::Index, double>> rows_used(const MeasuredPose& pose,
   return used;
 }
 
-void reserve(ResidualField& field, const DataSet& data, const std::vector<Observation>& observations,
-             const ParameterSpace& space, const RowScales& scales) {
-  const auto rows = static_cast<Eigen::Index>(rows_in_use(data, observations, scales));
+/// Makes room for the rows of every observation that measured something in use; these observations.
+std::vector<const Observation*> reserve(ResidualField& field, const DataSet& data,
+                                        const std::vector<Observation>& observations, const ParameterSpace& space,
+                                        const RowScales& scales) {
+  std::vector<const Observation*> in_use;
+  field.first_row.push_back(0);
+  for (const Observation& observation : observations) {
+    const std::size_t count = rows_used(data.poses[observation.pose], scales).size();
+    if (count == 0) continue;
+    in_use.push_back(&observation);
+    field.poses.push_back(observation.pose);
+    field.first_row.push_back(field.first_row.back() + static_cast<Eigen::Index>(count));
+  }
+  const Eigen::Index rows = field.first_row.back();
   field.residual.resize(rows);
   field.declared.resize(rows, space.size());
   field.motions.resize(rows, 6 * (space.reference().chain.size() + 2));
-  field.first_row.push_back(0);
+  field.within.resize(in_use.size());
+  field.root_weight.resize(in_use.size());
+  field.states.assign(in_use.size(), ArmState{Stop(JointVector{}), {}, {}, {}, {}, {}, {}, {}});
+  return in_use;
 }
 
 /// The real arm's places: the identified chain at the joints where it really stands.
@@ -115,20 +129,65 @@ std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const St
   return arm_state(real, Stop(robot.actual_joints(stop))).places;
 }
 
-/// Every pose's rows along one motion: poses x columns of `rows`.
-template <typename Rows>
-Rows along_motion(const ResidualField& field, Eigen::Index motion, const Rows& rows) {
-  using Scalar = typename Rows::Scalar;
-  Rows along(static_cast<Eigen::Index>(field.poses.size()), rows.cols());
-  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
-    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-    auto target = along.row(static_cast<Eigen::Index>(pose));
-    target.setZero();
-    for (Eigen::Index row = first; row < first + count; ++row) {
-      target += static_cast<Scalar>(field.motions(row, motion)) * rows.row(row);
-    }
+/// Fills a field's rows, pose by pose.
+class PoseRows {
+ public:
+  /// Keeps all but the noise by reference.
+  PoseRows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point, const RowScales& scales,
+           const NoiseModel& noise, bool robust)
+      : data_(data), space_(space), point_(point), scales_(scales), noise_(noise), robust_(robust) {}
+
+  /// Those of the field's pose of this number, which `observation` is of.
+  void fill(ResidualField& field, std::size_t number, const Observation& observation);
+
+ private:
+  double norm_in_deviations(const ResidualField& field, std::size_t number) const;
+
+  const DataSet& data_;
+  const ParameterSpace& space_;
+  const ModelPoint& point_;
+  const RowScales& scales_;
+  const NoiseModel noise_;
+  const bool robust_;
+  ScaledRows rows_;
+};
+
+/// How far out the pose is: what poses share may be the larger part of it.
+double PoseRows::norm_in_deviations(const ResidualField& field, std::size_t number) const {
+  const Eigen::Index first = field.first_row[number], count = field.rows_of_pose(number);
+  const double shared = noise_.repeats * noise_.repeats + noise_.order * noise_.order - noise_.fast;
+  if (shared <= 0.0) return field.residual.segment(first, count).norm();
+  const Eigen::MatrixXd& within = field.within[number];
+  const Eigen::MatrixXd root = within.size() > 0 ? within : Eigen::MatrixXd::Identity(count, count);
+  const Eigen::MatrixXd whole = root * root.transpose() + shared * Eigen::MatrixXd::Identity(count, count);
+  return whole.llt().matrixL().solve(rows_.residual).norm();
+}
+
+void PoseRows::fill(ResidualField& field, std::size_t number, const Observation& observation) {
+  const MeasuredPose& pose = data_.poses[observation.pose];
+  const CorrectedRobot& robot = space_.reference();
+  scaled_rows(data_, space_, point_, observation, scales_, rows_);
+  const Eigen::Index first = field.first_row[number], count = field.rows_of_pose(number);
+  field.residual.segment(first, count) = rows_.residual;
+  field.declared.middleRows(first, count) = -rows_.jacobian;
+  const Stop stop(pose);
+  const Eigen::Vector3d tool = rows_.motion.predicted.translation();
+  const Twists twists = place_twists(real_places(robot, stop), robot.sensor_from_base, tool);
+  const auto measured = measurement_jacobian(robot, rows_.motion.predicted, data_, pose);
+  Eigen::Index at = first;
+  for (const auto& [row, scale] : rows_used(pose, scales_))
+    field.motions.row(at++).noalias() = (1.0 / scale) * measured.row(row) * twists;
+  if (noise_.joint_rad > 0.0 || noise_.fast > 0.0) {
+    field.within[number] = covariance_root(field, first, count, noise_);
+    whiten(field, first, count, field.within[number]);
   }
-  return along;
+  const double weight = robust_ ? root_weight_of(norm_in_deviations(field, number), static_cast<int>(count)) : 1.0;
+  field.residual.segment(first, count) *= weight;
+  field.declared.middleRows(first, count) *= weight;
+  field.motions.middleRows(first, count) *= weight;
+  field.root_weight[number] = weight;
+  field.states[number] = arm_state(data_.robot, stop);
+  field.states[number].tool_in_sensor_m = tool;
 }
 
 }  // namespace
@@ -150,143 +209,19 @@ std::size_t distinct_poses(const ResidualField& field) {
 
 ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
                              const RowScales& scales, bool robust, const NoiseModel& noise) {
-  const CorrectedRobot& robot = space.reference();
-  const std::vector<Observation> observations = observe(data, poses, robot);
-  const ModelPoint point = space.at(Eigen::VectorXd::Zero(space.size()));
+  constexpr std::size_t kPosesOfPiece = 100;
+  const std::vector<Observation> observations = observe(data, poses, space.reference());
   ResidualField field;
-  reserve(field, data, observations, space, scales);
+  const std::vector<const Observation*> in_use = reserve(field, data, observations, space, scales);
   field.scattering = turns_of(data.robot.chain);
-  ScaledRows rows;
-  for (const Observation& observation : observations) {
-    const MeasuredPose& pose = data.poses[observation.pose];
-    const auto used = rows_used(pose, scales);
-    if (used.empty()) continue;
-    scaled_rows(data, space, point, observation, scales, rows);
-    const auto count = static_cast<Eigen::Index>(used.size());
-    const Eigen::Index first = field.first_row.back();
-    field.residual.segment(first, count) = rows.residual;
-    field.declared.middleRows(first, count) = -rows.jacobian;
-    const Stop stop(pose);
-    const Eigen::Vector3d tool = rows.motion.predicted.translation();
-    const Twists twists = place_twists(real_places(robot, stop), robot.sensor_from_base, tool);
-    const auto measured = measurement_jacobian(robot, rows.motion.predicted, data, pose);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const auto& [row, scale] = used[static_cast<std::size_t>(i)];
-      field.motions.row(first + i).noalias() = (1.0 / scale) * measured.row(row) * twists;
-    }
-    field.within.emplace_back();
-    Eigen::VectorXd in_deviations = rows.residual;
-    if (noise.joint_rad > 0.0 || noise.fast > 0.0) {
-      field.within.back() = covariance_root(field, first, count, noise);
-      whiten(field, first, count, field.within.back());
-      in_deviations = field.residual.segment(first, count);
-    }
-    // What poses share may be the larger part of how far one is out.
-    const double shared = noise.repeats * noise.repeats + noise.order * noise.order - noise.fast;
-    if (shared > 0.0) {
-      const Eigen::MatrixXd root =
-          field.within.back().size() > 0 ? field.within.back() : Eigen::MatrixXd::Identity(count, count);
-      const Eigen::MatrixXd whole = root * root.transpose() + shared * Eigen::MatrixXd::Identity(count, count);
-      in_deviations = whole.llt().matrixL().solve(rows.residual);
-    }
-    const double norm = in_deviations.norm();
-    const double weight = robust ? root_weight_of(norm, static_cast<int>(count)) : 1.0;
-    field.residual.segment(first, count) *= weight;
-    field.declared.middleRows(first, count) *= weight;
-    field.motions.middleRows(first, count) *= weight;
-    field.poses.push_back(observation.pose);
-    field.root_weight.push_back(weight);
-    field.first_row.push_back(first + count);
-    field.states.push_back(arm_state(data.robot, stop));
-    field.states.back().tool_in_sensor_m = tool;
-  }
+  const ModelPoint point = space.at(Eigen::VectorXd::Zero(space.size()));
+  in_pieces((in_use.size() + kPosesOfPiece - 1) / kPosesOfPiece, [&](std::size_t piece) {
+    PoseRows rows(data, space, point, scales, noise, robust);
+    const std::size_t end = std::min((piece + 1) * kPosesOfPiece, in_use.size());
+    for (std::size_t pose = piece * kPosesOfPiece; pose < end; ++pose) rows.fill(field, pose, *in_use[pose]);
+  });
   find_repeats(data, field);
   return field;
-}
-
-void EffectColumns::append(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
-  const auto poses = static_cast<Eigen::Index>(states.size());
-  const auto count = static_cast<Eigen::Index>(law_of(effect).coefficients(effect, robot).size());
-  std::vector<UnitMotion> motions;
-  for (Eigen::Index pose = 0; pose < poses; ++pose) {
-    motions.clear();
-    append_unit_motions(effect, robot, states[static_cast<std::size_t>(pose)], motions);
-    for (const UnitMotion& motion : motions) {
-      auto [features, fresh] =
-          loose_[motion_column(motion.place, motion.axis)].try_emplace(columns_ + motion.coefficient);
-      if (fresh) features->second.setZero(poses);
-      features->second[pose] += motion.size;
-    }
-  }
-  spans_.push_back({columns_, count});
-  columns_ += count;
-}
-
-void EffectColumns::pack() {
-  DEMECAL_CHECK(blocks_.empty(), "columns are packed once");
-  for (auto& [motion, features] : loose_) {
-    Block block{motion, {}, {}};
-    block.features.resize(features.begin()->second.size(), static_cast<Eigen::Index>(features.size()));
-    for (auto& [column, values] : features) {
-      block.features.col(static_cast<Eigen::Index>(block.columns.size())) = values;
-      block.columns.push_back(column);
-      values.resize(0);
-    }
-    blocks_.push_back(std::move(block));
-  }
-  loose_.clear();
-}
-
-namespace {
-
-/// The sum of what each block gives for its columns, of `columns` in all.
-template <typename Blocks, typename Matrix>
-Matrix summed(const Blocks& blocks, const std::vector<Matrix>& parts, Eigen::Index columns, Eigen::Index count) {
-  Matrix sum = Matrix::Zero(columns, count);
-  for (std::size_t block = 0; block < parts.size(); ++block) {
-    for (std::size_t i = 0; i < blocks[block].columns.size(); ++i) {
-      sum.row(blocks[block].columns[i]) += parts[block].row(static_cast<Eigen::Index>(i));
-    }
-  }
-  return sum;
-}
-
-}  // namespace
-
-Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
-  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  std::vector<Eigen::MatrixXd> parts(blocks_.size());
-  in_pieces(parts.size(), [&](std::size_t i) {
-    parts[i] = blocks_[i].features.transpose() * along_motion(field, blocks_[i].motion, rows);
-  });
-  return summed(blocks_, parts, columns_, rows.cols());
-}
-
-Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, const RowMatrixF& rows) const {
-  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  std::vector<Eigen::MatrixXf> parts(blocks_.size());
-  in_pieces(parts.size(), [&](std::size_t i) {
-    parts[i] = blocks_[i].features.cast<float>().transpose() * along_motion(field, blocks_[i].motion, rows);
-  });
-  return summed(blocks_, parts, columns_, rows.cols());
-}
-
-RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) const {
-  const ColumnSpan span = spans_[effect];
-  RowMatrix matrix = RowMatrix::Zero(field.rows(), span.count);
-  for (const Block& block : blocks_) {
-    auto at = std::lower_bound(block.columns.begin(), block.columns.end(), span.first);
-    for (; at != block.columns.end() && *at < span.first + span.count; ++at) {
-      const auto feature = block.features.col(at - block.columns.begin());
-      for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
-        const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-        matrix.block(first, *at - span.first, count, 1) +=
-            feature[static_cast<Eigen::Index>(pose)] * field.motions.block(first, block.motion, count, 1);
-      }
-    }
-  }
-  leave_out_places(field, matrix);
-  return matrix;
 }
 
 }  // namespace demecal::inline residuals

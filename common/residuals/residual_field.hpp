@@ -12,13 +12,11 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 
 namespace demecal::inline residuals {
-
-/// Matrices whose rows are the measured numbers, pose by pose.
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Two matrices of equally many rows as one.
 RowMatrix beside(const RowMatrix& left, const RowMatrix& right);

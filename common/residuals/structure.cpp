@@ -129,14 +129,25 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
   return all;
 }
 
-/// Every pose's residual as an error of each joint: poses x joints, columns of unit norm.
+/// Of some poses, one after another.
+std::vector<Eigen::Index> rows_of(const ResidualField& field, const std::vector<std::size_t>& poses) {
+  std::vector<Eigen::Index> rows;
+  for (const std::size_t pose : poses)
+    for (Eigen::Index row = field.first_row[pose]; row < field.first_row[pose + 1]; ++row) rows.push_back(row);
+  return rows;
+}
+
+/// Every pose's residual (its rows one pose after another) as an error of each joint: poses x joints, columns of unit
+/// norm.
 Eigen::MatrixXd joint_errors(const ResidualField& field, const std::vector<std::size_t>& poses,
                              const Eigen::VectorXd& residual, const Chain& chain) {
   Eigen::MatrixXd errors(static_cast<Eigen::Index>(poses.size()), chain.size());
+  Eigen::Index at = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Index first = field.first_row[poses[i]];
     const Eigen::Index count = field.rows_of_pose(poses[i]);
-    const auto rows = residual.segment(first, count);
+    const auto rows = residual.segment(at, count);
+    at += count;
     for (int joint = 0; joint < chain.size(); ++joint) {
       const bool revolute = is_revolute(chain, joint);
       const auto column = field.motions.block(first, motion_column(joint, revolute ? 5 : 2), count, 1);
@@ -174,11 +185,12 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);
   if (all.empty()) return 1.0;
-  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual(), chain), all);
+  const std::vector<Eigen::Index> rows = rows_of(field, poses);
+  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(rows), chain), all);
   const NullNoise noise(field, model);
   Eigen::MatrixXd null(seen.size(), draws);
   for (Eigen::Index done = 0; done < draws; done += kDrawsAtATime) {
-    const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), random);
+    const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), rows, random);
     in_pieces(static_cast<std::size_t>(drawn.cols()), [&](std::size_t piece) {
       const auto i = static_cast<Eigen::Index>(piece);
       null.col(done + i) = agreements(joint_errors(field, poses, drawn.col(i), chain), all);

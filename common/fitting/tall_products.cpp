@@ -1,0 +1,155 @@
+#include "fitting/tall_products.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "errors/check.hpp"
+#include "pieces/pieces.hpp"
+#include "primitives/elementary.hpp"
+
+namespace demecal::inline fitting {
+namespace {
+
+// A tile of the product is summed up in registers, term after term, and a term is rounded twice: so there are the same
+// bits with two numbers to a register and with eight, which libraries for this do not promise.
+constexpr Eigen::Index kTileRows = 6, kTileColumns = 8;
+constexpr Eigen::Index kTile = kTileRows * kTileColumns;
+constexpr Eigen::Index kTerms = 256;         ///< summed up at a time, so that what they take stays near the processor
+constexpr Eigen::Index kRowsOfPiece = 2048;  ///< the parts of a sum; a multiple of kTerms
+constexpr Eigen::Index kRowsOfResult = 96;   ///< a multiple of kTileRows
+
+using Packed = std::vector<double>;
+using TileRow = double __attribute__((vector_size(kTileColumns * sizeof(double))));
+
+Eigen::Index tiles_for(Eigen::Index count, Eigen::Index each) {
+  return (count + each - 1) / each;
+}
+
+/// Adds to a tile the products of `terms` columns of kTileRows numbers with rows of kTileColumns.
+DEMECAL_FOR_EACH_VECTOR_UNIT
+void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
+  TileRow sums[kTileRows] = {};
+  for (Eigen::Index term = 0; term < terms; ++term, left += kTileRows, right += kTileColumns) {
+    TileRow row;
+    std::memcpy(&row, right, sizeof row);
+    for (Eigen::Index i = 0; i < kTileRows; ++i) sums[i] += left[i] * row;
+  }
+  for (Eigen::Index i = 0; i < kTileRows; ++i) {
+    TileRow sum;
+    std::memcpy(&sum, tile + i * kTileColumns, sizeof sum);
+    sum += sums[i];
+    std::memcpy(tile + i * kTileColumns, &sum, sizeof sum);
+  }
+}
+
+/// Columns first .. first + width - 1 of the rows, row after row; zeros where there are no such columns.
+template <typename Rows>
+void pack(const Rows& rows, Eigen::Index first, Eigen::Index width, double* to) {
+  const Eigen::Index there = std::clamp<Eigen::Index>(rows.cols() - first, 0, width);
+  for (Eigen::Index row = 0; row < rows.rows(); ++row, to += width) {
+    for (Eigen::Index i = 0; i < there; ++i) to[i] = rows(row, first + i);
+    std::fill(to + there, to + width, 0.0);
+  }
+}
+
+/// All columns of at most kTerms rows, `width` at a time, each kTerms * width numbers after the last.
+template <typename Rows>
+void pack_all(const Rows& rows, Eigen::Index width, Packed& to) {
+  const Eigen::Index tiles = tiles_for(rows.cols(), width);
+  to.resize(static_cast<std::size_t>(tiles * kTerms * width));
+  for (Eigen::Index tile = 0; tile < tiles; ++tile) pack(rows, tile * width, width, to.data() + tile * kTerms * width);
+}
+
+/// Tiles of a product, column of tiles after column of tiles.
+class Tiles {
+ public:
+  Tiles() = default;
+  Tiles(Eigen::Index rows, Eigen::Index columns)
+      : down_(tiles_for(rows, kTileRows)),
+        across_(tiles_for(columns, kTileColumns)),
+        sums_(static_cast<std::size_t>(down_ * across_ * kTile), 0.0) {}
+
+  /// Adds the products of packed terms. `lower`: tiles above the diagonal are left out.
+  void add(Eigen::Index terms, const Packed& left, const Packed& right, bool lower) {
+    for (Eigen::Index column = 0; column < across_; ++column) {
+      for (Eigen::Index row = lower ? column * kTileColumns / kTileRows : 0; row < down_; ++row)
+        add_to_tile(terms, left.data() + row * kTerms * kTileRows, right.data() + column * kTerms * kTileColumns,
+                    sums_.data() + (column * down_ + row) * kTile);
+    }
+  }
+  void operator+=(const Tiles& other) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+  }
+  double operator()(Eigen::Index row, Eigen::Index column) const {
+    const Eigen::Index tile = column / kTileColumns * down_ + row / kTileRows;
+    return sums_[static_cast<std::size_t>(tile * kTile + row % kTileRows * kTileColumns + column % kTileColumns)];
+  }
+
+ private:
+  Eigen::Index down_ = 0, across_ = 0;
+  std::vector<double> sums_;
+};
+
+/// The sum over all rows, in parts of kRowsOfPiece.
+Tiles summed_products(const RowsOf& left, const RowsOf& right, bool lower) {
+  DEMECAL_CHECK(left.rows() == right.rows(), left.rows() << " rows and " << right.rows());
+  const Eigen::Index parts = tiles_for(left.rows(), kRowsOfPiece);
+  std::vector<Tiles> sums(static_cast<std::size_t>(parts));
+  in_pieces(sums.size(), [&](std::size_t part) {
+    Tiles sum(left.cols(), right.cols());
+    Packed left_terms, right_terms;
+    const Eigen::Index begin = static_cast<Eigen::Index>(part) * kRowsOfPiece;
+    const Eigen::Index end = std::min(begin + kRowsOfPiece, left.rows());
+    for (Eigen::Index row = begin; row < end; row += kTerms) {
+      const Eigen::Index terms = std::min(kTerms, end - row);
+      pack_all(left.middleRows(row, terms), kTileRows, left_terms);
+      pack_all(right.middleRows(row, terms), kTileColumns, right_terms);
+      sum.add(terms, left_terms, right_terms, lower);
+    }
+    sums[part] = std::move(sum);
+  });
+  Tiles all(left.cols(), right.cols());
+  for (const Tiles& sum : sums) all += sum;
+  return all;
+}
+
+}  // namespace
+
+Eigen::MatrixXd transposed_product(const RowsOf& left, const RowsOf& right) {
+  const Tiles sums = summed_products(left, right, false);
+  return Eigen::MatrixXd::NullaryExpr(left.cols(), right.cols(),
+                                      [&](Eigen::Index i, Eigen::Index k) { return sums(i, k); });
+}
+
+Eigen::MatrixXd square_product(const RowsOf& rows) {
+  const Tiles sums = summed_products(rows, rows, true);
+  return Eigen::MatrixXd::NullaryExpr(
+      rows.cols(), rows.cols(), [&](Eigen::Index i, Eigen::Index k) { return sums(std::max(i, k), std::min(i, k)); });
+}
+
+RowMatrix product(const RowsOf& left, const Eigen::Ref<const Eigen::MatrixXd>& factors) {
+  DEMECAL_CHECK(left.cols() == factors.rows(), left.cols() << " columns for " << factors.rows() << " factors");
+  std::vector<Packed> right;  // kTerms factors each
+  for (Eigen::Index term = 0; term < left.cols(); term += kTerms)
+    pack_all(factors.middleRows(term, std::min(kTerms, left.cols() - term)), kTileColumns, right.emplace_back());
+  RowMatrix result(left.rows(), factors.cols());
+  in_pieces(static_cast<std::size_t>(tiles_for(left.rows(), kRowsOfResult)), [&](std::size_t part) {
+    const Eigen::Index first = static_cast<Eigen::Index>(part) * kRowsOfResult;
+    const Eigen::Index rows = std::min(kRowsOfResult, left.rows() - first);
+    Tiles sums(rows, factors.cols());
+    Packed terms;
+    for (std::size_t block = 0; block < right.size(); ++block) {
+      const Eigen::Index begin = static_cast<Eigen::Index>(block) * kTerms;
+      const Eigen::Index count = std::min(kTerms, left.cols() - begin);
+      pack_all(left.block(first, begin, rows, count).transpose(), kTileRows, terms);
+      sums.add(count, terms, right[block], false);
+    }
+    for (Eigen::Index i = 0; i < rows; ++i)
+      for (Eigen::Index k = 0; k < factors.cols(); ++k) result(first + i, k) = sums(i, k);
+  });
+  return result;
+}
+
+}  // namespace demecal::inline fitting

@@ -1,0 +1,114 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "effects/effect.hpp"
+#include "errors/check.hpp"
+#include "pieces/pieces.hpp"
+#include "residuals/residual_field.hpp"
+
+namespace demecal::inline residuals {
+namespace {
+
+/// Every pose's rows along one motion: poses x columns of `rows`.
+template <typename Rows>
+Rows along_motion(const ResidualField& field, Eigen::Index motion, const Rows& rows) {
+  using Scalar = typename Rows::Scalar;
+  Rows along(static_cast<Eigen::Index>(field.poses.size()), rows.cols());
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    auto target = along.row(static_cast<Eigen::Index>(pose));
+    target.setZero();
+    for (Eigen::Index row = first; row < first + count; ++row) {
+      target += static_cast<Scalar>(field.motions(row, motion)) * rows.row(row);
+    }
+  }
+  return along;
+}
+
+/// The sum of what each block gives for its columns, of `columns` in all.
+template <typename Blocks, typename Matrix>
+Matrix summed(const Blocks& blocks, const std::vector<Matrix>& parts, Eigen::Index columns, Eigen::Index count) {
+  Matrix sum = Matrix::Zero(columns, count);
+  for (std::size_t block = 0; block < parts.size(); ++block) {
+    for (std::size_t i = 0; i < blocks[block].columns.size(); ++i) {
+      sum.row(blocks[block].columns[i]) += parts[block].row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+void EffectColumns::append(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states) {
+  const auto poses = static_cast<Eigen::Index>(states.size());
+  const auto count = static_cast<Eigen::Index>(law_of(effect).coefficients(effect, robot).size());
+  std::vector<UnitMotion> motions;
+  for (Eigen::Index pose = 0; pose < poses; ++pose) {
+    motions.clear();
+    append_unit_motions(effect, robot, states[static_cast<std::size_t>(pose)], motions);
+    for (const UnitMotion& motion : motions) {
+      auto [features, fresh] =
+          loose_[motion_column(motion.place, motion.axis)].try_emplace(columns_ + motion.coefficient);
+      if (fresh) features->second.setZero(poses);
+      features->second[pose] += motion.size;
+    }
+  }
+  spans_.push_back({columns_, count});
+  columns_ += count;
+}
+
+void EffectColumns::pack() {
+  DEMECAL_CHECK(blocks_.empty(), "columns are packed once");
+  for (auto& [motion, features] : loose_) {
+    Block block{motion, {}, {}};
+    block.features.resize(features.begin()->second.size(), static_cast<Eigen::Index>(features.size()));
+    for (auto& [column, values] : features) {
+      block.features.col(static_cast<Eigen::Index>(block.columns.size())) = values;
+      block.columns.push_back(column);
+      values.resize(0);
+    }
+    blocks_.push_back(std::move(block));
+  }
+  loose_.clear();
+}
+
+Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
+  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  std::vector<Eigen::MatrixXd> parts(blocks_.size());
+  in_pieces(parts.size(), [&](std::size_t i) {
+    parts[i] = blocks_[i].features.transpose() * along_motion(field, blocks_[i].motion, rows);
+  });
+  return summed(blocks_, parts, columns_, rows.cols());
+}
+
+Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, const RowMatrixF& rows) const {
+  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  std::vector<Eigen::MatrixXf> parts(blocks_.size());
+  in_pieces(parts.size(), [&](std::size_t i) {
+    parts[i] = blocks_[i].features.cast<float>().transpose() * along_motion(field, blocks_[i].motion, rows);
+  });
+  return summed(blocks_, parts, columns_, rows.cols());
+}
+
+RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) const {
+  const ColumnSpan span = spans_[effect];
+  RowMatrix matrix = RowMatrix::Zero(field.rows(), span.count);
+  for (const Block& block : blocks_) {
+    auto at = std::lower_bound(block.columns.begin(), block.columns.end(), span.first);
+    for (; at != block.columns.end() && *at < span.first + span.count; ++at) {
+      const auto feature = block.features.col(at - block.columns.begin());
+      for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+        const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+        matrix.block(first, *at - span.first, count, 1) +=
+            feature[static_cast<Eigen::Index>(pose)] * field.motions.block(first, block.motion, count, 1);
+      }
+    }
+  }
+  leave_out_places(field, matrix);
+  return matrix;
+}
+
+}  // namespace demecal::inline residuals
