@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "fitting/fit.hpp"
+#include "fitting/tall_products.hpp"
 #include "kinematics/chain.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
@@ -187,12 +189,13 @@ Confirmation confirmation(const std::vector<double>& before_mm, const std::vecto
   }
   std::vector<Sums> groups;
   for (const auto& [first, sums] : sums_of_groups) groups.push_back(sums);
-  std::vector<double> shares;
-  for (int draw = 0; draw < kConfirmationDraws; ++draw) {
+  std::vector<double> shares(kConfirmationDraws);
+  std::vector<RandomStream> streams = successive(shares.size(), groups.size(), random);
+  in_pieces(shares.size(), [&](std::size_t draw) {
     Sums drawn;
-    for (std::size_t i = 0; i < groups.size(); ++i) drawn += groups[random.index(groups.size())];
-    shares.push_back(drawn.share());
-  }
+    for (std::size_t i = 0; i < groups.size(); ++i) drawn += groups[streams[draw].index(groups.size())];
+    shares[draw] = drawn.share();
+  });
   return {all.share(), quantile(shares, 0.05)};
 }
 
@@ -219,25 +222,26 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
                     RandomStream random) {
   const std::vector<PoseSums> sums = pose_sums(field, trial, left);
   const Eigen::Index m = trial.coefficients.size();
-  const Eigen::MatrixXd whole = trial.fitted.transpose() * trial.fitted;
-  std::vector<std::vector<double>> drawn(static_cast<std::size_t>(m));
-  int agree = 0;
-  for (int draw = 0; draw < draws; ++draw) {
+  const Eigen::MatrixXd whole = square_product(trial.fitted);
+  std::vector<RandomStream> streams = successive(static_cast<std::size_t>(draws), sums.size(), random);
+  Eigen::MatrixXd drawn(m, draws);
+  in_pieces(streams.size(), [&](std::size_t draw) {
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m, m);
     Eigen::VectorXd moment = Eigen::VectorXd::Zero(m);
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      const PoseSums& pose = sums[random.index(sums.size())];
+      const PoseSums& pose = sums[streams[draw].index(sums.size())];
       gram += pose.gram;
       moment += pose.moment;
     }
-    const Eigen::VectorXd coefficients = solve(gram, moment);
-    agree += coefficients.dot(whole * trial.coefficients) > 0;
-    for (Eigen::Index i = 0; i < m; ++i) drawn[static_cast<std::size_t>(i)].push_back(coefficients[i]);
-  }
+    drawn.col(static_cast<Eigen::Index>(draw)) = solve(gram, moment);
+  });
   Resampled result;
-  result.sign_stability = static_cast<double>(agree) / draws;
-  for (std::vector<double>& values : drawn)
+  const Eigen::RowVectorXd along = (whole * trial.coefficients).transpose() * drawn;
+  result.sign_stability = static_cast<double>((along.array() > 0.0).count()) / draws;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    std::vector<double> values(drawn.row(i).begin(), drawn.row(i).end());
     result.interval.push_back({quantile(values, 0.025), quantile(values, 0.975)});
+  }
   return result;
 }
 

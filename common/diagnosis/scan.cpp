@@ -119,10 +119,10 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
   for (Eigen::Index done = 0; done < count; done += kAtATime) {
     const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
     Eigen::MatrixXf drawn(field.rows(), now), beliefs(prior_basis.rows(), now);
+    const std::vector<NullNoise::Rows> draws = noise.draw(static_cast<std::size_t>(now), random);
     for (Eigen::Index i = 0; i < now; ++i) {
-      const NullNoise::Rows rows = noise.draw(random);
-      drawn.col(i) = rows.fitted.cast<float>();
-      beliefs.col(i) = rows.beliefs.cast<float>();
+      drawn.col(i) = draws[static_cast<std::size_t>(i)].fitted.cast<float>();
+      beliefs.col(i) = draws[static_cast<std::size_t>(i)].beliefs.cast<float>();
     }
     const RowMatrixF rows = drawn;
     const Eigen::MatrixXf explained = basis.transpose() * rows + prior_basis.transpose() * beliefs;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "effects/arm_state.hpp"
+#include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -95,8 +96,7 @@ Eigen::MatrixXd root(const Eigen::MatrixXd& covariance) {
 }  // namespace
 
 Products products(const RowMatrix& model, const RowMatrix& asked, double weight) {
-  return {weight * (model.transpose() * model), weight * (model.transpose() * asked),
-          weight * (asked.transpose() * asked)};
+  return {weight * square_product(model), weight * transposed_product(model, asked), weight * square_product(asked)};
 }
 
 Separation::Separation(const Products& present, const Products& per_pose, const Eigen::VectorXd& precision) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace demecal::inline random {
 namespace {
@@ -44,6 +43,15 @@ double RandomStream::real() {
 double RandomStream::normal() {
   const double radius = std::sqrt(-2.0 * std::log1p(-real()));
   return radius * std::cos(2.0 * std::numbers::pi * real());
+}
+
+std::vector<RandomStream> successive(std::size_t count, std::uint64_t numbers, RandomStream& random) {
+  std::vector<RandomStream> streams;
+  for (std::size_t i = 0; i < count; ++i) {
+    streams.push_back(random);
+    random.skip(numbers);
+  }
+  return streams;
 }
 
 }  // namespace demecal::inline random

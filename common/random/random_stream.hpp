@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <random>
+#include <vector>
 
 namespace demecal::inline random {
 
@@ -14,13 +15,13 @@ class RandomStream {
  public:
   explicit RandomStream(std::initializer_list<std::uint64_t> name);
 
-  /// Uniform in [0, n); n >= 1.
+  /// Uniform in [0, n); n >= 1. One number of the stream.
   std::size_t index(std::size_t n);
-  /// Uniform in [0, 1).
+  /// Uniform in [0, 1). One number.
   double real();
   double real(double lower, double upper) { return lower + (upper - lower) * real(); }
   bool chance(double probability) { return real() < probability; }
-  /// Standard normal (Box and Muller).
+  /// Standard normal (Box and Muller). Two numbers.
   double normal();
 
   /// Numbers drawn so far: a stream of the same name that skips as many goes on as this one does.
@@ -33,5 +34,9 @@ class RandomStream {
   std::mt19937_64 engine_;
   std::uint64_t drawn_ = 0;
 };
+
+/// `count` streams, each of which goes on where the one before has given `numbers`: what is drawn by pieces is what one
+/// stream gives. `random` goes on after the last.
+std::vector<RandomStream> successive(std::size_t count, std::uint64_t numbers, RandomStream& random);
 
 }  // namespace demecal::inline random

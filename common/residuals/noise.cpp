@@ -10,6 +10,8 @@
 #include <map>
 #include <utility>
 
+#include "pieces/pieces.hpp"
+
 namespace demecal::inline residuals {
 namespace {
 
@@ -210,13 +212,29 @@ NullNoise::Rows NullNoise::draw(RandomStream& random) const {
   return drawn;
 }
 
+/// Of a stream, that draw() takes.
+std::uint64_t NullNoise::numbers_of_draw() const {
+  std::uint64_t numbers = 0;
+  for (const auto& [rows, lengths] : lengths_)
+    numbers += (lengths.size() - 1) + 2 * static_cast<std::uint64_t>(rows) * lengths.size();
+  for (const bool believed : model_.has_prior()) numbers += believed ? 2 : 0;
+  return numbers;
+}
+
+std::vector<NullNoise::Rows> NullNoise::draw(std::size_t count, RandomStream& random) const {
+  std::vector<RandomStream> streams = successive(count, numbers_of_draw(), random);
+  std::vector<Rows> drawn(count);
+  in_pieces(count, [&](std::size_t i) { drawn[i] = draw(streams[i]); });
+  return drawn;
+}
+
 Eigen::MatrixXd NullNoise::residuals(Eigen::Index count, const std::vector<Eigen::Index>& rows,
                                      RandomStream& random) const {
   RowMatrix fitted(field_.rows(), count), beliefs(model_.prior_residual().size(), count);
+  const std::vector<Rows> drawn = draw(static_cast<std::size_t>(count), random);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Rows drawn = draw(random);
-    fitted.col(i) = drawn.fitted;
-    beliefs.col(i) = drawn.beliefs;
+    fitted.col(i) = drawn[static_cast<std::size_t>(i)].fitted;
+    beliefs.col(i) = drawn[static_cast<std::size_t>(i)].beliefs;
   }
   const Eigen::MatrixXd along =
       transposed_product(model_.basis(), fitted) + transposed_product(model_.prior_basis(), beliefs);

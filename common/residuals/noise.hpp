@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
@@ -39,12 +40,16 @@ class NullNoise {
   struct Rows {
     Eigen::VectorXd fitted, beliefs;
   };
-  Rows draw(RandomStream& random) const;
+  /// `count` draws.
+  std::vector<Rows> draw(std::size_t count, RandomStream& random) const;
   /// What the model leaves, in `rows` of the field, of `count` draws, each of the residual's sum of squares (all rows
   /// and beliefs included): rows x count.
   Eigen::MatrixXd residuals(Eigen::Index count, const std::vector<Eigen::Index>& rows, RandomStream& random) const;
 
  private:
+  Rows draw(RandomStream& random) const;
+  std::uint64_t numbers_of_draw() const;
+
   const ResidualField& field_;
   const Projection& model_;
   std::map<Eigen::Index, std::vector<double>> lengths_;  ///< of poses by their number of rows

@@ -56,5 +56,17 @@ TEST(RandomStream, FirstNumbersAreFixedForAllTime) {
   EXPECT_LT(first, 1.0);
 }
 
+TEST(RandomStream, IsDrawnByPiecesAsItIsWhole) {
+  RandomStream whole{5, 6}, parted{5, 6};
+  std::vector<RandomStream> pieces = successive(4, 7, parted);
+  for (RandomStream& piece : pieces) {
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(piece.normal(), whole.normal());
+    EXPECT_EQ(piece.index(1000), whole.index(1000));
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(piece.real(), whole.real());
+  }
+  EXPECT_EQ(parted.real(), whole.real());
+  EXPECT_EQ(parted.drawn(), whole.drawn());
+}
+
 }  // namespace
 }  // namespace demecal
