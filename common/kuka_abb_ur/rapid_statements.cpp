@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "data/text.hpp"
+#include "kuka_abb_ur/rapid_way.hpp"
 #include "parsed_programs/frame_flow.hpp"
 
 namespace demecal::inline kuka_abb_ur {
@@ -108,10 +109,12 @@ void end_at_rapid_routines(const ProgramText& text, Program& program) {
     if (name != 0) routines.insert(text.word_at(name));
   });
   FrameFlow flow("", "");
+  RapidWay way(text, flow);
   std::size_t own = 0;
   for_each([&](std::size_t begin, const std::string& word, std::size_t name) {
     if (name != 0) flow.begin_routine(begin, text.word_at(own = name), text.source().file_at(begin));
     if (begin != own && routines.contains(word)) flow.call(begin, word, false);
+    if (name == 0 && begin != own) way.read_word(begin, word);
   });
   flow.finish();
   flow.note_unknown_arrivals(program);

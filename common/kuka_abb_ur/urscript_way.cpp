@@ -79,7 +79,8 @@ bool UrScriptWay::read_control(std::string_view word, std::size_t begin, std::si
                        text_.source().file_at(begin));
   } else if (word == "if" || word == "while" || word == "elif") {
     if (word != "elif") open_.push_back(false);
-    if (word == "while") flow_.open(begin, Block::loop);
+    const bool always = text_.word_at(end) == "true" && text_.next(text_.word_end(text_.skip_spaces(end))) == ':';
+    if (word == "while") flow_.open(begin, always ? Block::endless : Block::loop);
     if (word == "elif") flow_.alternative(begin, false);
     const std::size_t colon = expression_end(end, ':');
     read_calls(end, colon);

@@ -30,6 +30,13 @@ std::size_t FrameFlow::add(std::size_t at) {
   return made;
 }
 
+/// From the first of two at this byte, which is returned, other paths lead on than through what stands behind.
+std::size_t FrameFlow::add_turn(std::size_t at) {
+  const std::size_t node = add(at);
+  add(at);
+  return node;
+}
+
 void FrameFlow::end_routine() {
   if (routines_.empty()) return;
   Routine& routine = routines_[present_];
@@ -91,9 +98,8 @@ void FrameFlow::call(std::size_t at, const std::string& name, bool is_routine) {
 }
 
 void FrameFlow::open(std::size_t at, Block kind) {
-  const std::size_t node = add(at);
+  const std::size_t node = add_turn(at);
   blocks_.push_back({kind, node, node});
-  blocks_.back().alternatives = {at};
   if (kind == Block::selection) current_.clear();
 }
 
@@ -102,14 +108,13 @@ void FrameFlow::alternative(std::size_t at, bool takes_all_left) {
     OpenBlock& block = blocks_.back();
     block.ends.insert(block.ends.end(), current_.begin(), current_.end());
     block.complete = block.complete || takes_all_left;
-    block.alternatives.push_back(at);
     current_ = {block.skip};
   }
   add(at);
 }
 
 void FrameFlow::condition_ends(std::size_t at) {
-  const std::size_t node = add(at);
+  const std::size_t node = add_turn(at);
   if (!blocks_.empty()) blocks_.back().skip = node;
 }
 
@@ -124,8 +129,6 @@ void FrameFlow::close(std::size_t at) {
     if (block.kind == Block::loop || block.kind == Block::endless) current_.clear();
     if (block.kind == Block::loop || (!loops && !block.complete)) current_.push_back(block.skip);
     current_.insert(current_.end(), block.ends.begin(), block.ends.end());
-    block.alternatives.push_back(at);
-    if (!loops) branches_.push_back(std::move(block.alternatives));
   }
   add(at);
 }
@@ -138,7 +141,7 @@ FrameFlow::OpenBlock* FrameFlow::innermost_loop() {
 }
 
 void FrameFlow::leave_loop(std::size_t at) {
-  const std::size_t node = add(at);
+  const std::size_t node = add_turn(at);
   OpenBlock* loop = innermost_loop();
   if (loop == nullptr) return;
   loop->ends.push_back(node);
@@ -146,7 +149,7 @@ void FrameFlow::leave_loop(std::size_t at) {
 }
 
 void FrameFlow::repeat_loop(std::size_t at) {
-  const std::size_t node = add(at);
+  const std::size_t node = add_turn(at);
   const OpenBlock* loop = innermost_loop();
   if (loop == nullptr) return;
   nodes_[node].next.push_back(loop->node);
@@ -154,7 +157,7 @@ void FrameFlow::repeat_loop(std::size_t at) {
 }
 
 void FrameFlow::leave_routine(std::size_t at) {
-  const std::size_t node = add(at);
+  const std::size_t node = add_turn(at);
   routines_[present_].exits.insert(node);
   current_.clear();
 }
@@ -165,7 +168,7 @@ void FrameFlow::label(std::size_t at, const std::string& name) {
 }
 
 void FrameFlow::jump(std::size_t at, const std::string& name, bool always) {
-  const std::size_t node = add(at);
+  const std::size_t node = add_turn(at);
   routines_[present_].jumps.emplace_back(node, name);
   if (always) current_.clear();
 }

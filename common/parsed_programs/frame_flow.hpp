@@ -62,9 +62,8 @@ class FrameFlow {
     std::optional<std::size_t> call{};
   };
   Held at(std::size_t offset) const;
-  /// Tells `program`, whose motions are known, where the motion before one in the text is not, or not always, the one
-  /// that the arm comes from: where a routine begins, where one inside another ends, behind calls of those that move,
-  /// and at the alternatives and the end of branches in which it moves.
+  /// Tells `program`, whose motions are known, the way through it, and where calls of routines that move leave unknown
+  /// where the arm comes from.
   void note_unknown_arrivals(Program& program) const;
   /// The calls of routines of other files.
   std::set<std::size_t> calls_elsewhere() const;
@@ -110,7 +109,6 @@ class FrameFlow {
     std::size_t skip;  ///< where the next alternative, or what is behind the block, begins
     std::vector<std::size_t> ends{};
     bool complete = false;
-    std::vector<std::size_t> alternatives{};  ///< bytes of its begin, alternatives and end
   };
 
   /// A routine that another has interrupted in the text.
@@ -121,6 +119,7 @@ class FrameFlow {
   };
 
   std::size_t add(std::size_t at);
+  std::size_t add_turn(std::size_t at);
   void start_routine(std::size_t at, const std::string& name, std::size_t file);
   void end_routine();
   OpenBlock* innermost_loop();
@@ -149,7 +148,6 @@ class FrameFlow {
   std::vector<OpenBlock> blocks_;
   std::size_t present_ = 0;  ///< the routine that statements are of
   std::vector<OpenRoutine> interrupted_;
-  std::vector<std::vector<std::size_t>> branches_;  ///< bytes of each branch's begin, alternatives and end
 };
 
 /// Says in `program`, at the first of these calls, that their routines are taken to leave tool and frame alone. `names`

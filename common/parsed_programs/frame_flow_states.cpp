@@ -142,7 +142,7 @@ void FrameFlow::note_unknown_arrivals(Program& program) const {
     motions.insert(target.further_motions.begin(), target.further_motions.end());
   }
   motions.insert(program.unknown_motions.begin(), program.unknown_motions.end());
-  if (motions.empty()) return;
+  for (const Node& node : nodes_) program.way.push_back({node.at, node.next});
   std::set<std::size_t> moving;  // routines
   for (const std::size_t motion : motions) {
     if (const Node* node = node_at(motion)) moving.insert(node->routine);
@@ -151,17 +151,9 @@ void FrameFlow::note_unknown_arrivals(Program& program) const {
     const std::set<std::size_t> called = called_by(routine);
     return std::ranges::any_of(called, [&](std::size_t one) { return moving.contains(one); });
   };
-  for (const std::vector<std::size_t>& branch : branches_) {
-    const auto inside = motions.lower_bound(branch.front());
-    if (inside != motions.end() && *inside < branch.back())
-      program.unknown_motions.insert(program.unknown_motions.end(), std::next(branch.begin()), branch.end());
-  }
-  std::size_t last = kNone;
   for (const Node& node : nodes_) {
-    const bool another = last != kNone && node.routine != last;
-    if (node.at > *motions.begin() && (another || (node.called != kNone && moves(node.called))))
+    if (std::ranges::any_of(routines_named(node.callee, node.routine), moves))
       program.unknown_motions.push_back(node.at);
-    last = node.routine;
   }
 }
 

@@ -88,6 +88,13 @@ struct FurtherFile {
   std::size_t begin = 0;  ///< where it begins in the text of the whole program
 };
 
+/// What is run in one go, up to where the next begins in the text. Before one that comes behind no other, such as where
+/// a routine begins, it is not known where the arm stands.
+struct Stretch {
+  std::size_t begin = 0;
+  std::vector<std::size_t> next{};  ///< the numbers of those that may come behind it
+};
+
 struct Program {
   std::string language{};              ///< the name of its row in all_languages()
   std::string file{};                  ///< the first, as named to the user
@@ -95,9 +102,11 @@ struct Program {
   std::vector<Target> targets;         ///< in the order of the text
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
   std::vector<Remark> remarks{};       ///< what else should be known before it runs
-  /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
-  /// routines that begin, of calls of those that move, and where branches in which the arm moves turn or end.
+  /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, and
+  /// of calls of routines that move.
   std::vector<std::size_t> unknown_motions{};
+  /// In the order of the text; empty: all of it is run in its order.
+  std::vector<Stretch> way{};
 
   /// The name of a file by its number (TextPlace::file).
   const std::string& file_name(std::size_t number) const { return number == 0 ? file : further[number - 1].name; }

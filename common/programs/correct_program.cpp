@@ -20,13 +20,12 @@
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "programs/configuration.hpp"
+#include "programs/followed_motions.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 
 namespace demecal::inline programs {
 namespace {
-
-constexpr double kMoved = 2e-3;  ///< rad or m: a joint that changes by less has not moved
 
 /// The joint that two configurations differ in most.
 std::string difference_of(const Chain& arm, const JointVector& one, const JointVector& other) {
@@ -46,44 +45,23 @@ std::string moved_text(const CorrectedTarget& corrected) {
 class Corrector {
  public:
   Corrector(const CommandModel& model, const Circumstances& circumstances)
-      : model_(model),
-        circumstances_(circumstances),
-        last_(middle_joints(model)),
-        finder_(circumstances.near, middle_joints(model)) {
-    signs_.setZero(last_.size());
-  }
+      : model_(model), circumstances_(circumstances) {}
 
-  CorrectedTarget correct(const Target& target) {
-    if (!target.not_sent_to.empty()) {
-      forget_where_it_is();
-      return left(target.not_sent_to + "; it is left as it is");
-    }
-    const CommandModel& model = model_for(target);
-    CorrectedTarget corrected = unknown(target).empty() ? with_known_frames(target, model) : refused(target);
-    if (!corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined) {
-      finder_.arrive(corrected.nominal, target.hint.configuration);
-    } else if (target.is_pose()) {
-      finder_.arrive(std::nullopt, "");
-    } else {
-      finder_.arrive(joints_of(target), "");
-    }
+  CorrectedTarget correct(const Target& target, const TargetVisit& visit) {
+    if (!target.not_sent_to.empty()) return left(target.not_sent_to + "; it is left as it is");
+    if (!unknown_frames(target, circumstances_).empty()) return refused(target);
+    CorrectedTarget corrected = with_known_frames(target, visit, model_for(target));
     corrected.texts = cell_texts(target, corrected);
     return corrected;
   }
 
   /// The program moves again to a target that was corrected so, at `line`. What is said: the side that it then comes
   /// from asks for another correction; empty: it does not.
-  std::string return_to(const Target& target, const CorrectedTarget& corrected, std::size_t line) {
+  std::string return_to(const Target& target, const TargetVisit& visit, const CorrectedTarget& corrected,
+                        std::size_t line) {
     const bool known = !corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined;
-    if (!known && target.is_pose()) {
-      forget_where_it_is();
-      return "";
-    }
-    const JointVector joints = known ? corrected.nominal : joints_of(target);
-    note_motion(joints);
-    finder_.arrive(joints, known ? target.hint.configuration : "");
-    if (!known || target.approach || signs_ == corrected.stop.approach) return "";
-    const CorrectedTarget again = correct_target(target, model_for(target), stop_at(target, joints));
+    if (!known || target.approach || visit.approach == corrected.stop.approach) return "";
+    const CorrectedTarget again = correct_target(target, model_for(target), stop_at(target, visit, corrected.nominal));
     if (again.is_uncorrected() || agree(corrected, again)) return "";
     const PoseError difference = pose_error(corrected.command_tool, again.command_tool);
     return "line " + std::to_string(line) + " comes to it from another side than the first motion does, and the " +
@@ -91,26 +69,7 @@ class Corrector {
            " mm: it has that of the first; a point of its own for each side tells them apart";
   }
 
-  /// Where the arm comes from is not known.
-  void forget_where_it_is() {
-    finder_.arrive(std::nullopt, "");
-    started_ = false;
-    signs_.setZero();
-  }
-
  private:
-  static JointVector joints_of(const Target& target) {
-    JointVector joints(std::ssize(target.joints));
-    for (Eigen::Index i = 0; i < joints.size(); ++i) joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
-    return joints;
-  }
-
-  /// What of the target's frames is not known. A user's tool stands for one that the program does not tell.
-  std::string unknown(const Target& target) const {
-    if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
-    return circumstances_.tool_given ? "" : target.frames.unknown_tool;
-  }
-
   static CorrectedTarget left(std::string sentence) {
     CorrectedTarget corrected;
     corrected.outcome = CorrectionOutcome::uncorrected;
@@ -120,7 +79,8 @@ class Corrector {
 
   CorrectedTarget refused(const Target& target) const {
     const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
-    return left(unknown(target) + "; this line was not corrected" + (frame ? "" : "; --tool-mm states the tool"));
+    return left(unknown_frames(target, circumstances_) + "; this line was not corrected" +
+                (frame ? "" : "; --tool-mm states the tool"));
   }
 
   /// The model with the tool that the target states.
@@ -134,16 +94,15 @@ class Corrector {
     return *with_tools_.back().second;
   }
 
-  CorrectedTarget with_known_frames(const Target& target, const CommandModel& model) {
-    const Configurations found = configurations(target, model.nominal.chain);
+  CorrectedTarget with_known_frames(const Target& target, const TargetVisit& visit, const CommandModel& model) {
+    const Configurations& found = visit.found;
     if (found.joints.empty()) return {};
     if (target.is_pose() && contradictions(target.hint, found.joints.front()) > 0)
       return left(
           "no joints were found that reach the pose in the configuration that is stated; this line was not corrected");
-    note_motion(found.joints.front());
     std::vector<CorrectedTarget> alternatives;
     for (const JointVector& joints : found.joints)
-      alternatives.push_back(correct_target(target, model, stop_at(target, joints)));
+      alternatives.push_back(correct_target(target, model, stop_at(target, visit, joints)));
     CorrectedTarget corrected = std::move(alternatives.front());
     corrected.from = found.from;
     for (std::size_t i = 1; i < alternatives.size(); ++i) {
@@ -152,13 +111,6 @@ class Corrector {
       break;
     }
     return corrected;
-  }
-
-  Configurations configurations(const Target& target, const Chain& arm) const {
-    if (!target.is_pose()) return {JointsFrom::target, {joints_of(target)}};
-    if (target.form != OrientationForm::unknown) return finder_.find(arm, target, stated_tool_pose(target));
-    const auto joints = joints_at_point(arm, stated_point(target), last_);
-    return joints ? Configurations{JointsFrom::before, {*joints}} : Configurations{};
   }
 
   /// Whether the program's numbers come out the same.
@@ -185,19 +137,9 @@ class Corrector {
     corrected.outcome = CorrectionOutcome::uncorrected;
   }
 
-  /// Takes the signs of the motion to here.
-  void note_motion(const JointVector& joints) {
-    for (Eigen::Index i = 0; i < joints.size() && started_; ++i) {
-      const double change = joints[i] - last_[i];
-      if (std::abs(change) >= kMoved) signs_[i] = change > 0.0 ? 1.0 : -1.0;
-    }
-    last_ = joints;
-    started_ = true;
-  }
-
-  Stop stop_at(const Target& target, const JointVector& joints) const {
+  Stop stop_at(const Target& target, const TargetVisit& visit, const JointVector& joints) const {
     Stop stop(joints);
-    stop.approach = target.approach.value_or(signs_);
+    stop.approach = target.approach.value_or(visit.approach);
     stop.payload_kg = target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
     stop.temperature_celsius =
         target.temperature_celsius ? target.temperature_celsius : circumstances_.temperature_celsius;
@@ -207,44 +149,14 @@ class Corrector {
 
   const CommandModel& model_;
   Circumstances circumstances_;
-  JointVector last_;
-  ApproachSigns signs_;
-  bool started_ = false;
-  ConfigurationFinder finder_;
   std::vector<std::pair<Eigen::Vector3d, std::unique_ptr<CommandModel>>> with_tools_;
 };
-
-/// A motion to a target, the first or another.
-struct ProgramVisit {
-  std::size_t order = 0, target = 0;
-  bool again = false;
-};
-
-/// In the order in which targets are visited.
-std::vector<ProgramVisit> visits(const Program& program) {
-  std::vector<ProgramVisit> all;
-  for (std::size_t i = 0; i < program.targets.size(); ++i) {
-    all.push_back({program.targets[i].order, i});
-    for (const std::size_t order : program.targets[i].further_motions) all.push_back({order, i, true});
-  }
-  std::ranges::stable_sort(all, {}, &ProgramVisit::order);
-  return all;
-}
-
-}  // namespace
-
-namespace {
 
 /// The line of a byte, from 1, in its own file.
 std::size_t line_at(std::string_view text, const Program& program, std::size_t offset) {
   const std::size_t file = program.file_at(offset), begin = file == 0 ? 0 : program.further[file - 1].begin;
   const std::string_view before = text.substr(std::min(begin, text.size()), offset - std::min(begin, offset));
   return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
-}
-
-/// Whether a motion between these bytes goes to a place that is not told.
-bool goes_elsewhere(const Program& program, std::size_t from, std::size_t to) {
-  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) { return at >= from && at < to; });
 }
 
 }  // namespace
@@ -259,20 +171,16 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (const std::vector<Remark>* remarks : {&result.program.uncorrected, &result.program.remarks})
     result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
-  std::size_t last_file = 0, last_order = 0;
-  for (const auto& [order, i, again] : visits(result.program)) {
+  for (const TargetVisit& visit : followed_motions(result.program, model, circumstances)) {
+    const std::size_t i = visit.target;
     const Target& target = result.program.targets[i];
-    const std::size_t file = result.program.file_at(order);
-    if (file != last_file || goes_elsewhere(result.program, last_order, order)) corrector.forget_where_it_is();
-    last_file = file;
-    last_order = order;
-    if (again) {
-      const std::size_t line = line_at(text, result.program, order);
-      if (std::string sentence = corrector.return_to(target, result.targets[i], line); !sentence.empty())
+    if (visit.again) {
+      const std::size_t line = line_at(text, result.program, visit.order);
+      if (std::string sentence = corrector.return_to(target, visit, result.targets[i], line); !sentence.empty())
         result.warnings.push_back({target.place, target.name, std::move(sentence)});
       continue;
     }
-    result.targets[i] = corrector.correct(target);
+    result.targets[i] = corrector.correct(target, visit);
     for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }

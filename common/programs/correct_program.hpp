@@ -36,9 +36,8 @@ struct CorrectedProgram {
 /// command. Position and orientation both change, except where the file's orientation is kept (VAL II, thesis 5.2.2) or
 /// unknown: then the position is such that the real tool point is exact.
 ///
-/// A target that states no approach is approached from the target before it in the text: each joint's sign is that of
-/// its last change of 2 mrad (2 mm) or more, 0 before the first. Nothing is concluded from motions in another of the
-/// program's files.
+/// A target that states no approach is approached as followed_motions() tells. Nothing is concluded from motions in
+/// another of the program's files.
 ///
 /// Where the program leaves several configurations possible (see ConfigurationFinder), and their corrections differ by
 /// more than 0.05 mm or 0.03 deg, the target is left as it is; so is one whose frame or tool is not known.

@@ -58,6 +58,9 @@ void LocationFrames::read_way(const ProgramText& text, const std::string& word, 
   if (moves_untold(word)) untold_[begin] = word;
   if (word == "if" && find_word(text, begin, end, "then") < end) return flow_.open(begin, Block::branch);
   if (word == "case" || word == "scase") return flow_.open(begin, Block::selection);
+  const std::size_t condition = text.skip_spaces(text.word_end(begin));
+  const bool always = text.word_at(condition) == "true" && text.word_at(text.word_end(condition)) == "do";
+  if (word == "while" && always) return flow_.open(begin, Block::endless);
   if (word == "while" || word == "for") return flow_.open(begin, Block::loop);
   if (word == "do") return flow_.open(begin, Block::repeated);
   if (word == "else" || word == "any") return flow_.alternative(begin, true);

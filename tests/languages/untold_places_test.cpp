@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "kinematics/random_arm.hpp"
@@ -29,10 +30,16 @@ std::string said_in_line(const Program& program, std::size_t line) {
 
 /// Whether what is known of the joints ends in this line of the text.
 bool ends_in_line(const Program& program, const std::string& text, std::size_t line) {
-  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) {
+  const auto is_there = [&](std::size_t at) {
     const std::string_view before = std::string_view(text).substr(0, at);
     return static_cast<std::size_t>(std::ranges::count(before, '\n')) + 1 == line;
-  });
+  };
+  std::set<std::size_t> behind_others;
+  for (const Stretch& stretch : program.way) behind_others.insert(stretch.next.begin(), stretch.next.end());
+  for (std::size_t i = 0; i < program.way.size(); ++i) {
+    if (!behind_others.contains(i) && is_there(program.way[i].begin)) return true;
+  }
+  return std::ranges::any_of(program.unknown_motions, is_there);
 }
 
 /// Expects that the line of `text` is reported so, and that what is known of the joints ends there.

@@ -3,25 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corrected_arm.hpp"
-#include "languages/written_program.hpp"
+#include "named_motions.hpp"
 
 namespace demecal {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-/// An arm whose joint 1 stops elsewhere by the side that it comes from.
-CommandModel lost_motion_model() {
-  RandomStream stream{7541};
-  const Robot nominal = elbow_arm(stream);
-  CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
-  identified.corrections.assign(nominal.chain.joints.size(), {});
-  identified.effects = {
-      {.kind = "backlash", .joint = 0, .settings = {}, .form = "approach", .formula = {}, .values = {2e-3}}};
-  return unbounded_model(nominal, identified);
-}
 
 std::string variable(const std::string& name, double first) {
   return name + " = [" + std::to_string(first) + ",-1.0,1.2,0.35,0.9,0.1]\n";

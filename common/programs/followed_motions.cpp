@@ -1,0 +1,213 @@
+#include "programs/followed_motions.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "kinematics/chain.hpp"
+#include "parsed_programs/arrivals.hpp"
+#include "parsed_programs/orientation.hpp"
+#include "programs/nominal_joints.hpp"
+
+namespace demecal::inline programs {
+namespace {
+
+/// What is known of the arm behind a motion.
+struct ArmKnowledge {
+  std::optional<JointVector> joints{};
+  std::string words{};  ///< that state their configuration
+  ApproachSigns signs{};
+  bool operator==(const ArmKnowledge&) const = default;
+};
+
+constexpr double kMoved = 2e-3;  ///< rad or m: a joint that changes by less has not moved
+
+/// Takes the signs of a motion to these joints, and that the arm is there.
+void arrive_at(const JointVector& joints, const std::string& words, ArmKnowledge& arm) {
+  if (!arm.joints) arm.signs.setZero();
+  for (Eigen::Index i = 0; i < joints.size() && arm.joints; ++i) {
+    const double change = joints[i] - (*arm.joints)[i];
+    if (std::abs(change) >= kMoved) arm.signs[i] = change > 0.0 ? 1.0 : -1.0;
+  }
+  arm.joints = joints;
+  arm.words = words;
+}
+
+bool same_joints(const JointVector& one, const JointVector& other) {
+  constexpr double kSameJoints = 1e-6;  ///< rad or m
+  return (one - other).cwiseAbs().maxCoeff() <= kSameJoints;
+}
+
+/// Leaves what is known on both paths.
+void keep_common(const ArmKnowledge& other, ArmKnowledge& arm) {
+  if (!arm.joints || !other.joints || !same_joints(*arm.joints, *other.joints) || arm.words != other.words) {
+    arm.joints.reset();
+    arm.words.clear();
+  }
+  for (Eigen::Index i = 0; i < arm.signs.size(); ++i) {
+    if (arm.signs[i] != other.signs[i]) arm.signs[i] = 0.0;
+  }
+}
+
+/// Takes in what another path finds.
+void join(const Configurations& other, Configurations& found) {
+  if (other.joints.empty()) return;
+  if (found.joints.empty()) {
+    found = other;
+    return;
+  }
+  for (const JointVector& joints : other.joints) {
+    const auto known = [&](const JointVector& one) { return same_joints(one, joints); };
+    if (std::ranges::none_of(found.joints, known)) found.joints.push_back(joints);
+  }
+  if (found.joints.size() > 1) found.from = JointsFrom::undetermined;
+}
+
+class ArmFollower {
+ public:
+  ArmFollower(const Program& program, const CommandModel& model, const Circumstances& circumstances)
+      : program_(program),
+        model_(model),
+        circumstances_(circumstances),
+        arrivals_(arrivals(program)),
+        last_(middle_joints(model)),
+        finder_(circumstances.near, middle_joints(model)) {
+    nowhere_.signs.setZero(last_.size());
+    for (std::size_t i = 0; i < program.targets.size(); ++i) {
+      visits_.push_back({.order = program.targets[i].order, .target = i});
+      for (const std::size_t order : program.targets[i].further_motions) visits_.push_back({order, i, true});
+    }
+    std::ranges::stable_sort(visits_, {}, &TargetVisit::order);
+    for (std::size_t i = 0; i < visits_.size(); ++i) begins_.try_emplace(visits_[i].order, i);
+    for (const auto& [motion, origins] : arrivals_) {
+      for (const std::size_t origin : origins) followers_[origin].insert(motion);
+    }
+  }
+
+  std::vector<TargetVisit> visits() {
+    std::set<std::size_t> due;
+    for (const auto& [motion, begin] : begins_) due.insert(motion);
+    while (!due.empty()) {
+      const std::size_t motion = *due.begin();
+      due.erase(due.begin());
+      if (!follow(motion)) continue;
+      const std::set<std::size_t>& next = followers_[motion];
+      due.insert(next.begin(), next.end());
+    }
+    return std::move(visits_);
+  }
+
+ private:
+  /// Follows the motion, coming from where it is known to come from; whether what is known behind it has changed.
+  bool follow(std::size_t motion) {
+    const std::vector<ArmKnowledge> origins = origins_of(motion);
+    if (origins.empty()) return false;
+    std::optional<ArmKnowledge> behind;
+    for (const ArmKnowledge& origin : origins) {
+      const ArmKnowledge end = moved(motion, origin, !behind);
+      behind ? keep_common(end, *behind) : static_cast<void>(behind = end);
+    }
+    const auto [before, fresh] = behind_.try_emplace(motion, *behind);
+    if (fresh) return true;
+    keep_common(before->second, *behind);
+    if (*behind == before->second) return false;
+    before->second = *behind;
+    return true;
+  }
+
+  /// What is known of the arm before the motion, on each path that was followed so far.
+  std::vector<ArmKnowledge> origins_of(std::size_t motion) const {
+    const std::vector<std::size_t>& from = arrivals_.at(motion);
+    if (from.empty()) return {nowhere_};
+    std::vector<ArmKnowledge> origins;
+    for (const std::size_t origin : from) {
+      const auto known = behind_.find(origin);
+      if (known != behind_.end() && std::ranges::find(origins, known->second) == origins.end())
+        origins.push_back(known->second);
+    }
+    return origins;
+  }
+
+  /// Goes on from `arm` by the motion, to all its targets; `first` of the paths that lead here.
+  ArmKnowledge moved(std::size_t motion, ArmKnowledge arm, bool first) {
+    for (std::size_t i = begins_.at(motion); i < visits_.size() && visits_[i].order == motion; ++i) {
+      const Target& target = program_.targets[visits_[i].target];
+      const Configurations found = configurations(target, arm);
+      arm = arrived(target, found, std::move(arm));
+      TargetVisit& visit = visits_[i];
+      if (first) {
+        visit = {visit.order, visit.target, visit.again, found, arm.signs};
+      } else {
+        join(found, visit.found);
+        join_signs(arm.signs, visit);
+      }
+    }
+    return arm;
+  }
+
+  static void join_signs(const ApproachSigns& signs, TargetVisit& visit) {
+    for (Eigen::Index i = 0; i < signs.size(); ++i) {
+      if (signs[i] == visit.approach[i]) continue;
+      visit.differing_sides = visit.differing_sides || signs[i] * visit.approach[i] != 0.0;
+      visit.approach[i] = 0.0;
+    }
+  }
+
+  ArmKnowledge arrived(const Target& target, const Configurations& found, ArmKnowledge arm) {
+    const bool known = found.joints.size() == 1 && found.from != JointsFrom::undetermined &&
+                       !(target.is_pose() && contradictions(target.hint, found.joints.front()) > 0);
+    if (!known || !target.not_sent_to.empty()) return nowhere_;
+    last_ = found.joints.front();
+    arrive_at(found.joints.front(), target.hint.configuration, arm);
+    if (target.is_pose()) finder_.arrive(arm.joints, arm.words);
+    return arm;
+  }
+
+  /// The joints that the arm comes to the target with from where it is.
+  Configurations configurations(const Target& target, const ArmKnowledge& arm) {
+    if (!target.is_pose()) return {JointsFrom::target, {joints_of(target)}};
+    if (!target.not_sent_to.empty() || !unknown_frames(target, circumstances_).empty()) return {};
+    Chain chain = model_.nominal.chain;
+    if (target.frames.tool) chain.tool_m = target.frames.tool->translation();
+    finder_.arrive(arm.joints, arm.words);
+    if (target.form != OrientationForm::unknown) return finder_.find(chain, target, stated_tool_pose(target));
+    const auto joints = joints_at_point(chain, stated_point(target), last_);
+    return joints ? Configurations{JointsFrom::before, {*joints}} : Configurations{};
+  }
+
+  static JointVector joints_of(const Target& target) {
+    JointVector joints(std::ssize(target.joints));
+    for (Eigen::Index i = 0; i < joints.size(); ++i) joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
+    return joints;
+  }
+
+  const Program& program_;
+  const CommandModel& model_;
+  const Circumstances& circumstances_;
+  std::map<std::size_t, std::vector<std::size_t>> arrivals_;
+  std::map<std::size_t, std::set<std::size_t>> followers_;  ///< the motions behind each
+  std::vector<TargetVisit> visits_;
+  std::map<std::size_t, std::size_t> begins_;   ///< of each motion's visits
+  std::map<std::size_t, ArmKnowledge> behind_;  ///< each motion that was followed
+  ArmKnowledge nowhere_;
+  JointVector last_;  ///< that were known, for positions without an orientation
+  ConfigurationFinder finder_;
+};
+
+}  // namespace
+
+std::string unknown_frames(const Target& target, const Circumstances& circumstances) {
+  if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
+  return circumstances.tool_given ? "" : target.frames.unknown_tool;
+}
+
+std::vector<TargetVisit> followed_motions(const Program& program, const CommandModel& model,
+                                          const Circumstances& circumstances) {
+  return ArmFollower(program, model, circumstances).visits();
+}
+
+}  // namespace demecal::inline programs

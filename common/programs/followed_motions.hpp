@@ -1,0 +1,36 @@
+// The arm followed through a program: how it comes to every target, whatever way the program takes there.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "parsed_programs/program.hpp"
+#include "programs/command_model.hpp"
+#include "programs/configuration.hpp"
+#include "programs/correct_program.hpp"
+
+namespace demecal::inline programs {
+
+/// A motion to a target, the first or another.
+struct TargetVisit {
+  std::size_t order = 0, target = 0;
+  bool again = false;
+  /// The joints that the arm reaches the target with. Where paths differ in them, all of these joints, undetermined.
+  Configurations found{};
+  /// From which side each joint comes; 0 where that is not known, or paths differ.
+  ApproachSigns approach{};
+  bool differing_sides = false;  ///< paths differ in known sides
+};
+
+/// What of the target's frames is not known; empty: they are known. A user's tool stands for one that the program does
+/// not tell.
+std::string unknown_frames(const Target& target, const Circumstances& circumstances);
+
+/// The motions to targets, in the order of the text. A joint comes from the side of its last change of 2 mrad (2 mm) or
+/// more. What is known of the arm ends where arrivals() tells so, and at targets whose joints are not known.
+std::vector<TargetVisit> followed_motions(const Program& program, const CommandModel& model,
+                                          const Circumstances& circumstances);
+
+}  // namespace demecal::inline programs

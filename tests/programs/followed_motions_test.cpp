@@ -1,0 +1,106 @@
+// Where the arm comes from in programs that branch, repeat and jump: the side of approach and the configuration that a
+// target is corrected for are those of all the ways that lead to it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "named_motions.hpp"
+
+namespace demecal {
+namespace {
+
+/// The same program in several languages.
+using InLanguages = std::map<WrittenIn, std::string>;
+
+const InLanguages kLoop{{WrittenIn::rapid, "@LOW\nWHILE TRUE DO\n@MIDDLE\n@HIGH\nENDWHILE\n"},
+                        {WrittenIn::krl, "@LOW\nLOOP\n@MIDDLE\n@HIGH\nENDLOOP\n"},
+                        {WrittenIn::urscript, "@LOW\nwhile True:\n@MIDDLE\n@HIGH\nend\n"},
+                        {WrittenIn::kawasaki_as, "@LOW\nWHILE SIG(1) DO\n@MIDDLE\n@HIGH\nEND\n"}};
+const InLanguages kLoopFromOneSide{{WrittenIn::krl, "@LOW\nLOOP\n@MIDDLE\n@LOW\nENDLOOP\n"},
+                                   {WrittenIn::urscript, "@LOW\nwhile True:\n@MIDDLE\n@LOW\nend\n"},
+                                   {WrittenIn::kawasaki_as, "@LOW\nWHILE SIG(1) DO\n@MIDDLE\n@LOW\nEND\n"}};
+const InLanguages kSkipped{{WrittenIn::rapid, "@LOW\nIF DInput(d)=1 @HIGH\n@MIDDLE\n"},
+                           {WrittenIn::krl, "@LOW\nWHILE $IN[1]\n@HIGH\nENDWHILE\n@MIDDLE\n"},
+                           {WrittenIn::urscript, "@LOW\nif f:\n@HIGH\nend\n@MIDDLE\n"},
+                           {WrittenIn::kawasaki_as, "@LOW\nIF SIG(1) THEN\n@HIGH\nEND\n@MIDDLE\n"}};
+const InLanguages kBackwards{{WrittenIn::rapid, "@LOW\nagain:\n@MIDDLE\n@HIGH\nGOTO again;\n"},
+                             {WrittenIn::krl, "@LOW\nagain:\n@MIDDLE\n@HIGH\nGOTO again\n"},
+                             {WrittenIn::kawasaki_as, "@LOW\n10 @MIDDLE\n@HIGH\nGOTO 10\n"}};
+const InLanguages kForwards{{WrittenIn::krl, "@LOW\nIF $IN[1] THEN\nGOTO on\nENDIF\n@HIGH\non:\n@MIDDLE\n"},
+                            {WrittenIn::kawasaki_as, "@LOW\nIF SIG(1) GOTO 10\n@HIGH\n10 @MIDDLE\n"}};
+const InLanguages kLeft{{WrittenIn::krl, "@HIGH\nLOOP\n@LOW\nIF $IN[1] THEN\nEXIT\nENDIF\n@HIGH\nENDLOOP\n@MIDDLE\n"},
+                        {WrittenIn::urscript, "@HIGH\nwhile True:\n@LOW\nif f:\nbreak\nend\n@HIGH\nend\n@MIDDLE\n"}};
+const InLanguages kBranchesFromOneSide{
+    {WrittenIn::rapid, "@HIGH\nTEST n\nCASE 1:\n@LOW\nDEFAULT:\n@MIDDLE\nENDTEST\n"},
+    {WrittenIn::krl, "@HIGH\nIF $IN[1] THEN\n@MIDDLE\nELSE\nHALT\nENDIF\n"},
+    {WrittenIn::urscript, "@HIGH\nif f:\n@LOW\nelse:\n@MIDDLE\nend\n"},
+    {WrittenIn::kawasaki_as, "@HIGH\nCASE n OF\nVALUE 1:\n@LOW\nVALUE 2:\n@MIDDLE\nEND\n"}};
+
+/// The side from which joint 1 comes there.
+std::vector<double> sides(const InLanguages& programs, const std::string& place = "MIDDLE") {
+  const CommandModel model = lost_motion_model();
+  std::vector<double> found;
+  for (const auto& [language, lines] : programs) {
+    const CorrectedProgram corrected = corrected_motions(language, lines, model);
+    found.push_back(corrected.targets.at(index_of(corrected, place)).stop.approach[0]);
+  }
+  return found;
+}
+
+TEST(Approach, IsThatOfEveryWayThatLeadsToTheTarget) {
+  EXPECT_THAT(sides(kLoop), ::testing::Each(0.0)) << "from the last motion, from the second round on";
+  EXPECT_THAT(sides(kSkipped), ::testing::Each(0.0)) << "the loop or branch may be skipped";
+  EXPECT_THAT(sides(kBackwards), ::testing::Each(0.0));
+  EXPECT_THAT(sides(kForwards), ::testing::Each(0.0));
+  EXPECT_THAT(sides(kLoopFromOneSide), ::testing::Each(1.0)) << "every round from the same side";
+  EXPECT_THAT(sides(kLeft), ::testing::Each(1.0)) << "only from where the loop is left";
+  EXPECT_THAT(sides(kBranchesFromOneSide), ::testing::Each(-1.0)) << "alternatives begin where the branch does";
+}
+
+/// Where the joints of POSE come from, and what is said of it: nothing where it is corrected.
+std::vector<std::string> postures(const InLanguages& programs) {
+  RandomStream stream{7561};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  std::vector<std::string> found;
+  for (const auto& [language, lines] : programs) {
+    const CorrectedProgram corrected = corrected_motions(language, lines, model);
+    const std::size_t pose = index_of(corrected, "POSE");
+    const CorrectedTarget& target = corrected.targets.at(pose);
+    found.push_back(target.is_uncorrected() ? "left" : std::string(to_string(target.from)));
+    for (const Remark& warning : corrected.warnings) {
+      if (warning.place.line == corrected.program.targets[pose].place.line) found.back() += ": " + warning.sentence;
+    }
+  }
+  return found;
+}
+
+InLanguages with_poses(InLanguages programs) {
+  programs.erase(WrittenIn::rapid);  // its poses state their configuration
+  for (auto& [language, lines] : programs) {
+    for (const auto& [from, to] : {std::pair{"LOW", "NEAR"}, {"MIDDLE", "POSE"}, {"HIGH", "FLIPPED"}}) {
+      for (std::size_t at = lines.find(from); at != std::string::npos; at = lines.find(from, at + 1))
+        lines.replace(at, std::string_view(from).size(), to);
+    }
+  }
+  return programs;
+}
+
+TEST(Configuration, IsThatOfEveryWayThatLeadsToTheTarget) {
+  for (const InLanguages& programs : {kLoop, kSkipped, kBackwards, kForwards})
+    EXPECT_THAT(postures(with_poses(programs)),
+                ::testing::Each(::testing::StartsWith("left: the arm's configuration")));
+  for (const InLanguages& programs : {kLoopFromOneSide, kLeft, kBranchesFromOneSide})
+    EXPECT_THAT(postures(with_poses(programs)), ::testing::Each("joints_before")) << "nothing is said";
+}
+
+TEST(Approach, IsNotKnownBehindATargetWhoseJointsAreNot) {
+  InLanguages unknown = with_poses(kSkipped), known = unknown;
+  for (auto& [language, lines] : unknown) lines += "@HIGH\n";
+  for (auto& [language, lines] : known) lines = "@NEAR\n@POSE\n@HIGH\n";
+  EXPECT_THAT(sides(unknown, "HIGH"), ::testing::Each(0.0));
+  EXPECT_THAT(sides(known, "HIGH"), ::testing::Each(1.0));
+}
+
+}  // namespace
+}  // namespace demecal
