@@ -19,6 +19,7 @@
 #include "kinematics/units.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "programs/approach_sides.hpp"
 #include "programs/configuration.hpp"
 #include "programs/followed_motions.hpp"
 #include "programs/nominal_joints.hpp"
@@ -47,29 +48,60 @@ class Corrector {
   Corrector(const CommandModel& model, const Circumstances& circumstances)
       : model_(model), circumstances_(circumstances) {}
 
-  CorrectedTarget correct(const Target& target, const TargetVisit& visit) {
+  /// `visits`: all to this target, the first first; `line_at`: the line of a visit's byte.
+  CorrectedTarget correct(const Target& target, const std::vector<TargetVisit>& visits,
+                          const std::function<std::size_t(std::size_t)>& line_at) {
     if (!target.not_sent_to.empty()) return left(target.not_sent_to + "; it is left as it is");
     if (!unknown_frames(target, circumstances_).empty()) return refused(target);
-    CorrectedTarget corrected = with_known_frames(target, visit, model_for(target));
+    CorrectedTarget corrected = with_known_frames(target, visits.front(), model_for(target));
+    for (std::size_t i = 1; i < visits.size() && !corrected.is_uncorrected(); ++i)
+      check_posture(target, visits[i], line_at(visits[i].order), corrected);
+    for (std::size_t i = 1; i < visits.size() && !corrected.is_uncorrected(); ++i)
+      check_side(target, visits[i], line_at(visits[i].order), corrected);
+    if (!corrected.is_uncorrected() && !target.approach) {
+      corrected.unknown_side_m = unknown_side_m(model_for(target), corrected);
+      if (corrected.error95_m) *corrected.error95_m += 0.5 * corrected.unknown_side_m;
+    }
     corrected.texts = cell_texts(target, corrected);
     return corrected;
   }
 
-  /// The program moves again to a target that was corrected so, at `line`. What is said: the side that it then comes
-  /// from asks for another correction; empty: it does not.
-  std::string return_to(const Target& target, const TargetVisit& visit, const CorrectedTarget& corrected,
-                        std::size_t line) {
-    const bool known = !corrected.is_uncorrected() && corrected.from != JointsFrom::undetermined;
-    if (!known || target.approach || visit.approach == corrected.stop.approach) return "";
-    const CorrectedTarget again = correct_target(target, model_for(target), stop_at(target, visit, corrected.nominal));
-    if (again.is_uncorrected() || agree(corrected, again)) return "";
-    const PoseError difference = pose_error(corrected.command_tool, again.command_tool);
-    return "line " + std::to_string(line) + " comes to it from another side than the first motion does, and the " +
-           "corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
-           " mm: it has that of the first; a point of its own for each side tells them apart";
+ private:
+  /// The program moves again to a target that was corrected so: leaves it where the joints that it is then reached with
+  /// ask for another correction.
+  void check_posture(const Target& target, const TargetVisit& visit, std::size_t line, CorrectedTarget& corrected) {
+    if (!target.is_pose()) return;
+    const CommandModel& model = model_for(target);
+    for (const JointVector& joints : visit.found.joints) {
+      const CorrectedTarget again = correct_target(target, model, corrected.stop.with_joints(joints));
+      if (agree(corrected, again)) continue;
+      const PoseError difference = pose_error(corrected.command_tool, again.command_tool);
+      const bool known = visit.found.from != JointsFrom::undetermined;
+      corrected.remarks = {"line " + std::to_string(line) + (known ? " reaches" : " may reach") +
+                           " it in another configuration than the first motion does (" +
+                           difference_of(model.nominal.chain, corrected.nominal, again.nominal) +
+                           "), and the corrections differ by " +
+                           fixed_text(millimetres(difference.head<3>().norm()), 3) + " mm and " +
+                           fixed_text(degrees(difference.tail<3>().norm()), 3) +
+                           " deg; it was not corrected; a point of its own for each tells them apart"};
+      corrected.outcome = CorrectionOutcome::uncorrected;
+      return;
+    }
   }
 
- private:
+  /// Says so where the side that it then comes from asks for another correction.
+  void check_side(const Target& target, const TargetVisit& visit, std::size_t line, CorrectedTarget& corrected) {
+    const bool known = corrected.from != JointsFrom::undetermined;
+    if (!known || target.approach || visit.approach == corrected.stop.approach) return;
+    const CorrectedTarget again = correct_target(target, model_for(target), stop_at(target, visit, corrected.nominal));
+    if (again.is_uncorrected() || agree(corrected, again)) return;
+    const PoseError difference = pose_error(corrected.command_tool, again.command_tool);
+    corrected.remarks.push_back("line " + std::to_string(line) +
+                                " comes to it from another side than the first motion does, and the " +
+                                "corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) +
+                                " mm: it has that of the first; a point of its own for each side tells them apart");
+  }
+
   static CorrectedTarget left(std::string sentence) {
     CorrectedTarget corrected;
     corrected.outcome = CorrectionOutcome::uncorrected;
@@ -83,14 +115,15 @@ class Corrector {
                 (frame ? "" : "; --tool-mm states the tool"));
   }
 
-  /// The model with the tool that the target states.
+  /// The model with the tool that the target states: one that the user names beside it is none of the target's.
   const CommandModel& model_for(const Target& target) {
     if (!target.frames.tool) return model_;
     const Eigen::Vector3d tool_m = target.frames.tool->translation();
     for (const auto& [known_m, model] : with_tools_) {
       if (known_m == tool_m) return *model;
     }
-    with_tools_.emplace_back(tool_m, std::make_unique<CommandModel>(with_stated_tool(model_, tool_m)));
+    const CommandModel& own = circumstances_.own_tool != nullptr ? *circumstances_.own_tool : model_;
+    with_tools_.emplace_back(tool_m, std::make_unique<CommandModel>(with_stated_tool(own, tool_m)));
     return *with_tools_.back().second;
   }
 
@@ -159,6 +192,13 @@ std::size_t line_at(std::string_view text, const Program& program, std::size_t o
   return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
 }
 
+void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
+  constexpr double kWorthSaying_m = 5e-5;
+  if (corrected.unknown_side_m <= kWorthSaying_m) return;
+  sides.targets.push_back(&target);
+  sides.most_m = std::max(sides.most_m, corrected.unknown_side_m);
+}
+
 }  // namespace
 
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
@@ -171,19 +211,22 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (const std::vector<Remark>* remarks : {&result.program.uncorrected, &result.program.remarks})
     result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
-  for (const TargetVisit& visit : followed_motions(result.program, model, circumstances)) {
-    const std::size_t i = visit.target;
+  std::vector<std::vector<TargetVisit>> visits(result.program.targets.size());
+  for (TargetVisit& visit : followed_motions(result.program, model, circumstances))
+    visits[visit.target].push_back(std::move(visit));
+  UnknownSides unknown, differing;
+  const auto line = [&](std::size_t offset) { return line_at(text, result.program, offset); };
+  for (std::size_t i = 0; i < visits.size(); ++i) {
     const Target& target = result.program.targets[i];
-    if (visit.again) {
-      const std::size_t line = line_at(text, result.program, visit.order);
-      if (std::string sentence = corrector.return_to(target, visit, result.targets[i], line); !sentence.empty())
-        result.warnings.push_back({target.place, target.name, std::move(sentence)});
-      continue;
-    }
-    result.targets[i] = corrector.correct(target, visit);
+    result.targets[i] = corrector.correct(target, visits[i], line);
+    note_unknown_side(target, result.targets[i], visits[i].front().differing_sides ? differing : unknown);
     for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
+  }
+  for (const auto& [sides, why] : {std::pair{&unknown, "is not told"}, {&differing, "depends on the way there"}}) {
+    if (sides->targets.empty()) continue;
+    result.warnings.push_back({kWholeProgram, "", unknown_side_sentence(result.program, *sides, why)});
   }
   std::stable_sort(result.warnings.begin(), result.warnings.end(), [](const Remark& one, const Remark& other) {
     return std::tie(one.place.file, one.place.line, one.place.column) <

@@ -21,6 +21,8 @@ struct Circumstances {
   std::optional<double> temperature_celsius{};
   JointVector near{};       ///< joints that the arm is near to where the program does not tell; empty: unknown
   bool tool_given = false;  ///< the model's tool is one that the user names
+  /// Then, the model with the tool that was measured, for targets that state theirs; none: it is not needed.
+  const CommandModel* own_tool = nullptr;
 };
 
 struct CorrectedProgram {

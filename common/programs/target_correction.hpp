@@ -43,6 +43,8 @@ struct CorrectedTarget {
   double residual_m = 0.0, residual_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
   std::optional<double>
       error95_m{};  ///< holds the real tool point about the goal 95 % of the time, without what is left
+  /// How far apart the real tool point may stand by the sides of approach that are not known; half is in error95_m.
+  double unknown_side_m = 0.0;
   std::vector<std::string> remarks{};  ///< what a user should know of how it was corrected
   std::vector<std::string> notes{};    ///< orientations that are left as programmed: no worse than before, no warning
   std::vector<std::string> texts{};    ///< of the cells, joints or position and then orientation; empty: kept

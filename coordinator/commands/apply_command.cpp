@@ -215,11 +215,13 @@ ExitCode run(const ApplyRequest& request) {
   refuse_corrected(source.files());
   const Language& language = language_asked(request, source.files().front().text);
   Program program = read_program(language, source, model.nominal.chain, controller_data(request, model.nominal));
+  const CommandModel own_tool = to_command_model(calibrated);
   CorrectedProgram corrected = correct_program(source.text(), std::move(program), model,
                                                {.payload_kg = request.payload_kg,
                                                 .temperature_celsius = request.temperature_celsius,
                                                 .near = near_joints(request, model.nominal),
-                                                .tool_given = !request.tool_mm.empty()});
+                                                .tool_given = !request.tool_mm.empty(),
+                                                .own_tool = &own_tool});
   if (const std::optional<Remark> left = companion_left(request, language))
     corrected.warnings.insert(corrected.warnings.begin(), *left);
   for (const Remark& warning : corrected.warnings) fmt::print(stderr, "{}", warning_text(corrected, warning));

@@ -50,7 +50,8 @@ TEST(Configuration, ComesFromTheJointsBeforeOrFromTheUser) {
   const CorrectedProgram named = of.correct(of.line(of.meant), before);
   EXPECT_EQ(named.targets[0].from, JointsFrom::given);
   EXPECT_LT((named.targets[0].nominal - of.meant).norm(), 1e-6);
-  EXPECT_TRUE(named.warnings.empty());
+  ASSERT_EQ(named.warnings.size(), 1u);
+  EXPECT_THAT(named.warnings[0].sentence, HasSubstr("the side that the arm comes from"));
 }
 
 TEST(Configuration, ThatNoJointsHaveLeavesTheLine) {

@@ -128,8 +128,9 @@ TEST(Words, ThatAreNewLeaveTheLineAndSaySo) {
   const CorrectedProgram corrected = listing.corrected();
   EXPECT_EQ(corrected.targets[1].outcome, CorrectionOutcome::corrected);
   EXPECT_EQ(corrected.targets[2].outcome, CorrectionOutcome::uncorrected);
-  ASSERT_EQ(corrected.warnings.size(), 1u);
-  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("configuration, stated as 'FUT,0,0,0', which does not mean"));
+  ASSERT_EQ(corrected.warnings.size(), 2u);
+  EXPECT_THAT(corrected.warnings[0].sentence, HasSubstr("the side that the arm comes from"));
+  EXPECT_THAT(corrected.warnings[1].sentence, HasSubstr("configuration, stated as 'FUT,0,0,0', which does not mean"));
   EXPECT_EQ(corrected.targets[3].from, JointsFrom::stated);
 }
 

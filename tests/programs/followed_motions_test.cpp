@@ -102,5 +102,50 @@ TEST(Approach, IsNotKnownBehindATargetWhoseJointsAreNot) {
   EXPECT_THAT(sides(known, "HIGH"), ::testing::Each(1.0));
 }
 
+TEST(Configuration, OfAPointThatIsMovedToAgainIsThatOfEveryMotion) {
+  const auto of = [](const std::string& other) -> InLanguages {
+    return {{WrittenIn::urscript, "pt=" + std::string("%") + "\n@NEAR\nmovej(pt)\n@" + other + "\nmovej(pt)\n"},
+            {WrittenIn::kawasaki_as, "@NEAR\nJMOVE pt\n@" + other + "\nJMOVE pt\n.END\n.TRANS\npt %\n"}};
+  };
+  RandomStream stream{7561};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  const auto judged = [&](InLanguages programs) {
+    for (auto& [language, lines] : programs) {
+      std::string place = place_named(language, "POSE", model);
+      if (language == WrittenIn::kawasaki_as) place = place.substr(6, place.size() - 7);
+      lines.replace(lines.find('%'), 1, place);
+    }
+    return postures(programs);
+  };
+  EXPECT_THAT(judged(of("FLIPPED")), ::testing::Each(::testing::AllOf(::testing::StartsWith("left: line "),
+                                                                      ::testing::HasSubstr("another configuration"))));
+  EXPECT_THAT(judged(of("NEAR")), ::testing::Each("joints_before"));
+}
+
+/// What is said of the program as a whole.
+std::vector<std::string> said_of_sides(const InLanguages& programs) {
+  const CommandModel model = lost_motion_model();
+  std::vector<std::string> found;
+  for (const auto& [language, lines] : programs) {
+    found.emplace_back();
+    for (const Remark& warning : corrected_motions(language, lines, model).warnings) found.back() += warning.sentence;
+  }
+  return found;
+}
+
+TEST(Approach, IsSaidOnceWhereItIsNotKnownAndMatters) {
+  using ::testing::AllOf;
+  using ::testing::HasSubstr;
+  for (const InLanguages& programs : {kLoop, kSkipped, kBackwards, kForwards})
+    EXPECT_THAT(said_of_sides(programs),
+                ::testing::Each(AllOf(HasSubstr("depends on the way there"), HasSubstr("mm apart"))));
+  EXPECT_THAT(said_of_sides({{WrittenIn::krl, "@LOW\n@MIDDLE\n"}}), ::testing::Each(HasSubstr("line 2 is not told")));
+  EXPECT_THAT(said_of_sides({{WrittenIn::urscript, "@LOW\n@MIDDLE\n"}}),
+              ::testing::Each(HasSubstr("line 2 is not told")));
+  for (const InLanguages& programs : {kLoopFromOneSide, kBranchesFromOneSide})
+    EXPECT_THAT(said_of_sides(programs),
+                ::testing::Each(AllOf(HasSubstr(" is not told"), ::testing::Not(HasSubstr("depends on the way")))));
+}
+
 }  // namespace
 }  // namespace demecal

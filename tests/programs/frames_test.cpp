@@ -185,5 +185,26 @@ TEST(GivenTool, StandsInForOneThatTheFileDoesNotGiveAndGivesWayToOneThatItStates
   EXPECT_THAT(first_warning("$TOOL={X 0,Y 0,Z 300,A 0,B 0,C 0}\n" + move), HasSubstr("that one is corrected"));
 }
 
+TEST(GivenTool, LeavesTheMeasuredToolToTargetsThatStateTheirs) {
+  RandomStream stream{7513};
+  const Robot nominal = elbow_arm(stream);
+  const CommandModel own = erring_model(stream, nominal);
+  const CommandModel model = command_model(nominal, own.robot, own.bounds, Eigen::Vector3d(0.0, 0.0, 0.1));
+  const auto text_of = [&](const std::string& text, WrittenIn language, const Circumstances& given,
+                           const CommandModel& used) {
+    return correct_program(text, read_program(language, text, "p", nominal.chain), used, given).text;
+  };
+  const Circumstances beside{.temperature_celsius = 20.0, .tool_given = true, .own_tool = &own};
+  const Circumstances alone{.temperature_celsius = 20.0};
+  const std::string joints = "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n",
+                    script = "movej([0.2,-1.0,1.2,0.35,0.9,0.1])\n";
+  for (const auto& [language, text] : {std::pair{WrittenIn::krl, "$TOOL={X 150,Y 2,Z 56,A 0,B 0,C 0}\n" + joints},
+                                       {WrittenIn::urscript, "set_tcp(p[0.15,0.002,0.056,0,0,0])\n" + script}})
+    EXPECT_EQ(text_of(text, language, beside, model), text_of(text, language, alone, own));
+  EXPECT_EQ(text_of(script, WrittenIn::urscript, beside, model), text_of(script, WrittenIn::urscript, alone, model))
+      << "where none is stated, the one that is given";
+  EXPECT_NE(text_of(script, WrittenIn::urscript, beside, model), text_of(script, WrittenIn::urscript, alone, own));
+}
+
 }  // namespace
 }  // namespace demecal

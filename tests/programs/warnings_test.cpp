@@ -135,7 +135,9 @@ TEST(Concerns, DoNotLayTheApproachAtAFormulasDoor) {
   const CorrectedProgram corrected =
       correct_program(text, read_program(WrittenIn::urscript, text, "p", model.nominal.chain), model, {});
   EXPECT_GT(std::abs(corrected.targets[1].command[1] - corrected.targets[1].nominal[1]), 2.2e-3);
-  EXPECT_TRUE(corrected.warnings.empty());
+  ASSERT_EQ(corrected.warnings.size(), 1u);
+  EXPECT_THAT(corrected.warnings[0].sentence,
+              HasSubstr("the side that the arm comes from to the targets of line 1 is"));
 }
 
 TEST(Summary, ShowsNominalCorrectedAndDifference) {
