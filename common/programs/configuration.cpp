@@ -8,6 +8,7 @@
 
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
+#include "parsed_programs/program_text.hpp"
 #include "programs/nominal_joints.hpp"
 
 namespace demecal::inline programs {
@@ -136,6 +137,15 @@ void keep_stated(std::vector<JointVector>& joints, const ArmHint& hint) {
   std::erase_if(joints, [&](const JointVector& candidate) { return contradictions(hint, candidate) > least; });
 }
 
+/// The words that state shoulder, elbow and wrist, without the numbers of turns behind them: "NUT" of "NUT,0,0,-1", and
+/// the first three of the numbers of a Yaskawa job.
+std::string_view without_turns(std::string_view words) {
+  std::size_t end = words.find(',');
+  const bool numbers = !words.empty() && is_digit(words.front());
+  for (int i = 1; i < 3 && numbers && end != std::string_view::npos; ++i) end = words.find(',', end + 1);
+  return words.substr(0, end);
+}
+
 Configurations settled(std::vector<JointVector> joints, JointsFrom from) {
   if (joints.empty()) return {};
   return {joints.size() == 1 ? from : JointsFrom::undetermined, std::move(joints)};
@@ -214,6 +224,18 @@ Configurations ConfigurationFinder::find_worded(const Chain& arm, const std::str
 }
 
 Configurations ConfigurationFinder::find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const {
+  Configurations found = find_any(arm, target, tool);
+  const std::string& words = target.hint.configuration;
+  if (words.empty() || found.joints.size() != 1 || found.from == JointsFrom::undetermined) return found;
+  for (const auto& [other, joints] : worded_) {
+    if (without_turns(other) == without_turns(words)) continue;
+    if (same_posture(arm, found.joints.front(), joints).value_or(false)) found.contradicted_by = other;
+  }
+  return found;
+}
+
+Configurations ConfigurationFinder::find_any(const Chain& arm, const Target& target,
+                                             const Eigen::Isometry3d& tool) const {
   const ArmHint& hint = target.hint;
   const bool named = hint.near.size() == arm.size();
   const bool given = near_.size() == arm.size();

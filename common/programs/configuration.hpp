@@ -42,6 +42,7 @@ std::string_view to_string(JointsFrom from);
 struct Configurations {
   JointsFrom from = JointsFrom::nowhere;
   std::vector<JointVector> joints{};  ///< the likeliest first; several only where it is undetermined
+  std::string contradicted_by{};      ///< words that state another configuration, and mean this one; empty: none do
 };
 
 /// Follows a program from target to target.
@@ -60,6 +61,7 @@ class ConfigurationFinder {
   void arrive(std::optional<JointVector> joints, const std::string& configuration);
 
  private:
+  Configurations find_any(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
   Configurations find_worded(const Chain& arm, const std::string& words, const Eigen::Isometry3d& tool) const;
 
   JointVector near_, middle_;

@@ -133,6 +133,9 @@ class Corrector {
     if (target.is_pose() && contradictions(target.hint, found.joints.front()) > 0)
       return left(
           "no joints were found that reach the pose in the configuration that is stated; this line was not corrected");
+    if (!found.contradicted_by.empty())
+      return left("the arm's configuration, stated as '" + target.hint.configuration + "', would be the one that '" +
+                  found.contradicted_by + "' states elsewhere; one of them is not so, and this line was not corrected");
     std::vector<CorrectedTarget> alternatives;
     for (const JointVector& joints : found.joints)
       alternatives.push_back(correct_target(target, model, stop_at(target, visit, joints)));

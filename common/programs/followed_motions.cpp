@@ -65,6 +65,7 @@ void join(const Configurations& other, Configurations& found) {
     if (std::ranges::none_of(found.joints, known)) found.joints.push_back(joints);
   }
   if (found.joints.size() > 1) found.from = JointsFrom::undetermined;
+  if (found.contradicted_by.empty()) found.contradicted_by = other.contradicted_by;
 }
 
 class ArmFollower {
@@ -159,6 +160,7 @@ class ArmFollower {
 
   ArmKnowledge arrived(const Target& target, const Configurations& found, ArmKnowledge arm) {
     const bool known = found.joints.size() == 1 && found.from != JointsFrom::undetermined &&
+                       found.contradicted_by.empty() &&
                        !(target.is_pose() && contradictions(target.hint, found.joints.front()) > 0);
     if (!known || !target.not_sent_to.empty()) return nowhere_;
     last_ = found.joints.front();

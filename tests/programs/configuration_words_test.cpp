@@ -146,5 +146,37 @@ TEST(Words, AreToldByJointsOrAUserVeryNearAndByALine) {
   EXPECT_EQ(line.corrected().targets[1].from, JointsFrom::line);
 }
 
+TEST(Words, OfOneConfigurationThatContradictEachOtherLeaveTheLine) {
+  for (const auto& [words, left] : {std::pair{"F U T, 0, 0, 0", true}, {"N U T, 0, 0, 1", false}}) {
+    Listing listing;
+    listing.joints(standing());
+    listing.pose(standing() + JointVector::Constant(6, 0.05), "N U T, 0, 0, 0");
+    listing.joints(standing());
+    listing.pose(standing() + JointVector::Constant(6, -0.05), words);
+    const CorrectedProgram corrected = listing.corrected();
+    EXPECT_EQ(corrected.targets[1].outcome, CorrectionOutcome::corrected);
+    EXPECT_EQ(corrected.targets[3].outcome == CorrectionOutcome::uncorrected, left) << words;
+    EXPECT_EQ(std::ranges::count_if(corrected.warnings,
+                                    [](const Remark& warning) {
+                                      return warning.sentence.find("'NUT,0,0,0' states elsewhere") != std::string::npos;
+                                    }),
+              left ? 1 : 0);
+  }
+}
+
+TEST(Words, OfAJobContradictEachOtherInTheirFirstThreeNumbers) {
+  const Chain arm = wrist_arm();
+  const JointVector joints = standing();
+  const Eigen::Isometry3d tool = forward(arm, joints) * Eigen::Translation3d(arm.tool_m);
+  ConfigurationFinder finder({}, standing());
+  finder.arrive(joints, "0,0,0,0,0,0");
+  finder.arrive(joints, "");
+  Target target;
+  for (const auto& [words, contradicted] : {std::pair{"1,0,0,0,0,0", true}, {"0,0,0,1,0,0", false}}) {
+    target.hint.configuration = words;
+    EXPECT_EQ(!finder.find(arm, target, tool).contradicted_by.empty(), contradicted) << words;
+  }
+}
+
 }  // namespace
 }  // namespace demecal
