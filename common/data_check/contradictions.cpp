@@ -20,9 +20,7 @@
 namespace demecal::inline data_check {
 namespace {
 
-constexpr double kHalf = 0.5;       ///< of the error, which an explanation must take away
-constexpr double kFar_m = 0.02;     ///< that no arm errs by
-constexpr double kManyRows = 0.15;  ///< share of rows that are no single ones
+constexpr double kHalf = 0.5;  ///< of the error, which an explanation must take away
 
 class Contradictions {
  public:
@@ -34,7 +32,7 @@ class Contradictions {
     if (fit_.median_m > kNotableShare * reach_m) {
       explain(reach_m);
     } else {
-      look_for_shifted_rows();
+      look_for_wrong_rows();
     }
     return std::move(found_);
   }
@@ -67,16 +65,31 @@ class Contradictions {
     add_other_robot(as_given_m, reach_m);
   }
 
-  /// Where most rows fit and many do not, these may stand beside the wrong joints.
-  void look_for_shifted_rows() {
-    const auto far = std::ranges::count_if(trial_.rows, [this](const TrialRow& row) { return error(row) > kFar_m; });
-    if (static_cast<double>(far) < kManyRows * static_cast<double>(trial_.rows.size())) return;
-    const auto shift = shift_of_rest(whole_);
-    if (!shift) return;
+  /// Where most rows fit and many do not, these may be read wrongly or stand beside the wrong joints.
+  void look_for_wrong_rows() {
+    auto named = name_wrong_rows(data_, whole_, fit_);
+    auto explained = explain_wrong_rows(data_, whole_, fit_);
+    if (!named && !explained) return;
+    Trial moved = trial_;
+    TrialFit moved_fit = fit_;
+    if (!find_moves(moved, moved_fit).empty() && !has_many_far(moved_fit)) return;  // named with what else it did
+    if (explained) return add(std::move(*explained));
+    if (const auto shift = shift_of_rest(whole_)) return add_shift_of_rest(*shift);
+    if (!has_many_far(fit_arm_to_all(trial_, fit_))) return;
+    add(std::move(*named));
+  }
+
+  bool has_many_far(const TrialFit& fit) const {
+    const double far_m = kImplausibleShare * trial_.reach_m();
+    const auto far = std::ranges::count_if(fit.error_m, [=](double error_m) { return error_m > far_m; });
+    return static_cast<double>(far) > kManyRows * static_cast<double>(trial_.rows.size());
+  }
+
+  void add_shift_of_rest(const RowReordering& shift) {
     std::vector<double> errors;
     for (const TrialRow& row : whole_.rows)
-      if (std::ranges::binary_search(shift->poses, row.pose)) errors.push_back(error(row));
-    add_order(FindingKind::rows_shifted, *shift, median(std::move(errors)));
+      if (std::ranges::binary_search(shift.poses, row.pose)) errors.push_back(error(row));
+    add_order(FindingKind::rows_shifted, shift, median(std::move(errors)));
   }
 
   void add_readings(const BestExplanation& explained, double as_given_m) {

@@ -57,6 +57,9 @@ struct RowReordering {
   std::vector<std::size_t> poses{};  ///< those it concerns; empty: all
 };
 
+/// "each measured point is taken from 2 rows further down"
+std::string shift_clause(int shift);
+
 /// The shift of measured points against joints, by up to 30 rows either way, at which an arm fits best; `whole` has all
 /// rows in the file's order. Where only the rows behind or before a certain one are shifted it says so.
 std::optional<RowReordering> best_shift(const Trial& whole);

@@ -17,13 +17,14 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 22> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 24> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
                                           {FindingKind::mirrored, "mirrored", true},
                                           {FindingKind::unit, "unit", true},
                                           {FindingKind::convention, "convention", true},
+                                          {FindingKind::targets_exchanged, "targets_exchanged", true},
                                           {FindingKind::rows_shifted, "rows_shifted", true},
                                           {FindingKind::rows_shuffled, "rows_shuffled", true},
                                           {FindingKind::rows_exchanged, "rows_exchanged", false},
@@ -37,6 +38,7 @@ constexpr std::array<KindRow, 22> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
                                           {FindingKind::outlier, "outlier", false},
+                                          {FindingKind::many_outliers, "many_outliers", true},
                                           {FindingKind::implausible_link, "implausible_link", false},
                                           {FindingKind::other_robot, "other_robot", true}}};
 

@@ -17,6 +17,7 @@ enum class FindingKind {
   mirrored,
   unit,
   convention,
+  targets_exchanged,
   rows_shifted,
   rows_shuffled,
   rows_exchanged,
@@ -30,6 +31,7 @@ enum class FindingKind {
   typing_error,
   wrong_contact,
   outlier,
+  many_outliers,
   implausible_link,
   other_robot
 };

@@ -49,12 +49,6 @@ Trial shifted(const Trial& whole, int shift, bool with_target) {
   return trial;
 }
 
-std::string shift_clause(int shift) {
-  const int by = std::abs(shift);
-  return fmt::format("each measured point is taken from {} row{} {}", by, by == 1 ? "" : "s",
-                     shift > 0 ? "further down" : "further up");
-}
-
 std::optional<RowReordering> shift_of_all(const Trial& whole) {
   const int most = std::min<int>(kMostShift, static_cast<int>(whole.rows.size() / 2));
   int best = 0;
@@ -170,6 +164,12 @@ double spacing(const Eigen::Matrix3Xd& points) {
 }
 
 }  // namespace
+
+std::string shift_clause(int shift) {
+  const int by = std::abs(shift);
+  return fmt::format("each measured point is taken from {} row{} {}", by, by == 1 ? "" : "s",
+                     shift > 0 ? "further down" : "further up");
+}
 
 std::optional<RowReordering> shift_of_rest(const Trial& whole) {
   if (whole.rows.size() < kFewestShifted) return std::nullopt;

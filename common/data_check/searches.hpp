@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace demecal::inline data_check {
 // standard deviation): five measured series of the shared data then leave .011 to .19 % of their reach at the median, a
 // cable-driven arm the most; simulated arms .002 to .023 %; mistakes of a whole set 2.8 % and more. Thus:
 inline constexpr double kImplausibleShare = 0.006;  ///< of the reach: more than this no real arm leaves
+inline constexpr double kManyRows = 0.15;           ///< share of rows that are no single ones
 inline constexpr double kNotableShare = 0.0008;  ///< of the reach: from here on explanations are tried, and poses named
 
 /// The rows of a data set for the check: all of them, and those calibration rows that explanations are tried on.
@@ -33,6 +35,13 @@ struct CheckedRows {
 /// many do not a shift of the others is looked for.
 std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows& rows, const TrialFit& placed,
                                          const TrialFit& fit);
+
+/// Where 15 % of the calibration rows and more are off while the others fit `fit` to a tenth of that: how they fit, if
+/// by a sign, offset, exchange, unit, pair of axes or targets, or a shift of rows. Base, tools and links are held.
+std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
+
+/// The same rows where they are farther off than any arm errs, and nothing that was tried explains them.
+std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
 
 /// In data said to be in the base's frame: axes, a turn of joint 1, or another frame where the fitted base is not
 /// there.

@@ -1,0 +1,248 @@
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "data_check/explanations.hpp"
+#include "data_check/finding.hpp"
+#include "data_check/searches.hpp"
+#include "data_check/trial_fit.hpp"
+#include "kinematics/units.hpp"
+#include "random/distributions.hpp"
+
+namespace demecal::inline data_check {
+namespace {
+
+constexpr double kOffOverMedian = 10.0;  ///< times the median, beyond which a row is off while the others fit
+constexpr double kMostRows = 0.7;        ///< above which those that fit are too few to hold the others against
+constexpr double kShareExplained = 0.8;  ///< of the rows that are off, which an explanation must bring back
+constexpr double kFallOfMedian = 0.2;    ///< ratio of their median errors, after to before
+constexpr std::size_t kFewestOff = 5;
+constexpr int kMostGroupShift = 3;
+constexpr std::ptrdiff_t kNearEnd = 3;  ///< rows before the last one that may fit by chance
+
+/// How rows that are off would fit: the row of the whole file taken otherwise.
+struct GroupReading {
+  FindingKind kind = FindingKind::joint_sign;
+  int joint = -1;
+  std::string clause;
+  std::function<std::optional<TrialRow>(std::size_t)> row;  ///< nothing where there is no such row
+  double median_m = 0.0;
+  std::size_t fitting = 0;
+};
+
+class WrongRows {
+ public:
+  WrongRows(const DataSet& data, const Trial& whole, const TrialFit& fit) : data_(data), whole_(whole), fit_(fit) {
+    limit_m_ = std::max(kNotableShare * whole.reach_m(), kOffOverMedian * fit.median_m);
+    for (std::size_t i = 0; i < whole_.rows.size(); ++i) {
+      if (data_.poses[whole_.rows[i].pose].set != PoseSet::calibration) continue;
+      ++fitted_;
+      const double error_m = error(whole_.rows[i]);
+      if (error_m > limit_m_) off_.push_back(i), errors_m_.push_back(error_m);
+    }
+  }
+
+  bool are_many() const {
+    const auto off = static_cast<double>(off_.size()), all = static_cast<double>(fitted_);
+    return off_.size() >= kFewestOff && off >= kManyRows * all && off <= kMostRows * all;
+  }
+
+  /// The rows that are off by more than `least_m` alone are many.
+  bool are_many_beyond(double least_m) const {
+    const auto beyond = std::ranges::count_if(errors_m_, [=](double error_m) { return error_m > least_m; });
+    return are_many() && static_cast<double>(beyond) >= kManyRows * static_cast<double>(fitted_);
+  }
+
+  std::optional<Finding> explained() const {
+    std::optional<GroupReading> best;
+    const auto take = [&](GroupReading reading) {
+      weigh(reading);
+      if (reading.fitting < static_cast<std::size_t>(std::ceil(kShareExplained * static_cast<double>(off_.size()))) ||
+          reading.median_m > kFallOfMedian * median(errors_m_))
+        return;
+      if (!best || reading.median_m < 0.5 * best->median_m) best = std::move(reading);
+    };
+    for (const Explanation& one : whole_set_explanations(whole_.chain)) take(reading_of(one));
+    for (const Explanation& one : axes_explanations()) take(reading_of(one));
+    for (const Explanation& one : target_explanations()) take(reading_of(one));
+    for (int shift = -kMostGroupShift; shift <= kMostGroupShift; ++shift)
+      if (shift != 0) take(shifted(shift));
+    if (!best)
+      for (int joint = 0; joint < whole_.chain.size(); ++joint)
+        if (is_revolute(whole_.chain, joint)) take(offset_of(joint));
+    if (!best) return std::nullopt;
+    Finding finding = started(best->kind);
+    finding.joint = best->joint;
+    finding.if_changed_mm = millimetres(best->median_m);
+    finding.sentence += "; they fit if " + best->clause + " " + before_and_after(median(errors_m_), best->median_m) +
+                        ". Correct these rows.";
+    return finding;
+  }
+
+  Finding unexplained() const {
+    Finding finding = started(FindingKind::many_outliers);
+    finding.sentence +=
+        ", and no sign, offset, exchange, unit or shift of rows that was tried explains them. Find out what differs in "
+        "these rows, or leave them out.";
+    return finding;
+  }
+
+ private:
+  double error(const TrialRow& row) const { return (row.point_m - predicted_point(fit_, row)).norm(); }
+  const MeasuredPose& pose_of(std::size_t row) const { return data_.poses[whole_.rows[row].pose]; }
+
+  void weigh(GroupReading& reading) const {
+    std::vector<double> errors_m;
+    for (const std::size_t i : off_) {
+      const std::optional<TrialRow> row = reading.row(i);
+      errors_m.push_back(row ? error(*row) : errors_m_[errors_m.size()]);
+    }
+    reading.fitting = static_cast<std::size_t>(
+        std::ranges::count_if(errors_m, [this](double error_m) { return error_m <= limit_m_; }));
+    reading.median_m = median(std::move(errors_m));
+  }
+
+  GroupReading reading_of(const Explanation& one) const {
+    return {.kind = one.kind, .joint = one.joint, .clause = one.clause, .row = [this, one](std::size_t i) {
+              Trial trial{whole_.chain, whole_.tools_m, {whole_.rows[i]}, whole_.stations};
+              one.apply(trial);
+              return std::optional(trial.rows.front());
+            }};
+  }
+
+  GroupReading shifted(int shift) const {
+    return {.kind = FindingKind::rows_shifted,
+            .clause = shift_clause(shift),
+            .row = [this, shift](std::size_t i) -> std::optional<TrialRow> {
+              const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(i) + shift;
+              if (other < 0 || other >= std::ssize(whole_.rows)) return std::nullopt;
+              TrialRow row = whole_.rows[i];
+              row.point_m = whole_.rows[static_cast<std::size_t>(other)].point_m;
+              return row;
+            }};
+  }
+
+  static std::vector<Explanation> axes_explanations() {
+    std::vector<Explanation> all;
+    for (int axis = 0; axis < 3; ++axis) {
+      const char name = "xyz"[axis], next = "xyz"[(axis + 1) % 3];
+      all.push_back(
+          {FindingKind::mirrored, -1, fmt::format("{} of the measured point is negated", name), [axis](Trial& trial) {
+             for (TrialRow& row : trial.rows) row.point_m[axis] *= -1.0;
+           }});
+      all.push_back({FindingKind::axes_exchanged, -1,
+                     fmt::format("{} and {} of the measured point are exchanged", name, next), [axis](Trial& trial) {
+                       for (TrialRow& row : trial.rows) std::swap(row.point_m[axis], row.point_m[(axis + 1) % 3]);
+                     }});
+    }
+    return all;
+  }
+
+  /// Each pair of targets exchanged.
+  std::vector<Explanation> target_explanations() const {
+    std::vector<Explanation> all;
+    const int targets = static_cast<int>(whole_.tools_m.size());
+    for (int one = 0; one < targets; ++one) {
+      for (int other = one + 1; other < targets; ++other) {
+        all.push_back({FindingKind::targets_exchanged, -1,
+                       fmt::format("targets {} and {} are exchanged", target_name(one), target_name(other)),
+                       [one, other](Trial& trial) {
+                         for (TrialRow& row : trial.rows)
+                           row.target = row.target == one ? other : row.target == other ? one : row.target;
+                       }});
+      }
+    }
+    return all;
+  }
+
+  std::string target_name(int target) const {
+    const auto row = std::ranges::find(whole_.rows, target, &TrialRow::target);
+    return row == whole_.rows.end() ? "" : data_.poses[row->pose].target;
+  }
+
+  /// One number added to a joint of all rows that are off: that which leaves them least, large errors counting less.
+  GroupReading offset_of(int joint) const {
+    double by_rad = 0.0;
+    for (int step = 0; step < 12; ++step) {
+      double information = 1e-12, gradient = 0.0;
+      for (const std::size_t i : off_) {
+        constexpr double kStep_rad = 1e-6;
+        TrialRow row = whole_.rows[i];
+        row.joints[joint] += by_rad;
+        const Eigen::Vector3d there = predicted_point(fit_, row), error = row.point_m - there;
+        row.joints[joint] += kStep_rad;
+        const Eigen::Vector3d slope = (predicted_point(fit_, row) - there) / kStep_rad;
+        const double weight = 1.0 / std::max(error.norm(), 1e-5);
+        information += weight * slope.squaredNorm();
+        gradient += weight * slope.dot(error);
+      }
+      by_rad += gradient / information;
+    }
+    return {.kind = FindingKind::joint_offset,
+            .joint = joint,
+            .clause = fmt::format("{:+.3f} deg are added to joint {}", degrees(by_rad), joint + 1),
+            .row = [this, joint, by_rad](std::size_t i) {
+              TrialRow row = whole_.rows[i];
+              row.joints[joint] += by_rad;
+              return std::optional(row);
+            }};
+  }
+
+  /// "lines 72 to 101, P71 to P100", where they stand together.
+  std::string where(const std::vector<std::size_t>& off) const {
+    const MeasuredPose &first = pose_of(off.front()), &last = pose_of(off.back());
+    if (static_cast<double>(off.size()) < kShareExplained * static_cast<double>(off.back() - off.front() + 1))
+      return fmt::format("here and there from line {} to line {}", first.line, last.line);
+    if (static_cast<std::ptrdiff_t>(off.back()) + kNearEnd >= std::ssize(whole_.rows))
+      return fmt::format("line {} on", first.line);
+    return fmt::format("lines {} to {}", first.line, last.line);
+  }
+
+  Finding started(FindingKind kind) const {
+    Finding finding{.kind = kind, .as_given_mm = millimetres(median(errors_m_))};
+    std::vector<std::size_t> off;
+    std::vector<double> fitting, wrong;
+    for (std::size_t i = 0; i < whole_.rows.size(); ++i) {
+      const double error_m = error(whole_.rows[i]);
+      (error_m > limit_m_ ? wrong : fitting).push_back(error_m);
+      if (error_m <= limit_m_) continue;
+      off.push_back(i);
+      finding.poses.push_back(pose_of(i).pose_id);
+    }
+    finding.sentence = fmt::format("{} of {} rows ({}) are {} to {} off, while the others fit to {} at the median",
+                                   off.size(), whole_.rows.size(), where(off), distance_text(std::ranges::min(wrong)),
+                                   distance_text(std::ranges::max(wrong)), distance_text(median(std::move(fitting))));
+    return finding;
+  }
+
+  const DataSet& data_;
+  const Trial& whole_;
+  const TrialFit& fit_;
+  double limit_m_ = 0.0;
+  std::size_t fitted_ = 0;          ///< rows of the calibration set
+  std::vector<std::size_t> off_{};  ///< those of them that do not fit
+  std::vector<double> errors_m_{};  ///< of each that is off
+};
+
+}  // namespace
+
+std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit) {
+  const WrongRows wrong(data, whole, fit);
+  return wrong.are_many() ? wrong.explained() : std::nullopt;
+}
+
+std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit) {
+  const WrongRows wrong(data, whole, fit);
+  if (!wrong.are_many_beyond(kImplausibleShare * whole.reach_m())) return std::nullopt;
+  return wrong.unexplained();
+}
+
+}  // namespace demecal::inline data_check

@@ -1,0 +1,136 @@
+// A mistake in many rows, though not in most: on every arm it is named with its rows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data_check/check_data.hpp"
+#include "kinematics/units.hpp"
+#include "mistaken_case.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+namespace {
+
+std::vector<Robot> measured_robots() {
+  return bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots");
+}
+
+/// Data sets of 150 poses on every arm.
+std::vector<DataSet> arms_measured(std::uint64_t seed) {
+  std::vector<DataSet> all;
+  for (const Robot& arm : measured_robots()) {
+    // The tenth make has 150 poses and more.
+    auto cases = bench::unmistaken_cases({arm}, 10, {.seed = seed});
+    all.push_back(std::move(cases.back().data));
+  }
+  return all;
+}
+
+struct PartMistake {
+  FindingKind kind;
+  std::string words;
+  std::function<void(MeasuredPose&)> make;
+};
+
+std::vector<PartMistake> part_mistakes() {
+  return {{FindingKind::joint_sign, "joint 3 is taken with the other sign",
+           [](MeasuredPose& pose) { pose.joints[2] *= -1.0; }},
+          {FindingKind::joint_offset, "-90 deg are added to joint 4",
+           [](MeasuredPose& pose) { pose.joints[3] += radians(90.0); }},
+          {FindingKind::joint_offset, "deg are added to joint 3",
+           [](MeasuredPose& pose) { pose.joints[2] += radians(2.5); }},
+          {FindingKind::joints_exchanged, "the columns of joints 4 and 5 are exchanged",
+           [](MeasuredPose& pose) { std::swap(pose.joints[3], pose.joints[4]); }},
+          {FindingKind::unit, "positions are in inches", [](MeasuredPose& pose) { *pose.position_m /= 25.4; }},
+          {FindingKind::mirrored, "z of the measured point is negated",
+           [](MeasuredPose& pose) { pose.position_m->z() *= -1.0; }}};
+}
+
+const Finding* first_of(const DataCheck& check, FindingKind kind) {
+  for (const Finding& finding : check.findings)
+    if (finding.kind == kind) return &finding;
+  return nullptr;
+}
+
+std::string all_sentences(const DataCheck& check) {
+  std::string all;
+  for (const Finding& finding : check.findings) all += finding.sentence + "\n";
+  return all;
+}
+
+TEST(RowGroups, AMistakeInSomeOfTheRowsIsNamedWithThem) {
+  for (const std::uint64_t seed : {3, 4}) {
+    for (const DataSet& right : arms_measured(seed)) {
+      for (const PartMistake& mistake : part_mistakes()) {
+        for (const auto& [first, last] : {std::pair(0.7, 1.0), std::pair(0.3, 0.55)}) {
+          DataSet data = right;
+          std::set<std::string> wrong;
+          const auto n = static_cast<double>(data.poses.size());
+          for (auto i = static_cast<std::size_t>(first * n); i < static_cast<std::size_t>(last * n); ++i) {
+            mistake.make(data.poses[i]);
+            wrong.insert(data.poses[i].pose_id);
+          }
+          const DataCheck check = check_data(data);
+          const std::string of = data.robot.name + ", " + mistake.words + ":\n" + all_sentences(check);
+          EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << of;
+          const Finding* finding = first_of(check, mistake.kind);
+          ASSERT_NE(finding, nullptr) << of;
+          EXPECT_THAT(finding->sentence, ::testing::HasSubstr(mistake.words)) << of;
+          EXPECT_GT(finding->poses.size(), 3 * wrong.size() / 4) << of;
+          for (const std::string& pose : finding->poses) EXPECT_TRUE(wrong.contains(pose)) << pose << of;
+        }
+      }
+    }
+  }
+}
+
+TEST(RowGroups, RowsOffByOneInTheMiddleAreNamed) {
+  for (const DataSet& right : arms_measured(5)) {
+    DataSet data = right;
+    const std::size_t n = data.poses.size();
+    for (std::size_t i = n / 3; i < n / 3 + n / 4; ++i) data.poses[i].position_m = right.poses[i + 1].position_m;
+    const DataCheck check = check_data(data);
+    const Finding* finding = first_of(check, FindingKind::rows_shifted);
+    ASSERT_NE(finding, nullptr) << data.robot.name << all_sentences(check);
+    EXPECT_THAT(finding->sentence, ::testing::HasSubstr("each measured point is taken from 1 row further up"))
+        << data.robot.name;
+    EXPECT_LT(finding->poses.size(), n / 4 + 2) << data.robot.name;
+  }
+}
+
+TEST(RowGroups, TargetsExchangedInSomeRowsAreNamed) {
+  for (const bench::MistakenCase& one : bench::unmistaken_cases(measured_robots(), 25)) {
+    if (one.what != "several targets" || one.data.poses.size() < 60) continue;
+    std::set<std::string> targets;
+    for (const MeasuredPose& pose : one.data.poses) targets.insert(pose.target);
+    const std::string first = *targets.begin(), second = *std::next(targets.begin());
+    DataSet data = one.data;
+    for (std::size_t i = data.poses.size() / 2; i < data.poses.size(); ++i) {
+      MeasuredPose& pose = data.poses[i];
+      pose.target = pose.target == first ? second : pose.target == second ? first : pose.target;
+    }
+    const DataCheck check = check_data(data);
+    EXPECT_TRUE(check.has(FindingKind::targets_exchanged)) << one.arm << all_sentences(check);
+    EXPECT_EQ(check_data(one.data).verdict(), DataVerdict::plausible) << one.arm;
+  }
+}
+
+TEST(RowGroups, WhatNothingExplainsIsRefusedAllTheSame) {
+  RandomStream random{9};
+  for (const DataSet& right : arms_measured(6)) {
+    DataSet data = right;
+    for (std::size_t i = 0; i < data.poses.size(); i += 3)
+      for (double& value : *data.poses[i].position_m) value += random.real(-0.5, 0.5);
+    const DataCheck check = check_data(data);
+    EXPECT_TRUE(check.has(FindingKind::many_outliers)) << data.robot.name << all_sentences(check);
+    EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << data.robot.name;
+  }
+}
+
+}  // namespace
+}  // namespace demecal
