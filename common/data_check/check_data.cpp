@@ -1,16 +1,13 @@
 #include "data_check/check_data.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <ranges>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,11 +16,8 @@
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
-#include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
-#include "parameters/declared_model.hpp"
-#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {
@@ -83,8 +77,11 @@ class DataChecker {
   /// Moves of the instrument among the calibration poses; the other rows get the station of their neighbours.
   void note_moves() {
     const std::vector<InstrumentMove> moves = find_moves(trial_, fit_);
+    for (const InstrumentMove& move : moves)
+      if (move.joint >= 0) note_zero(move);
     assign_stations();
     for (const InstrumentMove& move : moves) {
+      if (move.joint >= 0) continue;
       const std::size_t row = first_row_of(trial_.rows[move.first_row].station);
       const MeasuredPose& pose = data_.poses[whole_.rows[row].pose];
       Finding finding{.kind = FindingKind::instrument_moved,
@@ -97,6 +94,37 @@ class DataChecker {
           pose.line, pose.pose_id, distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m));
       add(std::move(finding));
     }
+  }
+
+  /// Of the rows between two of the trial those are behind the change that fit better so.
+  void note_zero(const InstrumentMove& move) {
+    const std::size_t pose = trial_.rows[move.first_row].pose, before = trial_.rows[move.first_row - 1].pose;
+    auto first = std::ranges::find(whole_.rows, pose, &TrialRow::pose);
+    while (first != whole_.rows.begin() && std::prev(first)->pose != before) {
+      TrialRow other = *std::prev(first);
+      other.joints[move.joint] += move.by;
+      if (error(other) >= error(*std::prev(first))) break;
+      --first;
+    }
+    Finding finding{.kind = FindingKind::joint_zero_changed,
+                    .joint = move.joint,
+                    .as_given_mm = millimetres(move.as_given_m),
+                    .if_changed_mm = millimetres(move.if_changed_m)};
+    const MeasuredPose& there = data_.poses[first->pose];
+    for (auto row = first; row != whole_.rows.end(); ++row) {
+      row->joints[move.joint] += move.by;
+      finding.poses.push_back(id_of(*row));
+    }
+    const Joint& joint = whole_.chain.joints[static_cast<std::size_t>(move.joint)];
+    finding.sentence = fmt::format(
+        "The zero of joint {} changed before line {} ({}), by {}, as after a collision or a new mastering{}: from "
+        "there "
+        "on points lie {} elsewhere {}. Treat the poses before and after as two data sets, or measure again.",
+        move.joint + 1, there.line, there.pose_id,
+        is_revolute(joint) ? fmt::format("{:.3f} deg", degrees(std::abs(move.by))) : distance_text(std::abs(move.by)),
+        move.joint == 0 ? ", or the instrument turned about the axis of joint 1" : "", distance_text(move.shift_m),
+        before_and_after(move.as_given_m, move.if_changed_m));
+    add(std::move(finding));
   }
 
   /// Rows between two of the trial belong to the station of which their errors say so, in one change.
@@ -167,95 +195,10 @@ class DataChecker {
   TrialFit fit_;
 };
 
-/// All poses stand in another frame than the model they are compared with.
-Finding in_other_frame(const OtherSet& other) {
-  return {
-      .kind = FindingKind::set_in_other_frame,
-      .as_given_mm = millimetres(other.as_given_m),
-      .if_changed_mm = millimetres(other.if_changed_m),
-      .sentence = fmt::format(
-          "The data were measured in another frame than the model's: their points lie {} from where it puts them {}. "
-          "`demecal evaluate --refit-base` fits base and tool to them first.",
-          distance_text(other.shift_m), before_and_after(other.as_given_m, other.if_changed_m))};
-}
-
 }  // namespace
 
 DataCheck check_data(const DataSet& data) {
   return DataChecker(data).run();
-}
-
-namespace {
-
-/// A finding for each joint of which the fitted link is farther from its description than three times what makers'
-/// figures are usually wrong by.
-std::vector<Finding> implausible_links(const Chain& described, const Chain& fitted) {
-  constexpr double kMost = 3.0;
-  struct Part {
-    LinkParameter parameter;
-    const char* name;
-    bool angle;
-  };
-  constexpr Part kParts[] = {{LinkParameter::theta, "theta", true},
-                             {LinkParameter::d, "d", false},
-                             {LinkParameter::a, "a", false},
-                             {LinkParameter::alpha, "alpha", true}};
-  std::vector<Finding> findings;
-  for (int joint = 0; joint < described.size(); ++joint) {
-    const auto place = static_cast<std::size_t>(joint);
-    std::string parts;
-    for (const Part& part : kParts) {
-      const double before = described.joints[place].parameter(part.parameter);
-      const double after = fitted.joints[place].parameter(part.parameter);
-      if (std::abs(after - before) < kMost * (part.angle ? kMakersDeviation_rad : kMakersDeviation_m)) continue;
-      parts += (parts.empty() ? "" : ", ") +
-               (part.angle ? fmt::format("{} {:.2f} instead of {:.2f} deg", part.name, degrees(after), degrees(before))
-                           : fmt::format("{} {:.1f} instead of {:.1f} mm", part.name, millimetres(after),
-                                         millimetres(before)));
-    }
-    if (parts.empty()) continue;
-    findings.push_back({.kind = FindingKind::implausible_link, .joint = joint});
-    findings.back().sentence = fmt::format(
-        "Joint {} and its link are fitted far from the robot's description: {}. Makers' figures are right to some 5 mm "
-        "and 1 "
-        "deg: check the file against the arm, the joint's zero, and lengths that the data state.",
-        joint + 1, parts);
-  }
-  return findings;
-}
-
-}  // namespace
-
-void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& check) {
-  for (Finding& finding : implausible_links(data.robot.chain, robot.chain))
-    check.findings.push_back(std::move(finding));
-  std::set<std::string> named;
-  for (const Finding& finding : check.findings) named.insert(finding.poses.begin(), finding.poses.end());
-  std::vector<TrialRow> rows;
-  for (std::size_t i = 0; i < data.poses.size(); ++i) {
-    const MeasuredPose& pose = data.poses[i];
-    if (pose.position_m && !named.contains(pose.pose_id)) rows.push_back({pose.joints, *pose.position_m, 0, 0, i});
-  }
-  const auto point = [&](const TrialRow& row) -> Eigen::Vector3d {
-    const MeasuredPose& pose = data.poses[row.pose];
-    return robot.predict(Stop(pose).with_joints(row.joints), pose.target).translation();
-  };
-  const auto error = [&](const TrialRow& row) { return (row.point_m - point(row)).norm(); };
-  std::vector<Eigen::Vector3d> predicted, measured;
-  std::vector<double> errors;
-  for (const TrialRow& row : rows) {
-    predicted.push_back(point(row));
-    measured.push_back(row.point_m);
-    errors.push_back(error(row));
-  }
-  for (Finding& finding : find_wrong_contacts(data, robot))
-    if (finding.poses.empty() || !named.contains(finding.poses.front())) check.findings.push_back(std::move(finding));
-  if (errors.empty()) return;
-  if (const auto other = find_other_frame(predicted, measured)) return check.findings.push_back(in_other_frame(*other));
-  const double least_m = kNotableShare * Trial{data.robot.chain, {data.robot.chain.tool_m}, rows, 1}.reach_m();
-  const double deviation_m = std::max(median(errors) / normal_length_quantile(3, 0.5), 1e-6);
-  const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};
-  for (Finding& finding : find_single_poses(data, rows, predict, least_m)) check.findings.push_back(std::move(finding));
 }
 
 void require_joint_limits(const DataSet& data, const DataCheck& check) {

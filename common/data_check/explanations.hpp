@@ -72,16 +72,30 @@ std::optional<RowReordering> shift_of_rest(const Trial& whole);
 /// and closer by far than points of a cloud do.
 std::optional<RowReordering> find_shuffled_rows(const Trial& whole, double near_m);
 
-/// A move of the instrument (or of the base) between two rows.
+/// A move of the instrument (or of the base) between two rows, or of a joint's zero.
 struct InstrumentMove {
   std::size_t first_row = 0;  ///< of the trial, from which it stood elsewhere
   double shift_m = 0.0;       ///< how far measured points jump, root mean square over the rows behind
   double as_given_m = 0.0;    ///< median error of the rows on the shorter side with one place of the instrument
   double if_changed_m = 0.0;  ///< with two
+  int joint = -1;             ///< from 0, of which the zero changed; -1: the instrument moved
+  double by = 0.0;            ///< what must be added to that joint from the row on, rad or m
 };
 
-/// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, and
-/// looks again on either side; `trial` comes back with a station for every place, `fit` fitted to it.
+/// A joint's zero that changed between two rows.
+struct ZeroJump {
+  InstrumentMove move;
+  Trial trial;  ///< with joints as they were if so
+  TrialFit fit;
+};
+
+/// The row and joint where another zero from there on explains the rows far better than one zero does, and better than
+/// drift of all joints, linear or settling, from the first row on.
+std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit);
+
+/// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, or
+/// two zeros of a joint do in fewer nats, and looks again; `trial` comes back with a station for every place and joints
+/// of one zero, `fit` fitted to it.
 std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit);
 
 /// How a set of poses differs from the others by its frame or by its tool.

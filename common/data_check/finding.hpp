@@ -22,6 +22,7 @@ enum class FindingKind {
   rows_shuffled,
   rows_exchanged,
   instrument_moved,
+  joint_zero_changed,
   set_in_other_frame,
   wrong_tool,
   constant_joint,

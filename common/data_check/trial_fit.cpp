@@ -252,6 +252,20 @@ TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed) {
   return fit;
 }
 
+LinearizedTrial linearized(const Trial& trial, const TrialFit& fit) {
+  const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
+  WeightedEquations priors{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
+  add_priors(trial, fit, places, priors);
+  const auto n = static_cast<Eigen::Index>(trial.rows.size());
+  LinearizedTrial linear{Eigen::MatrixXd(3 * n, places.size()), priors.information.diagonal(), Eigen::VectorXd(3 * n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const TrialRow& row = trial.rows[static_cast<std::size_t>(i)];
+    linear.jacobian.middleRows<3>(3 * i) = jacobian_of(fit, row, places);
+    linear.error_m.segment<3>(3 * i) = row.point_m - predicted_point(fit, row);
+  }
+  return linear;
+}
+
 Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
                                         const Eigen::VectorXd& weights) {
   const double sum = weights.sum();

@@ -70,6 +70,15 @@ TrialFit fit_arm(const Trial& trial, const TrialFit& placed);
 /// The same by plain least squares: no row is left out, however far off.
 TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed);
 
+/// A trial about a fit: error = jacobian * change of all parameters, which have `prior` as information.
+struct LinearizedTrial {
+  Eigen::MatrixXd jacobian;  ///< three rows each
+  Eigen::VectorXd prior, error_m;
+};
+
+/// About a fit with links.
+LinearizedTrial linearized(const Trial& trial, const TrialFit& fit);
+
 /// The tool point of a row by a fit, instrument's frame.
 Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row);
 

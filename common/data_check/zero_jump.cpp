@@ -1,0 +1,202 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "data_check/explanations.hpp"
+#include "data_check/point_pairs.hpp"
+#include "data_check/trial_fit.hpp"
+#include "random/distributions.hpp"
+
+namespace demecal::inline data_check {
+namespace {
+
+constexpr std::size_t kFewestAside = 5;   ///< rows on either side of a jump
+constexpr double kJumpGain = 50.0;        ///< log likelihood that another zero must gain, for each row of a pose
+constexpr double kGainOverDrift = 25.0;   ///< the same over drift
+constexpr double kJumpFall = 0.6;         ///< ratio of median errors: the fit has taken a part of the jump
+constexpr double kJumpDeviations = 3.0;   ///< that points must jump by at the least
+constexpr double kJumpCap = 6.0;          ///< deviations beyond which an error says no more
+constexpr double kFullWeight = 3.0;       ///< deviations up to which rows count in full
+constexpr double kDerivativeStep = 1e-6;  ///< rad or m
+constexpr double kMostJump = 0.035;       ///< rad or m: more is no change of a zero but another way to read the joint
+constexpr int kRefits = 4;
+
+/// Columns of coordinates, three a row, weighted, with what base, tools and links can take of them.
+class Projected {
+ public:
+  Projected(const Trial& trial, const TrialFit& fit) : linear_(linearized(trial, fit)) {
+    weights_.resize(linear_.error_m.size());
+    for (Eigen::Index i = 0; i < weights_.size(); ++i) {
+      const double error_m = linear_.error_m.segment<3>(i / 3 * 3).norm();
+      weights_[i] = std::min(1.0, kFullWeight * fit.deviation_m / error_m) / (fit.deviation_m * fit.deviation_m);
+    }
+    const Eigen::MatrixXd weighted = weights_.asDiagonal() * linear_.jacobian;
+    Eigen::MatrixXd information = linear_.jacobian.transpose() * weighted;
+    information.diagonal() += linear_.prior;
+    factor_.compute(information);
+    weighted_ = weighted;
+    error_ = factor_.solve(weighted_.transpose() * linear_.error_m);
+  }
+
+  /// b' W e of the parts that base, tools and links leave.
+  Eigen::VectorXd with_error(const Eigen::MatrixXd& columns) const {
+    return columns.transpose() * weights_.cwiseProduct(linear_.error_m) - columns.transpose() * (weighted_ * error_);
+  }
+  Eigen::MatrixXd with_itself(const Eigen::MatrixXd& columns) const {
+    const Eigen::MatrixXd shared = weighted_.transpose() * columns;
+    return columns.transpose() * weights_.asDiagonal() * columns - shared.transpose() * factor_.solve(shared);
+  }
+  /// Nats that the columns gain together.
+  double gain(const Eigen::MatrixXd& columns) const {
+    const Eigen::VectorXd error = with_error(columns);
+    Eigen::MatrixXd squares = with_itself(columns);
+    squares.diagonal() *= 1.0 + 1e-9;
+    return 0.5 * error.dot(squares.ldlt().solve(error));
+  }
+
+ private:
+  LinearizedTrial linear_;
+  Eigen::VectorXd weights_, error_;
+  Eigen::MatrixXd weighted_;
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+};
+
+/// How points move with one joint, three coordinates a row.
+Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint) {
+  Eigen::VectorXd column(3 * static_cast<Eigen::Index>(trial.rows.size()));
+  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
+    TrialRow row = trial.rows[i];
+    row.joints[joint] += kDerivativeStep;
+    column.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+        (predicted_point(fit, row) - predicted_point(fit, trial.rows[i])) / kDerivativeStep;
+  }
+  return column;
+}
+
+/// Nothing before a row, the column from there on.
+Eigen::VectorXd from_row(const Eigen::VectorXd& column, std::size_t row) {
+  Eigen::VectorXd behind = column;
+  behind.head(3 * static_cast<Eigen::Index>(row)).setZero();
+  return behind;
+}
+
+struct JumpStart {
+  int joint = -1;
+  std::size_t row = 0;
+  double gain = 0.0, by = 0.0;
+};
+
+JumpStart best_start(const Trial& trial, const TrialFit& fit, const Projected& projected) {
+  JumpStart best;
+  for (int joint = 0; joint < trial.chain.size(); ++joint) {
+    const Eigen::VectorXd column = joint_column(trial, fit, joint);
+    for (std::size_t row = kFewestAside; row + kFewestAside <= trial.rows.size(); ++row) {
+      const Eigen::VectorXd behind = from_row(column, row);
+      const double with_error = projected.with_error(behind)[0], with_itself = projected.with_itself(behind)(0, 0);
+      const double gain = 0.5 * with_error * with_error / with_itself;
+      if (gain > best.gain) best = {joint, row, gain, with_error / with_itself};
+    }
+  }
+  return best;
+}
+
+/// The most that drift of all joints gains, linear or settling sooner or later.
+double drift_gain(const Trial& trial, const TrialFit& fit, const Projected& projected) {
+  double most = 0.0;
+  const auto n = static_cast<double>(trial.rows.size());
+  for (const double settling : {0.1, 0.3, 1e3}) {
+    Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(trial.rows.size()), trial.chain.size());
+    for (int joint = 0; joint < trial.chain.size(); ++joint) {
+      columns.col(joint) = joint_column(trial, fit, joint);
+      for (Eigen::Index i = 0; i < columns.rows(); ++i)
+        columns(i, joint) *= settling * -std::expm1(-static_cast<double>(i / 3) / n / settling);
+    }
+    most = std::max(most, projected.gain(columns));
+  }
+  return most;
+}
+
+Trial jumped(Trial trial, int joint, std::size_t row, double by) {
+  for (std::size_t i = row; i < trial.rows.size(); ++i) trial.rows[i].joints[joint] += by;
+  return trial;
+}
+
+double capped_square(double error_m, double deviation_m) {
+  const double off = std::min(error_m / deviation_m, kJumpCap);
+  return off * off;
+}
+
+double gained(const std::vector<double>& before, const TrialFit& after) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    sum += 0.5 * (capped_square(before[i], after.deviation_m) - capped_square(after.error_m[i], after.deviation_m));
+  return sum;
+}
+
+/// The row from which the joint's other value fits better than the given one, by a fit to both.
+std::size_t best_row(const Trial& trial, const TrialFit& fit, int joint, double by) {
+  std::vector<double> gains;
+  for (TrialRow row : trial.rows) {
+    const double given = (row.point_m - predicted_point(fit, row)).norm();
+    row.joints[joint] += by;
+    gains.push_back(capped_square(given, fit.deviation_m) -
+                    capped_square((row.point_m - predicted_point(fit, row)).norm(), fit.deviation_m));
+  }
+  double sum = 0.0, most = 0.0;
+  std::size_t best = gains.size();
+  for (std::size_t row = gains.size(); row-- > kFewestAside;) {
+    sum += gains[row];
+    if (sum > most && row + kFewestAside <= gains.size()) most = sum, best = row;
+  }
+  return best;
+}
+
+double median_between(const std::vector<double>& errors, std::size_t begin, std::size_t end) {
+  return median(
+      {errors.begin() + static_cast<std::ptrdiff_t>(begin), errors.begin() + static_cast<std::ptrdiff_t>(end)});
+}
+
+}  // namespace
+
+std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit) {
+  const std::size_t n = trial.rows.size();
+  if (n < 2 * kFewestAside + 2 || !fit.has_links()) return std::nullopt;
+  const Projected projected(trial, fit);
+  const JumpStart start = best_start(trial, fit, projected);
+  if (start.gain < kGainOverDrift) return std::nullopt;
+  ZeroJump jump{{.first_row = start.row, .joint = start.joint, .by = start.by}, trial, fit};
+  for (int i = 0; i < kRefits; ++i) {
+    jump.trial = jumped(trial, start.joint, jump.move.first_row, jump.move.by);
+    jump.fit = fit_arm(jump.trial, fit_base_and_tools(jump.trial));
+    if (!jump.fit.has_links()) return std::nullopt;
+    if (i + 1 == kRefits) break;
+    const Projected again(jump.trial, jump.fit);
+    const Eigen::VectorXd column = from_row(joint_column(jump.trial, jump.fit, start.joint), jump.move.first_row);
+    jump.move.by += again.with_error(column)[0] / again.with_itself(column)(0, 0);
+    jump.move.first_row = best_row(trial, jump.fit, start.joint, jump.move.by);
+    if (jump.move.first_row == n) return std::nullopt;
+  }
+  if (std::abs(jump.move.by) > kMostJump) return std::nullopt;
+  const std::size_t row = jump.move.first_row;
+  const bool shorter_before = row < n - row;
+  jump.move.as_given_m = std::max(median_between(fit.error_m, 0, row), median_between(fit.error_m, row, n));
+  jump.move.if_changed_m = median_between(jump.fit.error_m, shorter_before ? 0 : row, shorter_before ? row : n);
+  const Eigen::VectorXd shift = jump.move.by * from_row(joint_column(trial, jump.fit, start.joint), row);
+  jump.move.shift_m = shift.norm() / std::sqrt(static_cast<double>(n - row));
+  // In deviations of the better fit: those of the other hold the jump.
+  const double sharper = fit.deviation_m / jump.fit.deviation_m;
+  const double over_drift = sharper * sharper * (start.gain - drift_gain(trial, fit, projected));
+  const double least = kJumpGain * jump.fit.rows_per_pose;
+  if (gained(fit.error_m, jump.fit) < least || gained(fit_arm_to_all(trial, fit).error_m, jump.fit) < least ||
+      jump.move.shift_m < std::max(kJumpDeviations * jump.fit.deviation_m, kSmallestShift_m) ||
+      jump.move.if_changed_m > kJumpFall * jump.move.as_given_m || over_drift < kGainOverDrift * fit.rows_per_pose)
+    return std::nullopt;
+  return jump;
+}
+
+}  // namespace demecal::inline data_check

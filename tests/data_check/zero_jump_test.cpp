@@ -1,0 +1,78 @@
+// A joint's zero that changes during the measurement is named as that; moves of the instrument and drift are not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "data_check/check_data.hpp"
+#include "kinematics/units.hpp"
+#include "mistaken_case.hpp"
+
+namespace demecal {
+namespace {
+
+/// Data sets of 150 poses of every arm, that of seven joints among them.
+std::vector<DataSet> long_measurements(std::uint64_t seed) {
+  std::vector<DataSet> all;
+  for (const Robot& arm : bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots"))
+    all.push_back(bench::unmistaken_cases({arm}, 10, {.seed = seed}).back().data);
+  return all;
+}
+
+std::string told(const DataCheck& check) {
+  std::string all;
+  for (const Finding& finding : check.findings) all += finding.sentence + "\n";
+  return all;
+}
+
+TEST(ZeroJump, IsNamedWithItsJointRowAndSize) {
+  for (const std::uint64_t seed : {1, 2}) {
+    for (const DataSet& right : long_measurements(seed)) {
+      for (const int joint : {1, 2}) {
+        DataSet data = right;
+        const std::size_t from = 3 * data.poses.size() / 5;
+        for (std::size_t i = from; i < data.poses.size(); ++i) data.poses[i].joints[joint] += radians(0.2);
+        const DataCheck check = check_data(data);
+        const std::string of = data.robot.name + ", joint " + std::to_string(joint + 1) + ":\n" + told(check);
+        ASSERT_FALSE(check.findings.empty()) << of;
+        const Finding& finding = check.findings.front();
+        EXPECT_EQ(finding.kind, FindingKind::joint_zero_changed) << of;
+        EXPECT_EQ(finding.joint, joint) << of;
+        EXPECT_NEAR(static_cast<double>(finding.poses.size()), static_cast<double>(data.poses.size() - from), 2.0)
+            << of;
+        EXPECT_EQ(check.verdict(), DataVerdict::suspicious) << of;
+      }
+    }
+  }
+}
+
+TEST(ZeroJump, AMoveOfTheInstrumentIsNone) {
+  for (const DataSet& right : long_measurements(3)) {
+    DataSet data = right;
+    const Eigen::Isometry3d move(Eigen::Translation3d(1e-3, -2e-3, 5e-4) *
+                                 Eigen::AngleAxisd(1e-3, Eigen::Vector3d(1, 2, -1).normalized()));
+    for (std::size_t i = data.poses.size() / 2; i < data.poses.size(); ++i)
+      data.poses[i].position_m = move * *data.poses[i].position_m;
+    const DataCheck check = check_data(data);
+    EXPECT_FALSE(check.has(FindingKind::joint_zero_changed)) << data.robot.name << told(check);
+    EXPECT_TRUE(check.has(FindingKind::instrument_moved)) << data.robot.name << told(check);
+  }
+}
+
+TEST(ZeroJump, DriftOfAJointIsNone) {
+  for (const DataSet& right : long_measurements(4)) {
+    for (const double settling : {0.1, 0.3, 1e3}) {
+      DataSet data = right;
+      const auto n = static_cast<double>(data.poses.size());
+      const double whole = -std::expm1(-1.0 / settling);
+      for (std::size_t i = 0; i < data.poses.size(); ++i)
+        data.poses[i].joints[1] += radians(0.05) * -std::expm1(-static_cast<double>(i) / n / settling) / whole;
+      EXPECT_FALSE(check_data(data).has(FindingKind::joint_zero_changed)) << data.robot.name << " " << settling;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace demecal
