@@ -53,7 +53,7 @@ class DataChecker {
     for (Finding& finding : find_contradictions(data_, {whole_, trial_}, placed, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();
-    for (Finding& finding : find_wrong_orientations(data_, trial_, fit_)) add(std::move(finding));
+    for (Finding& finding : find_wrong_orientations(data_, whole_, fit_)) add(std::move(finding));
     for (Finding& finding : find_other_base(data_, fit_)) add(std::move(finding));
     for (Finding& finding : find_other_tools(trial_, target_of_, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);

@@ -31,6 +31,7 @@ enum class FindingKind {
   shared_poses,
   typing_error,
   wrong_contact,
+  wrong_orientation,
   outlier,
   many_outliers,
   implausible_link,

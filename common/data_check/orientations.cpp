@@ -14,6 +14,7 @@
 #include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {
@@ -54,11 +55,18 @@ std::vector<OrientationReading> other_readings(const Chain& chain) {
   return readings;
 }
 
-/// The angle, rad, by which orientations scatter about one turn of each tool on its flange: the median over the rows,
-/// about the row that most agree with.
-double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit, const OrientationReading& reading) {
+struct TurnedPose {
+  std::size_t pose;
+  double angle_rad;
+};
+
+/// The angles by which orientations differ from one turn of each tool on its flange, that of the row that most agree
+/// with.
+std::vector<TurnedPose> angles_of(const DataSet& data, const Trial& trial, const TrialFit& fit,
+                                  const OrientationReading& reading) {
   constexpr std::size_t kMostTried = 30;
   std::map<int, std::vector<Eigen::Quaterniond>> turns;
+  std::map<int, std::vector<std::size_t>> poses;
   for (const TrialRow& row : trial.rows) {
     const MeasuredPose& pose = data.poses[row.pose];
     if (!pose.orientation) continue;
@@ -66,25 +74,61 @@ double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit,
         fit.sensor_from_base[static_cast<std::size_t>(row.station)] * forward(fit.chain, reading.joints(row.joints));
     turns[row.target].push_back(Eigen::Quaterniond(flange.linear()).conjugate() *
                                 reading.orientation(*pose.orientation));
+    poses[row.target].push_back(row.pose);
   }
-  std::vector<double> angles;
+  std::vector<TurnedPose> angles;
   for (const auto& [target, all] : turns) {
     std::vector<double> least;
     double least_median = 0.0;
     for (const std::size_t centre : spread_indices(all.size(), kMostTried)) {
       std::vector<double> about;
       for (const Eigen::Quaterniond& turn : all) about.push_back(all[centre].angularDistance(turn));
-      std::ranges::nth_element(about, about.begin() + std::ssize(about) / 2);
-      const double median = about[about.size() / 2];
-      if (!least.empty() && median >= least_median) continue;
-      least_median = median;
+      const double middle = median(about);
+      if (!least.empty() && middle >= least_median) continue;
+      least_median = middle;
       least = std::move(about);
     }
-    angles.insert(angles.end(), least.begin(), least.end());
+    for (std::size_t i = 0; i < least.size(); ++i) angles.push_back({poses.at(target)[i], least[i]});
   }
-  if (angles.empty()) return 0.0;
-  std::ranges::nth_element(angles, angles.begin() + std::ssize(angles) / 2);
-  return angles[angles.size() / 2];
+  std::ranges::sort(angles, {}, &TurnedPose::pose);
+  return angles;
+}
+
+double median_angle(const std::vector<TurnedPose>& angles) {
+  std::vector<double> values;
+  for (const TurnedPose& one : angles) values.push_back(one.angle_rad);
+  return values.empty() ? 0.0 : median(std::move(values));
+}
+
+/// The median over the rows, rad.
+double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit, const OrientationReading& reading) {
+  return median_angle(angles_of(data, trial, fit, reading));
+}
+
+/// Rows of which the orientation is off while those of the most agree.
+std::vector<Finding> find_single_orientations(const DataSet& data, const std::vector<TurnedPose>& angles) {
+  constexpr double kFarOverMedian = 8.0;
+  constexpr std::size_t kMostLines = 8;
+  const double middle_rad = median_angle(angles), far_rad = std::max(kFarOverMedian * middle_rad, radians(1.0));
+  Finding finding{.kind = FindingKind::wrong_orientation};
+  double least_rad = 0.0, most_rad = 0.0;
+  std::string lines;
+  for (const auto& [pose, angle_rad] : angles) {
+    if (angle_rad <= far_rad) continue;
+    least_rad = finding.poses.empty() ? angle_rad : std::min(least_rad, angle_rad);
+    most_rad = std::max(most_rad, angle_rad);
+    if (finding.poses.size() < kMostLines)
+      lines += fmt::format("{}{}", lines.empty() ? "" : ", ", data.poses[pose].line);
+    finding.poses.push_back(data.poses[pose].pose_id);
+  }
+  if (finding.poses.empty()) return {};
+  if (finding.poses.size() > kMostLines) lines += " and more";
+  finding.sentence = fmt::format(
+      "The measured orientations of {} of {} rows (lines {}) are {:.3g} to {:.3g} deg from where the arm turns the "
+      "tool, "
+      "the others {:.2g} deg (median). Correct their orientations, or leave these rows out.",
+      finding.poses.size(), angles.size(), lines, degrees(least_rad), degrees(most_rad), degrees(middle_rad));
+  return {finding};
 }
 
 }  // namespace
@@ -97,8 +141,9 @@ std::vector<Finding> find_wrong_orientations(const DataSet& data, const Trial& t
   if (static_cast<std::size_t>(with) < kFewest) return {};
   const OrientationReading given{FindingKind::other_robot, -1, "", as_given,
                                  [](const Eigen::Quaterniond& q) { return q; }};
-  const double given_rad = scatter_rad(data, trial, fit, given);
-  if (given_rad < implausible) return {};
+  const std::vector<TurnedPose> angles = angles_of(data, trial, fit, given);
+  const double given_rad = median_angle(angles);
+  if (given_rad < implausible) return find_single_orientations(data, angles);
   const std::string observed = fmt::format(
       "The measured orientations contradict the joints, though the positions fit: they are {:.0f} deg "
       "(median) from where the arm turns the tool.",

@@ -53,7 +53,8 @@ std::vector<Finding> find_other_tools(const Trial& trial, const std::map<std::st
                                       const TrialFit& fit);
 
 /// Measured orientations that scatter by 5 degrees or more (median) about one turn of the tool on the flange, by a fit
-/// of positions: another order or direction of quaternions, the sign of a joint, or nothing that is known.
+/// of positions: another order or direction of quaternions, the sign of a joint, or nothing that is known. Where most
+/// agree: the rows that are 8 times the median and a degree off.
 std::vector<Finding> find_wrong_orientations(const DataSet& data, const Trial& trial, const TrialFit& fit);
 
 /// What is known of the rows of a data set by a fit.

@@ -55,6 +55,19 @@ TEST(WrongOrientations, AreNoneWhereTheyAgreeHoweverTheTargetIsMounted) {
   EXPECT_THAT(check_data(on_the_last_axis()).findings, IsEmpty());
 }
 
+TEST(WrongOrientations, AreNamedInFewRows) {
+  for (const std::size_t wrong : {1u, 2u, 7u}) {
+    DataSet data = on_the_last_axis();
+    for (std::size_t i = 0; i < wrong; ++i) data.poses[2 * i].orientation = data.poses[2 * i].orientation->conjugate();
+    const DataCheck check = check_data(data);
+    ASSERT_EQ(check.findings.size(), 1u) << wrong;
+    EXPECT_EQ(check.findings.front().kind, FindingKind::wrong_orientation);
+    EXPECT_EQ(check.verdict(), DataVerdict::suspicious);
+    ASSERT_EQ(check.findings.front().poses.size(), wrong);
+    EXPECT_EQ(check.findings.front().poses.back(), data.poses[2 * (wrong - 1)].pose_id);
+  }
+}
+
 TEST(WrongOrientations, TellTheSignOfAJointThatMovesNoPoint) {
   const Finding finding = only_finding([](MeasuredPose& pose) { pose.joints[5] = -pose.joints[5]; });
   EXPECT_EQ(finding.kind, FindingKind::joint_sign);
