@@ -91,6 +91,14 @@ CheckedData load_checked(const std::string& path) {
   return load_checked(std::span(&path, 1), StationTools::own, true);
 }
 
+CheckedData load_checked_as_one_set(const std::string& path) {
+  DescribedDataSet described = load_described_data_set(path);
+  for (const std::string& sentence : described.recognised) fmt::print(stderr, "{}\n", sentence);
+  for (MeasuredPose& pose : described.data.poses) pose.set = PoseSet::calibration;
+  DataCheck check = check_without_copies(described.data);
+  return {std::move(described.data), std::move(check)};
+}
+
 std::string today() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm day{};

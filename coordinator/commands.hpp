@@ -74,6 +74,8 @@ CheckedData load_checked(const std::string& path);
 /// The same of several files, each a station's: every one is checked by itself, then they are joined. Unless forced,
 /// the first that contradicts the arm is returned alone.
 CheckedData load_checked(std::span<const std::string> paths, StationTools tools, bool force);
+/// The same of a file from which nothing is fitted: whatever set a pose is of, it counts as every other.
+CheckedData load_checked_as_one_set(const std::string& path);
 
 /// YYYY-MM-DD, where this machine is.
 std::string today();

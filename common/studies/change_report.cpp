@@ -52,11 +52,22 @@ std::string what_to_do_about(const ChangeCause& cause, const std::string& model_
       cause.effect.joint + 1, update);
 }
 
+std::string what_to_do_about_unnamed(const ChangeReport& change, const std::string& model_file) {
+  constexpr double kMoreThanWear_m = 5e-3;
+  std::string text = "The errors are larger than the model expects and none of the causes tried explains them: ";
+  if (change.error_m > kMoreThanWear_m)
+    text +=
+        "so large, they are rather of the data than of the robot. Look at the rows first (signs and units of some of "
+        "them, their order), and whether instrument, base or tool were moved between the poses; then ";
+  else
+    text +=
+        "see whether instrument, base or tool were moved between the poses, and whether joints were rounded when they "
+        "were noted; ";
+  return text + "measure 30 poses or more and run demecal diagnose DATASET.yaml --prior " + model_file + ".";
+}
+
 std::string what_to_do(const ChangeReport& change, const std::string& model_file) {
-  if (change.unnamed)
-    return "The errors are larger than the model expects and none of the causes tried explains them: measure 30 poses "
-           "or more and run demecal diagnose DATASET.yaml --prior " +
-           model_file + ".";
+  if (change.unnamed) return what_to_do_about_unnamed(change, model_file);
   if (change.found.empty())
     return change.set_up_anew ? "The robot itself is as it was; its base was found again in the instrument's new frame."
                               : "Nothing needs to be done.";
@@ -78,6 +89,15 @@ Json cause_json(const ChangeCause& cause, const Robot& robot) {
           {"sentence", law_of(cause.effect).diagnosis(cause.effect, robot)}};
 }
 
+/// With their lines, since names may repeat.
+std::string left_out(const ChangeReport& change, const DataSet& data) {
+  std::vector<std::string> names;
+  for (const std::size_t pose : change.outliers)
+    names.push_back(fmt::format("{} (line {})", data.poses[pose].pose_id, data.poses[pose].line));
+  return fmt::format("  left out, since they fit neither the robot as it was nor any change of it: {}\n",
+                     fmt::join(names, ", "));
+}
+
 std::string answer(const ChangeReport& change) {
   if (change.verdict == ChangeVerdict::unchanged) return "The robot is as it was.";
   if (change.verdict == ChangeVerdict::registration)
@@ -95,6 +115,7 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"verdict", std::string(to_string(change.verdict))},
             {"answer", answer(change)},
             {"poses", change.poses},
+            {"measurements", change.measurements},
             {"set_up_anew", change.set_up_anew},
             {"p_any", change.p_any},
             {"strain", change.strain},
@@ -130,9 +151,10 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
   text += "  " + what_to_do(change, model_file) + '\n';
   text += fmt::format("  errors of the tool: rms {:.3g} mm by the model", millimetres(change.error_m));
   if (!change.found.empty()) text += fmt::format(", {:.3g} mm once this is taken in", millimetres(change.left_m));
-  text += fmt::format("; {} poses, noise {:.3g} mm per axis\n", change.poses, millimetres(change.noise_m));
-  if (!change.outliers.empty())
-    text += fmt::format("  {} poses were left out as gross errors\n", change.outliers.size());
+  text += fmt::format("; {} poses{}, noise {:.3g} mm per axis\n", change.poses,
+                      change.measurements > change.poses ? fmt::format(" measured {} times", change.measurements) : "",
+                      millimetres(change.noise_m));
+  if (!change.outliers.empty()) text += left_out(change, data);
   text += "  what these poses find nine times in ten:\n";
   for (const ChangeCause& cause : change.tried) {
     const auto [unit, per_inside] = shown_unit(cause.unit);

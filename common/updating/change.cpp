@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
@@ -14,6 +16,7 @@
 #include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
+#include "updating/repeats.hpp"
 
 namespace demecal::inline updating {
 namespace {
@@ -28,28 +31,37 @@ double usual_size(const std::string& unit) {
   return unit == "m" ? 2e-4 : unit == "rad" ? 3e-4 : 0.0;
 }
 
+bool is_measured(const MeasuredPose& pose) {
+  return pose.position_m || !pose.distances_m.empty();
+}
+
 bool registers(const Effect& effect) {
   return declared_flag(effect.kind) == &DeclaredModel::registration;
 }
 
 class ChangeSearch {
  public:
-  ChangeSearch(const CalibratedModel& model, const DataSet& data) : model_(model), data_(data) {
-    for (std::size_t i = 0; i < data.poses.size(); ++i)
-      if (data.poses[i].position_m || !data.poses[i].distances_m.empty()) poses_.push_back(i);
+  ChangeSearch(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects)
+      : model_(model), distinct_(distinct_poses(data)), data_(distinct_.data) {
+    for (const MeasuredPose& pose : data.poses)
+      if (is_measured(pose)) ++report_.measurements;
+    for (std::size_t i = 0; i < data_.poses.size(); ++i)
+      if (is_measured(data_.poses[i])) poses_.push_back(i);
+    report_.poses = poses_.size();
+    leave_out([&](std::size_t i) { return suspects.contains(data_.poses[poses_[i]].pose_id); });
     if (poses_.size() < kFewestPoses)
       throw InputError({data.file, 0}, std::to_string(poses_.size()),
                        "poses are too few to tell whether the robot has changed: measure 4 at least, better 12");
     place();
-    effects_ = possible_changes(data, poses_);
+    effects_ = possible_changes(data_, poses_);
   }
 
   ChangeReport run() {
-    report_.poses = poses_.size();
     ChangeRows rows = make_rows();
     if (leave_out_gross(rows)) rows = make_rows();
     report_.error_m = rms(Eigen::VectorXd::Zero(0), rows);
     judge(rows);
+    for (std::size_t& pose : report_.outliers) pose = distinct_.measured[pose];
     return std::move(report_);
   }
 
@@ -102,15 +114,17 @@ class ChangeSearch {
       row += count;
     }
     const double usual = std::max(1.0, median(norms));
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      if (norms[i] > kGross * usual)
-        report_.outliers.push_back(poses_[i]);
-      else
-        kept.push_back(poses_[i]);
-    }
-    if (report_.outliers.size() > poses_.size() / 4) report_.outliers.clear();
-    if (report_.outliers.empty()) return false;
+    return leave_out([&](std::size_t i) { return norms[i] > kGross * usual; });
+  }
+
+  /// The poses of which `is_wrong` says so by their place among those compared, unless they are more than a quarter.
+  /// Whether any was left out.
+  template <typename IsWrong>
+  bool leave_out(const IsWrong& is_wrong) {
+    std::vector<std::size_t> kept, wrong;
+    for (std::size_t i = 0; i < poses_.size(); ++i) (is_wrong(i) ? wrong : kept).push_back(poses_[i]);
+    if (wrong.empty() || wrong.size() > poses_.size() / 4) return false;
+    report_.outliers.insert(report_.outliers.end(), wrong.begin(), wrong.end());
     poses_ = kept;
     return true;
   }
@@ -147,15 +161,25 @@ class ChangeSearch {
       report_.found.push_back(causes.front());
       project(rows, causes.front().effect);
     }
+    report_.left_m = report_.found.empty() ? report_.error_m : rms(rows.values, all);
+    const bool explained = explains(rows);
+    if (!explained) report_.found.clear();
     for (const ChangeCause& cause : report_.found)
       report_.verdict =
           std::max(report_.verdict, cause.is_registration ? ChangeVerdict::registration : ChangeVerdict::changed);
     if (report_.set_up_anew) report_.verdict = std::max(report_.verdict, ChangeVerdict::registration);
-    if (report_.found.empty() && report_.p_any < kErrorOfAny) {
+    if (report_.found.empty() && (!explained || report_.p_any < kErrorOfAny)) {
       report_.verdict = ChangeVerdict::changed;
       report_.unnamed = true;
+      report_.left_m = report_.error_m;
     }
-    report_.left_m = report_.found.empty() ? report_.error_m : rms(rows.values, all);
+  }
+
+  /// Whether the causes found are what happened: a joint's sign, or rows of two sets, look like a little of everything.
+  bool explains(const ChangeRows& left) const {
+    constexpr double kFar = 1.5, kMost = 0.5;
+    const double strain = std::sqrt(left.values.squaredNorm() / static_cast<double>(left.values.size()));
+    return strain < kFar * report_.strain_limit || report_.left_m < kMost * report_.error_m;
   }
 
   /// Takes away from all rows what a cause explains.
@@ -233,6 +257,7 @@ class ChangeSearch {
   }
 
   const CalibratedModel& model_;
+  const DistinctPoses distinct_;
   const DataSet& data_;
   CorrectedRobot robot_;
   std::vector<std::size_t> poses_;
@@ -247,8 +272,8 @@ std::string_view to_string(ChangeVerdict verdict) {
   return kWords[static_cast<std::size_t>(verdict)];
 }
 
-ChangeReport find_change(const CalibratedModel& model, const DataSet& data) {
-  return ChangeSearch(model, data).run();
+ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects) {
+  return ChangeSearch(model, data, suspects).run();
 }
 
 }  // namespace demecal::inline updating

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,26 +37,28 @@ struct ChangeCause {
 
 struct ChangeReport {
   ChangeVerdict verdict = ChangeVerdict::unchanged;
-  bool set_up_anew = false;   ///< the instrument's frame is another: the base was found again
-  double p_any = 1.0;         ///< of such errors by the model and its noise
-  double strain = 0.0;        ///< rms of the errors over what model and noise lead one to expect
-  double strain_limit = 0.0;  ///< that one unchanged robot in a thousand exceeds
-  double noise_m = 0.0;       ///< per axis, as the model has it
-  double error_m = 0.0;       ///< rms of the tool's errors by the model (base found again where it had to be)
-  double left_m = 0.0;        ///< the same once what was found is taken in
-  std::size_t poses = 0;
-  std::vector<std::size_t> outliers;      ///< poses (in the data set) that were left out
-  std::vector<ChangeCause> found;         ///< in the order they were found
-  std::vector<ChangeCause> tried;         ///< all, the likeliest first
+  bool set_up_anew = false;           ///< the instrument's frame is another: the base was found again
+  double p_any = 1.0;                 ///< of such errors by the model and its noise
+  double strain = 0.0;                ///< rms of the errors over what model and noise lead one to expect
+  double strain_limit = 0.0;          ///< that one unchanged robot in a thousand exceeds
+  double noise_m = 0.0;               ///< per axis, as the model has it
+  double error_m = 0.0;               ///< rms of the tool's errors by the model (base found again where it had to be)
+  double left_m = 0.0;                ///< the same once what was found is taken in
+  std::size_t poses = 0;              ///< repeats of one count once
+  std::size_t measurements = 0;       ///< with all repeats
+  std::vector<std::size_t> outliers;  ///< poses (in the data set) that were left out; of repeats, the first
+  std::vector<ChangeCause> found;     ///< in the order they were found
+  std::vector<ChangeCause> tried;     ///< all, the likeliest first
   std::vector<std::string> not_testable;  ///< sentences
   bool unnamed = false;                   ///< changed, but by nothing that was tried
 };
 
-/// Holds the model's predictions against all poses of `data` that measured positions or distances. Errors by the
-/// model's covariance and its noise are expected; what explains more than 5 % of such samples would (of all causes
-/// tried) has changed. Causes are added one after another. Throws InputError where the poses are too few, or are not of
-/// this arm.
-ChangeReport find_change(const CalibratedModel& model, const DataSet& data);
+/// Holds the model's predictions against all poses of `data` that measured positions or distances, repeats of one as
+/// their mean. Errors by the model's covariance and its noise are expected; what explains more than 5 % of such samples
+/// would (of all causes tried) has changed. Causes are added one after another; where they leave most of errors that
+/// are far beyond what is expected, none is named. Poses of the names `suspects` are left out where they are a quarter
+/// at most. Throws InputError where the poses are too few, or are not of this arm.
+ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});
 
 /// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
 /// joint comes from or on the temperature; single numbers where they are of a joint.

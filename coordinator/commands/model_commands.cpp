@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
+#include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
 #include "errors/input_error.hpp"
@@ -229,6 +231,16 @@ struct CheckRequest {
   bool json = false, force = false;
 };
 
+/// The names of poses that the check of the data found to be wrong by themselves.
+std::set<std::string> suspects(const DataCheck& check) {
+  std::set<std::string> names;
+  for (const Finding& finding : check.findings)
+    if (finding.kind == FindingKind::typing_error || finding.kind == FindingKind::rows_exchanged ||
+        finding.kind == FindingKind::outlier)
+      names.insert(finding.poses.begin(), finding.poses.end());
+  return names;
+}
+
 /// Adds the check to the folder's record, and draws it.
 void keep(const CheckRequest& request, const ChangeReport& change, const DataSet& data) {
   constexpr const char *kTable = "check-history.csv", *kPage = "check-history.html";
@@ -245,10 +257,13 @@ void keep(const CheckRequest& request, const ChangeReport& change, const DataSet
 ExitCode run(const CheckRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "check");
-  const DataSet data = load_data_set(request.data_file);
+  const CheckedData checked = load_checked_as_one_set(request.data_file);
+  const DataSet& data = checked.data;
   require_positions(data, "check");
   require_same_nominal_arm(model, data);
-  const ChangeReport change = find_change(model, data);
+  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  const ChangeReport change = find_change(model, data, suspects(checked.check));
   if (!request.history.empty()) keep(request, change, data);
   fmt::print("{}",
              request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));
@@ -265,7 +280,7 @@ void add_check(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->json, "the answer as one line of JSON");
   command->add_option("--history", request->history,
                       "folder that keeps the record of checks: a line is added, and its control chart drawn");
-  command->add_flag("--force", request->force, "overwrite a record that was changed since demecal wrote it");
+  add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -89,8 +89,90 @@ TEST(Change, StrainsTheModelBeyondTheLimitAndAnUnchangedArmDoesNot) {
   EXPECT_LT(changed.p_any, 1e-3);
 }
 
+/// An arm whose errors the model knows only as its own: every place has its own, and repeats share it.
+DataSet measured_uneven_wrist(std::uint64_t seed, int poses, int repeats, std::uint64_t draw) {
+  constexpr double kOfPlace_m = 1.5e-4;
+  DataSet data = measured_wrist(true_wrist(seed), poses, 0, draw);
+  RandomStream random{9302, draw};
+  DataSet repeated = data;
+  repeated.poses.clear();
+  for (MeasuredPose& pose : data.poses) {
+    *pose.position_m += kOfPlace_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    for (int i = 0; i < repeats; ++i) {
+      MeasuredPose again = pose;
+      *again.position_m += kMeasured_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      repeated.poses.push_back(again);
+    }
+  }
+  return repeated;
+}
+
+TEST(Change, IsToldByRepeatsOfAPoseNoMoreThanByOne) {
+  int changed = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    DataSet learnt = measured_uneven_wrist(seed, 90, 1, seed);
+    for (std::size_t i = 60; i < learnt.poses.size(); ++i) learnt.poses[i].set = PoseSet::validation;
+    const CalibratedModel model = model_of_wrist(learnt);
+    for (std::uint64_t again = 0; again < 8; ++again) {
+      const ChangeReport report = find_change(model, measured_uneven_wrist(seed, 12, 5, 400 + 10 * seed + again));
+      EXPECT_EQ(report.poses, 12U);
+      EXPECT_EQ(report.measurements, 60U);
+      changed += report.verdict == ChangeVerdict::unchanged ? 0 : 1;
+    }
+  }
+  EXPECT_LE(changed, 3);  // of 24: beyond it is less likely than 5 % at a rate of 5 %
+}
+
+TEST(Change, BetweenPosesThatDifferInWhatTheErrorDependsOnIsNotAveraged) {
+  DataSet data = measured_wrist(true_wrist(1), 4, 0, 306);
+  for (int i = 0; i < 4; ++i) {
+    MeasuredPose other = data.poses[static_cast<std::size_t>(i)];
+    if (i == 0) other.payload_kg = 3.0;
+    if (i == 1) other.temperature_celsius = 40.0;
+    if (i == 2) other.approach = ApproachSigns::Ones(data.robot.chain.size());
+    if (i == 3) other.joints[0] += 3e-3;
+    data.poses.push_back(other);
+  }
+  EXPECT_EQ(find_change(model_of_seed(1), data).poses, 8U);
+  data.poses.push_back(data.poses.front());
+  EXPECT_EQ(find_change(model_of_seed(1), data).poses, 8U);
+}
+
+TEST(Change, IsNotNamedWhereItLeavesMostOfLargeErrors) {
+  const CalibratedModel model = model_of_seed(4);
+  DataSet data = measured_wrist(true_wrist(4), 20, 0, 307);
+  for (std::size_t i = 12; i < data.poses.size(); ++i) data.poses[i].joints[5] *= -1.0;
+  const ChangeReport report = find_change(model, data);
+  EXPECT_EQ(report.verdict, ChangeVerdict::changed);
+  EXPECT_TRUE(report.unnamed);
+  EXPECT_TRUE(report.found.empty());
+  for (const double much : {1e-3, 5e-3, 2e-2}) {
+    CorrectedRobot now = true_wrist(4);
+    now.chain.joints[3].theta_rad += much;
+    const ChangeReport real = find_change(model, measured_wrist(now, 20, 0, 308));
+    EXPECT_FALSE(real.unnamed) << much;
+    ASSERT_FALSE(real.found.empty());
+    EXPECT_EQ(real.found.front().effect.joint, 3);
+  }
+}
+
+TEST(Change, IsJudgedWithoutPosesThatAreKnownToBeWrong) {
+  const CalibratedModel model = model_of_seed(1);
+  DataSet data = measured_wrist(true_wrist(1), 12, 0, 309);
+  const double error_m = find_change(model, data).error_m;
+  data.poses[5].joints[1] += 0.2;
+  const ChangeReport report = find_change(model, data, {data.poses[5].pose_id});
+  EXPECT_EQ(report.outliers, std::vector<std::size_t>{5});
+  EXPECT_NEAR(report.error_m, error_m, 3e-5);
+  const DataSet right = measured_wrist(true_wrist(1), 12, 0, 309);
+  EXPECT_TRUE(find_change(model, right, {"0", "1", "2", "3"}).outliers.empty()) << "more than a quarter";
+}
+
 TEST(Change, CannotBeToldFromThreePoses) {
   EXPECT_THROW(find_change(model_of_seed(1), measured_wrist(true_wrist(1), 3, 0, 1)), InputError);
+  DataSet repeated = measured_wrist(true_wrist(1), 3, 0, 1);
+  for (int i = 0; i < 3; ++i) repeated.poses.push_back(repeated.poses[static_cast<std::size_t>(i)]);
+  EXPECT_THROW(find_change(model_of_seed(1), repeated), InputError);
 }
 
 }  // namespace

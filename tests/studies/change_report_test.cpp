@@ -1,0 +1,43 @@
+// What `check` says of a robot names what it left out, and tells errors of the robot from those of the data.
+#include "studies/change_report.hpp"
+
+#include <gtest/gtest.h>
+
+namespace demecal {
+namespace {
+
+bool says(const ChangeReport& change, const std::string& words) {
+  DataSet data;
+  for (const std::size_t line : {2U, 3U, 4U}) {
+    MeasuredPose pose;
+    pose.pose_id = "P";
+    pose.line = line;
+    data.poses.push_back(pose);
+  }
+  return change_text(change, data, "model.yaml").find(words) != std::string::npos;
+}
+
+TEST(ChangeReport, NamesWhatWasLeftOutByItsLine) {
+  ChangeReport change;
+  change.poses = change.measurements = 2;
+  EXPECT_FALSE(says(change, "left out"));
+  EXPECT_FALSE(says(change, "measured 2 times"));
+  change.outliers = {0, 2};
+  EXPECT_TRUE(says(
+      change, "left out, since they fit neither the robot as it was nor any change of it: P (line 2), P (line 4)"));
+  change.measurements = 6;
+  EXPECT_TRUE(says(change, "2 poses measured 6 times"));
+}
+
+TEST(ChangeReport, TakesErrorsThatNoRobotComesToForThoseOfTheData) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  change.unnamed = true;
+  change.error_m = 5e-4;
+  EXPECT_FALSE(says(change, "Look at the rows first"));
+  change.error_m = 5e-2;
+  EXPECT_TRUE(says(change, "Look at the rows first"));
+}
+
+}  // namespace
+}  // namespace demecal
