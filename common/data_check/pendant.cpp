@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "data_check/explanations.hpp"
 #include "data_check/finding.hpp"
@@ -12,6 +14,7 @@
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data_check {
@@ -128,6 +131,51 @@ class PendantSearch {
   PendantComparison& result_;
 };
 
+/// "joint 6", "joints 4 and 6".
+std::string joints_text(const std::vector<int>& joints) {
+  std::string text = joints.size() == 1 ? "joint " : "joints ";
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == joints.size() ? " and " : ", ") + std::to_string(joints[i] + 1);
+  return text;
+}
+
+/// Joints of which the poses would agree with another sign, or another zero, as well: none of them, or too little,
+/// moves the tool point.
+std::vector<int> untested_joints(const DataSet& data) {
+  constexpr double kOtherZero = 0.1;  // rad or m
+  std::vector<int> untested;
+  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
+    const auto changes = [&](double factor, double offset) {
+      return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
+        JointVector joints = pose.joints;
+        joints[joint] = factor * joints[joint] + offset;
+        const Eigen::Vector3d tool_m = nominal_tool(data, pose);
+        const Eigen::Vector3d moved_m =
+            forward(data.robot.chain, joints) * tool_m - forward(data.robot.chain, pose.joints) * tool_m;
+        return moved_m.norm() > 2.0 * kPendantRounding_m;
+      });
+    };
+    if (!changes(-1.0, 0.0) || !changes(1.0, kOtherZero)) untested.push_back(joint);
+  }
+  return untested;
+}
+
+/// What poses that agree leave open, a sentence each.
+std::vector<std::string> left_open(const DataSet& data) {
+  std::vector<std::string> sentences;
+  if (const std::vector<int> joints = untested_joints(data); !joints.empty()) {
+    const bool one = joints.size() == 1;
+    sentences.push_back(fmt::format(
+        "These poses tell nothing of the sign or the zero of {}: with the described tool {} not move the points, or "
+        "{} at zero in all of them. Set a tool off the last axis and its tool_mm, turn {} well, and read off again.",
+        joints_text(joints), one ? "it does" : "they do", one ? "stands" : "stand", one ? "it" : "them"));
+  }
+  if (data.poses.size() < kFewestPendantPoses)
+    sentences.push_back(fmt::format("So few poses ({}) agree with other descriptions too: read off {} at least.",
+                                    data.poses.size(), kFewestPendantPoses));
+  return sentences;
+}
+
 }  // namespace
 
 PendantComparison compare_with_pendant(const DataSet& data) {
@@ -135,7 +183,10 @@ PendantComparison compare_with_pendant(const DataSet& data) {
   const CorrectedRobot nominal = nominal_robot(data);
   for (const MeasuredPose& pose : data.poses) result.errors_m.push_back(tool_error_m(nominal, data, pose));
   result.agrees = result.explained = largest(result.errors_m) <= kPendantRounding_m;
-  if (result.agrees) return result;
+  if (result.agrees) {
+    result.findings = left_open(data);
+    return result;
+  }
   if (data.poses.size() < kFewestPendantPoses) {
     result.findings.push_back(fmt::format(
         "{} poses cannot tell what differs: read off {} at least, with every joint well turned in some of them.",

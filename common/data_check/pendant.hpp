@@ -10,10 +10,10 @@ namespace demecal::inline data_check {
 
 /// How a description and a controller agree.
 struct PendantComparison {
-  std::vector<double> errors_m;  ///< of each pose: from the described tool point to the one read off
-  bool agrees = false;           ///< all within kPendantRounding_m
-  bool explained = false;        ///< agrees, or does with what `findings` say
-  std::vector<std::string> findings{};
+  std::vector<double> errors_m;         ///< of each pose: from the described tool point to the one read off
+  bool agrees = false;                  ///< all within kPendantRounding_m
+  bool explained = false;               ///< agrees, or does with what `findings` say
+  std::vector<std::string> findings{};  ///< where it agrees: what these poses leave untested
 };
 
 /// Controllers show a hundredth of a millimetre and of a degree, which turns a long arm by some tenths.

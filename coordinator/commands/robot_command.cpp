@@ -199,7 +199,9 @@ void print_comparison(const DataSet& data, const PendantComparison& comparison) 
   fmt::print("{}: {} poses read off the controller; the description is off by {:.3f} mm at most.\n", data.file,
              data.poses.size(), millimetres(*std::ranges::max_element(comparison.errors_m)));
   if (comparison.agrees) {
-    fmt::print("It agrees with the controller.\n");
+    fmt::print("It agrees with the controller{}\n",
+               comparison.findings.empty() ? "." : ", as far as these poses tell:");
+    for (const std::string& finding : comparison.findings) fmt::print("  {}\n", finding);
     return;
   }
   for (const std::string& finding : comparison.findings) fmt::print("  {}\n", finding);

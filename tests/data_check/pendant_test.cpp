@@ -72,6 +72,29 @@ TEST(Pendant, AgreesWithARightDescription) {
   EXPECT_TRUE(comparison.findings.empty());
 }
 
+TEST(Pendant, SaysOfWhichJointsPosesThatAgreeTellNothing) {
+  Chain bare = elbow();
+  bare.tool_m.setZero();
+  DataSet shown = read_off(bare, bare, 8);
+  for (int turn = 0; turn < 2; ++turn) {
+    const PendantComparison flange = compare_with_pendant(shown);
+    EXPECT_TRUE(flange.agrees);
+    ASSERT_EQ(flange.findings.size(), 1U);
+    EXPECT_TRUE(says(flange, "zero of joint 6:")) << flange.findings.front();
+    for (MeasuredPose& pose : shown.poses) pose.joints[5] *= -1.0;  // as a description with the other sign has it
+  }
+  DataSet few = read_off(elbow(), elbow(), 4);
+  EXPECT_TRUE(says(compare_with_pendant(few), "So few poses (4) agree"));
+  DataSet still = read_off(elbow(), elbow(), 8);
+  for (MeasuredPose& pose : still.poses) {
+    pose.joints[3] = 0.0;
+    pose.position_m = forward(elbow(), pose.joints) * elbow().tool_m;
+  }
+  const PendantComparison comparison = compare_with_pendant(still);
+  EXPECT_TRUE(comparison.agrees);
+  EXPECT_TRUE(says(comparison, "zero of joint 4:")) << ::testing::PrintToString(comparison.findings);
+}
+
 TEST(Pendant, NamesAToolThatIsDescribedElsewhere) {
   const PendantComparison other = compared([](Chain& chain) { chain.tool_m = {0.0, 0.0, 0.05}; });
   EXPECT_TRUE(other.explained);
