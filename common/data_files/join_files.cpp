@@ -177,25 +177,42 @@ class TimeJoin {
     return find_offset_s(files_[lead].table, keys[lead], files_[arm].table, keys[arm], points, within_s);
   }
 
+  /// How far apart rows are neighbours, at the least: a log's next row tells of motion however near rows must be to
+  /// be joined; over a gap of the log it tells nothing.
+  static double neighbours_s(const JoinKeys& keys) {
+    constexpr double kSteps = 1.5;
+    std::vector<double> steps;
+    for (std::size_t row = 1; row < keys.times_s.size(); ++row)
+      steps.push_back(std::abs(keys.times_s[row] - keys.times_s[row - 1]));
+    if (steps.empty()) return 0.0;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::ranges::nth_element(steps, middle);
+    return kSteps * *middle;
+  }
+
   /// A measurement taken while the arm moves is off by its speed times what the clocks differ by.
   void warn_of_motion(const JoinedRows& joined, const JoinKeys& keys, std::size_t arm, double within_s,
                       std::vector<std::string>& sentences) const {
     const std::vector<JointVector> joints = joints_of(files_[arm], columns_, units_, chain_);
+    constexpr std::size_t kDense = 5;  // rows a pose: fewer may be one row of each pose, between which the arm moved
+    const bool dense = joints.size() >= kDense * joined.rows.size();
+    const double near_s = dense ? std::max(within_s, neighbours_s(keys)) : within_s;
     std::size_t moving = 0, first_line = 0;
     for (const auto& pose : joined.rows) {
       const std::size_t row = pose[arm];
       const auto moves = [&](std::size_t other) {
-        return other < joints.size() && std::abs(keys.times_s[other] - keys.times_s[row]) <= within_s &&
+        return other < joints.size() && std::abs(keys.times_s[other] - keys.times_s[row]) <= near_s &&
                (joints[other] - joints[row]).cwiseAbs().maxCoeff() > kStandingStill;
       };
       if (!moves(row + 1) && !(row > 0 && moves(row - 1))) continue;
       if (moving++ == 0) first_line = files_[arm].table.rows[row].line;
     }
     if (moving == 0) return;
-    sentences.push_back(files_[arm].table.file + ":" + std::to_string(first_line) + ": the arm moves at " +
-                        std::to_string(moving) + " of " + std::to_string(joined.rows.size()) +
-                        " measured times (this is the first): its joints are then not those of the measurement. "
-                        "Measure while the arm stands, or lower `within_s` under `join`");
+    sentences.push_back(
+        files_[arm].table.file + ":" + std::to_string(first_line) + ": the arm moves at " + std::to_string(moving) +
+        " of " + std::to_string(joined.rows.size()) +
+        " measured times (this is the first): its joints are then not those of the measurement. "
+        "Measure while the arm stands; if it stood, the clocks differ: give their `offset_s` under `join`");
   }
 
   const YamlNode& node_;

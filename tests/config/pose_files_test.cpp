@@ -151,6 +151,31 @@ join: {by: time, within_s: 0.1, offset_s: auto}
   EXPECT_THAT(read.recognised.back(), HasSubstr("(found by the arm's motion)"));
 }
 
+TEST(PoseFiles, SayWhichWereTakenWhileTheArmMovedHoweverNearRowsAreJoined) {
+  RandomStream random{94};
+  const MeasuredCell cell(random, 12);
+  cell.folder.write("joints.txt", joint_log(cell));
+  const auto path = cell.folder.write("set.yaml", R"yaml(demecal_dataset: 1
+robot: robot.yaml
+poses:
+  - {file: joints.txt, columns: {joints: [2, 3, 4, 5, 6, 7], time: 1}}
+  - {file: points.csv, columns: {position: [x_mm, y_mm, z_mm], time: time_s}}
+join: {by: time, within_s: 0.06}
+)yaml");
+  const auto recognised = [&](double after_s) {
+    std::string text = "time_s,x_mm,y_mm,z_mm\n";
+    for (std::size_t i = 0; i < cell.points_m.size(); ++i) {
+      text += number_text(100.0 + 4.0 * static_cast<double>(i) + after_s);
+      for (const double value_m : cell.points_m[i]) text += ',' + number_text(millimetres(value_m));
+      text += '\n';
+    }
+    cell.folder.write("points.csv", text);
+    return load_described_data_set(path).recognised.back();
+  };
+  EXPECT_THAT(recognised(0.7), HasSubstr("the arm moves at 11 of 12 measured times"));  // it stands before the first
+  EXPECT_THAT(recognised(3.0), HasSubstr("12 rows joined by time"));
+}
+
 TEST(PoseFiles, ThatDoNotBelongTogetherAreRefused) {
   RandomStream random{93};
   const MeasuredCell cell(random, 5);
