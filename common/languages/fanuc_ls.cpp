@@ -56,6 +56,7 @@ class FanucReader {
     }
     changes_.mark(program_.targets);
     end_at_motions_elsewhere();
+    motions_.note_way(text_, program_);
     for (Target& target : program_.targets) {
       if (target.is_pose() && tracks_a_line(text_))
         target.frames.unknown_frame = "it may move with a line that is tracked";
@@ -66,7 +67,6 @@ class FanucReader {
  private:
   /// Where motions go to none of the targets; positions that are not in the file are said.
   void end_at_motions_elsewhere() {
-    program_.unknown_motions = motions_.elsewhere();
     std::set<std::string> corrected;
     for (const Target& target : program_.targets) corrected.insert(target.name);
     for (const auto& [number, uses] : motions_.uses()) {

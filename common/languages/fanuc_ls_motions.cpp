@@ -99,53 +99,69 @@ void FanucMotions::read(const ProgramText& text, std::size_t begin, std::size_t 
     read_way(text, begin, stop);
     begin = stop + 1;
   }
-  selected_.finish();
+  way_.flow().finish();
 }
 
 /// What tells the way through the instructions, and the frame and tool that they select.
 void FanucMotions::read_way(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code().substr(0, end);
   begin = after_line_number(code, begin);
-  if (begin >= end) return;
+  if (begin >= end || code[begin] == '!' || code.substr(begin).starts_with("//")) return;
   const std::string word = text.begins_word(begin) ? text.word_at(begin) : "";
   const std::size_t comma = std::min(code.find(',', begin), end);
+  read_jumps(text, begin, end);
   if (word == "if" && lower_case(code.substr(begin)).find("then") != std::string::npos)
-    return selected_.open(begin, FrameFlow::Block::branch);
-  if (word == "else" && comma >= end) return selected_.alternative(begin, true);
-  if (word == "for") return selected_.open(begin, FrameFlow::Block::loop);
-  if (word == "endif" || word == "endfor") return selected_.close(begin);
-  if (word == "end" || word == "abort") return selected_.leave_routine(begin);
-  if (word == "lbl") return selected_.label(begin, bracketed_number(text, begin, end));
+    return way_.flow().open(begin, FrameFlow::Block::branch);
+  if (word == "else" && comma >= end) return way_.flow().alternative(begin, true);
+  if (word == "for") return way_.flow().open(begin, FrameFlow::Block::loop);
+  if (word == "endif" || word == "endfor") return way_.flow().close(begin);
+  if (word == "end" || word == "abort") return way_.flow().leave_routine(begin);
+  if (word == "lbl") return way_.label(begin, bracketed_number(text, begin, end));
   const bool conditional = word == "if" || word == "select" || word == "else" || code[begin] == '=';
   const std::size_t action = conditional ? std::min(comma + 1, end) : begin;
   read_action(text, std::min(text.skip_spaces(action), end), end, conditional);
 }
 
+/// JMP LBL[n], be it behind a condition, and what else goes to labels: Skip,LBL[n] and TIMEOUT,LBL[n].
+void FanucMotions::read_jumps(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const bool always = text.begins_word(begin) && text.word_at(begin) == "jmp";
+  for (std::size_t at = begin; at < end; ++at) {
+    if (!text.begins_word(at)) continue;
+    const std::size_t word_end = std::min(text.word_end(at), end);
+    if (at > begin && text.word_at(at) == "lbl") way_.jump(begin, bracketed_number(text, word_end, end), always);
+    at = word_end - 1;
+  }
+}
+
 void FanucMotions::read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional) {
   if (begin >= end || !text.begins_word(begin)) return;
   const std::string word = text.word_at(begin);
-  const std::size_t next = text.skip_spaces(text.word_end(begin));
-  if (word == "jmp") {
-    const std::string to = bracketed_number(text, begin, end);
-    jumps_anywhere_ = jumps_anywhere_ || to.empty();
-    return selected_.jump(begin, to, !conditional);
-  }
+  const std::size_t next = std::min(text.skip_spaces(text.word_end(begin)), end);
   const bool tool = word == "utool_num", frame = word == "uframe_num", calls = word == "call";
   if (!calls && (!(tool || frame) || next >= end || text.code()[next] != '=')) return;
   std::size_t value = std::min(next + 1, end);
   const std::string_view number = text.trimmed(value, end);
   const bool told = !calls && !number.empty() && std::all_of(number.begin(), number.end(), is_digit);
   const KnownFrame selected{"selected", Eigen::Isometry3d::Identity(), told ? std::string(number) : "computed"};
-  if (conditional) selected_.open(begin, FrameFlow::Block::branch);
-  if (tool || calls) selected_.set_tool(begin, selected);
-  if (frame || calls) selected_.set_frame(begin, selected);
-  if (conditional) selected_.close(begin);
+  if (conditional) way_.flow().open(begin, FrameFlow::Block::branch);
+  if (calls) {
+    const std::size_t stop = std::min(text.code().find_first_of(" \t\r\n(,", next), end);
+    way_.call(begin, std::string(text.code().substr(next, stop - next)));
+  }
+  if (tool || calls) way_.flow().set_tool(begin, selected);  // what is called may select others
+  if (frame || calls) way_.flow().set_frame(begin, selected);
+  if (conditional) way_.flow().close(begin);
+}
+
+void FanucMotions::note_way(const ProgramText& text, Program& program) const {
+  program.unknown_motions.insert(program.unknown_motions.end(), elsewhere_.begin(), elsewhere_.end());
+  way_.note_arrivals(text, program);
 }
 
 std::string FanucMotions::stopped_by(const ProgramText& text, int number, const std::string& frame,
                                      const std::string& tool) const {
   const auto found = uses_.find(number);
-  if (found == uses_.end() || jumps_anywhere_) return "";
+  if (found == uses_.end() || way_.jumps_anywhere()) return "";
   const auto differs = [](const std::string& selected, const std::string& own) {
     const auto is_number = [](const std::string& word) {
       return !word.empty() && std::all_of(word.begin(), word.end(), is_digit);
@@ -153,7 +169,7 @@ std::string FanucMotions::stopped_by(const ProgramText& text, int number, const 
     return is_number(selected) && is_number(own) && selected != own;
   };
   for (const TargetUse& use : found->second) {
-    const StatedFrames selected = selected_.at(use.begin).frames;
+    const StatedFrames selected = way_.flow().at(use.begin).frames;
     const bool other_frame = differs(selected.unknown_frame, frame), other_tool = differs(selected.unknown_tool, tool);
     if (!other_frame && !other_tool) continue;
     return "line " + std::to_string(text.place(use.begin).line) + " moves to it with " +
@@ -191,6 +207,7 @@ void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, st
   for (const int number : numbers) {
     if (number < 0 && !why.empty()) computed_numbers_ = "a motion may go by it: " + why;
     if (number >= 0 && !why.empty()) not_sent_to_[number] = why;
+    way_.motion(begin);
     if (number >= 0) uses_[number].push_back({begin, line ? Motion::line : Motion::joints, {}});
   }
 }

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "languages/labelled_way.hpp"
 #include "parsed_programs/changed_names.hpp"
-#include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -30,8 +30,9 @@ class FanucMotions {
   /// Where motions name a register and no position.
   const std::vector<std::size_t>& to_registers() const { return to_registers_; }
 
-  /// Where motions go elsewhere than to a position alone.
-  const std::vector<std::size_t>& elsewhere() const { return elsewhere_; }
+  /// Tells `program`, whose targets are known, where motions go elsewhere than to a position alone, and where else it
+  /// is not known where the arm comes from; and says which programs that are called between motions are not here.
+  void note_way(const ProgramText& text, Program& program) const;
 
   /// The motions to each position.
   const std::map<int, std::vector<TargetUse>>& uses() const { return uses_; }
@@ -49,14 +50,14 @@ class FanucMotions {
  private:
   void read_statement(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_way(const ProgramText& text, std::size_t begin, std::size_t end);
+  void read_jumps(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional);
 
   std::map<int, std::vector<TargetUse>> uses_;
   std::vector<std::size_t> to_registers_, elsewhere_;
   std::map<int, std::string> not_sent_to_;
-  FrameFlow selected_{"UTOOL_NUM", "UFRAME_NUM"};  ///< the numbers, as why frames are unknown
-  bool jumps_anywhere_ = false;                    ///< to a label whose number is computed
-  std::string computed_numbers_{};                 ///< why no position is certain; empty: all are
+  LabelledWay way_{"UTOOL_NUM", "UFRAME_NUM"};  ///< the numbers, as why frames are unknown
+  std::string computed_numbers_{};              ///< why no position is certain; empty: all are
 };
 
 /// The number of a position whose bracket opens at `open`: 3 of [3] and of [3:name]; nothing, -1, where it is no

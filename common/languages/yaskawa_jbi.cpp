@@ -15,6 +15,8 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/labelled_way.hpp"
+#include "languages/yaskawa_jbi_way.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -186,6 +188,7 @@ class JobReader {
   /// An instruction with the positions that it names.
   void read_instruction(std::size_t begin, std::size_t end) {
     const std::string word = lower_case(code_.substr(begin, text_.word_end(begin) - begin));
+    read_job_way(text_, begin, end, way_);
     if (word == "sfton") shifts_ = true;
     if (word == "sftof") shifts_ = always_shifts_;
     if (word == "settool" || word == "mframe") changes_of_controller_ = word;
@@ -199,6 +202,7 @@ class JobReader {
       if (key.empty()) continue;
       named = true;
       Uses& uses = uses_[key];
+      if (motion) way_.motion(begin);
       if (motion && !shifts_) {
         uses.motions.push_back({begin, word == "movj" ? Motion::joints : Motion::line, {}});
       } else if (motion || coordinated) {
@@ -249,6 +253,8 @@ class JobReader {
         note_unknown_motion(program_, use.begin, {.name = key, .place = text_.place(use.begin)},
                             "it is not given in this file");
     }
+    way_.flow().finish();
+    way_.note_arrivals(text_, program_);
   }
 
   static void complete(std::vector<TargetUse> motions, Target& target) {
@@ -269,6 +275,7 @@ class JobReader {
   std::string changes_of_controller_;  ///< the instruction that does
   std::vector<Position> positions_;
   std::map<std::string, Uses> uses_;  ///< by position_name
+  LabelledWay way_{"", ""};
 };
 
 }  // namespace

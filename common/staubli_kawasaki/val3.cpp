@@ -23,6 +23,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/val3_program.hpp"
+#include "staubli_kawasaki/val3_way.hpp"
 
 namespace demecal::inline staubli_kawasaki {
 namespace {
@@ -71,10 +72,19 @@ class Val3Reader {
       take_motions(value, target);
       program_.targets.push_back(std::move(target));
     }
+    note_arrivals();
     return std::move(program_);
   }
 
  private:
+  void note_arrivals() {
+    Val3Way way;
+    for (const Val3Code& code : val3_programs(text_))
+      way.read(statements_.code(), code, text_.source().file_at(code.begin));
+    way.finish();
+    way.note_arrivals(program_);
+  }
+
   void note_what_is_nearby() {
     for (const Val3Nearby& nearby : statements_.nearby())
       note_offset(program_, text_.place(nearby.begin), nearby.name,
@@ -105,7 +115,7 @@ class Val3Reader {
     program_.remarks.push_back({text_.place(statements_.calls_elsewhere().begin()->first), "",
                                 "the programs that are called, " + list +
                                     ", are not in the files given: points, frames and tools are taken as the data have "
-                                    "them; --with FILE takes programs in"});
+                                    "them, and the arm to be where it was; --with FILE takes programs in"});
   }
 
   /// Says where programs move to values that no data file gives.

@@ -59,6 +59,8 @@ class Val3Statements {
   Val3Statements(const Val3Statements&) = delete;
   Val3Statements& operator=(const Val3Statements&) = delete;
 
+  /// The code of all programs, without comments, every byte where it stood; all else is blank.
+  const ProgramText& code() const { return code_; }
   /// Whether there is any code.
   bool any() const { return any_; }
   std::vector<Val3Motion> motions(const std::string& name) const;
@@ -96,7 +98,7 @@ class Val3Statements {
   std::size_t close_of(std::size_t open, std::size_t end) const;
 
   const ProgramText& text_;
-  ProgramSource bare_;  ///< the code without comments, all else blank, every byte where it stood
+  ProgramSource bare_;
   ProgramText code_;
   const std::set<std::string>* locals_ = nullptr;  ///< names of the program that is read, which hide those of the data
   int depth_ = 0;                                  ///< of brackets

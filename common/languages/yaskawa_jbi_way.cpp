@@ -1,0 +1,76 @@
+#include "languages/yaskawa_jbi_way.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "data/text.hpp"
+#include "parsed_programs/frame_flow.hpp"
+
+namespace demecal::inline languages {
+namespace {
+
+/// "CALL JOB:PICK IF IN#(1)=ON".
+bool has_condition(const ProgramText& text, std::size_t begin, std::size_t end) {
+  bool found = false;
+  for (std::size_t at = begin; at < end; ++at) {
+    if (!text.begins_word(at)) continue;
+    found = found || text.word_at(at) == "if";
+    at = std::max(text.word_end(at), at + 1) - 1;
+  }
+  return found;
+}
+
+/// The argument behind the instruction's word, up to the next blank.
+std::string argument_of(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::size_t first = std::min(text.skip_spaces(text.word_end(begin)), end);
+  return std::string(text.code().substr(first, std::min(text.code().find_first_of(" \t", first), end) - first));
+}
+
+/// A label's name; empty where `argument` computes it.
+std::string label_name(const std::string& argument) {
+  return argument.starts_with('*') ? lower_case(argument) : "";
+}
+
+bool names_a_job(const std::string& argument) {
+  const std::string small = lower_case(argument);
+  return small.starts_with("job:") || small.starts_with("ijob");
+}
+
+void read_job_jump(const ProgramText& text, std::size_t begin, std::size_t end, LabelledWay& way) {
+  const std::string to = argument_of(text, begin, end);
+  const bool always = !has_condition(text, begin, end);
+  if (!names_a_job(to)) return way.jump(begin, label_name(to), always);
+  if (always) way.flow().leave_routine(begin);
+}
+
+void read_job_call(const ProgramText& text, std::size_t begin, std::size_t end, LabelledWay& way) {
+  std::string name = argument_of(text, begin, end);
+  if (lower_case(name).starts_with("job:")) name.erase(0, 4);
+  if (!name.empty()) way.call(begin, name);
+}
+
+}  // namespace
+
+void read_job_way(const ProgramText& text, std::size_t begin, std::size_t end, LabelledWay& way) {
+  using Block = FrameFlow::Block;
+  if (begin >= end) return;
+  if (text.code()[begin] == '*') {
+    const std::size_t stop = std::min(text.code().find_first_of(" \t", begin), end);
+    return way.label(begin, lower_case(text.code().substr(begin, stop - begin)));
+  }
+  if (!text.begins_word(begin)) return;
+  const std::string word = text.word_at(begin);
+  FrameFlow& flow = way.flow();
+  if (word == "ifthen") return flow.open(begin, Block::branch);
+  if (word == "switch") return flow.open(begin, Block::selection);
+  if (word == "while" || word == "for") return flow.open(begin, Block::loop);
+  if (word == "else" || word == "default") return flow.alternative(begin, true);
+  if (word == "elseif" || word == "case") return flow.alternative(begin, false);
+  if (word == "endif" || word == "endswitch" || word == "endwhile" || word == "next") return flow.close(begin);
+  if ((word == "end" || word == "ret") && !has_condition(text, begin, end)) return flow.leave_routine(begin);
+  if (word == "jump") return read_job_jump(text, begin, end, way);
+  if (word == "call") read_job_call(text, begin, end, way);
+}
+
+}  // namespace demecal::inline languages
