@@ -20,6 +20,12 @@
 
 namespace demecal::inline parsed_programs {
 
+/// What a target states of one part of the arm by itself. Neither word nor kept: any side will do.
+struct PartHint {
+  std::string word{};  ///< for a side, of which the same is known as of ArmHint::configuration
+  bool kept = false;   ///< the side that it is on before
+};
+
 /// What a target says of the joints that its pose is to be reached with.
 struct ArmHint {
   JointVector near{};                           ///< joints close by; empty: unknown
@@ -28,7 +34,12 @@ struct ArmHint {
   /// The words that state it, where makers do not say the same by them: all that is known is that targets with the same
   /// words are reached in the same configuration. Empty: none.
   std::string configuration{};
-  bool empty() const { return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty(); }
+  /// Of shoulder, elbow and wrist, where words do not state all of them; empty: none is stated. The words of
+  /// `configuration` are then those of the three, a blank between them.
+  std::vector<PartHint> parts{};
+  bool empty() const {
+    return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty() && parts.empty();
+  }
 };
 
 /// How a program comes to a target.

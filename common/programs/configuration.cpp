@@ -4,90 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <iterator>
+#include <sstream>
 
-#include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "programs/nominal_joints.hpp"
 
 namespace demecal::inline programs {
 namespace {
-
-constexpr double kAlike = 1e-3;            ///< rad or m
-constexpr std::size_t kMostBranches = 16;  ///< that six revolute joints can have
-
-/// Whether two joint positions are one but for whole turns.
-bool alike(const Chain& arm, const JointVector& one, const JointVector& other) {
-  for (Eigen::Index i = 0; i < one.size(); ++i) {
-    const bool revolute = is_revolute(arm, i);
-    const double difference = revolute ? wrap_near(one[i] - other[i], 0.0) : one[i] - other[i];
-    if (std::abs(difference) > kAlike) return false;
-  }
-  return true;
-}
-
-class BranchSearch {
- public:
-  BranchSearch(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference)
-      : arm_(arm), model_(nominal_pose(arm)), tool_(tool), reference_(reference) {}
-
-  std::vector<JointVector> all() {
-    try_from(reference_);
-    for (int index = 1; index <= kSearchStarts && found_.size() < kMostBranches; ++index) {
-      try_from(search_start(arm_, index));
-    }
-    // Neighbours of what was found: the wrist turned over, the elbow and the shoulder on their other side.
-    for (std::size_t i = 0; i < found_.size() && arm_.size() >= 6 && found_.size() < kMostBranches; ++i) {
-      try_mirrored(found_[i]);
-    }
-    return within_limits();
-  }
-
- private:
-  void try_from(const JointVector& start) {
-    const InverseSolution solution = inverse(model_, tool_, start);
-    if (solution.status != InverseStatus::converged) return;
-    const auto same = [&](const JointVector& known) { return alike(arm_, known, solution.q); };
-    if (std::none_of(found_.begin(), found_.end(), same)) found_.push_back(solution.q);
-  }
-
-  void try_mirrored(const JointVector& joints) {
-    constexpr double kHalf = std::numbers::pi;
-    const Eigen::Index last = joints.size() - 1;
-    JointVector wrist = joints, elbow = joints, shoulder = joints;
-    wrist[last - 2] += kHalf;
-    wrist[last - 1] *= -1.0;
-    wrist[last] += kHalf;
-    elbow[2] = kHalf - elbow[2];
-    shoulder[0] += kHalf;
-    for (const JointVector& start : {wrist, elbow, shoulder}) try_from(start);
-  }
-
-  bool outside(const JointVector& joints) const {
-    for (Eigen::Index i = 0; i < joints.size(); ++i) {
-      if (beyond_limits(arm_.joints[static_cast<std::size_t>(i)], joints[i]) > 0.0) return true;
-    }
-    return false;
-  }
-
-  std::vector<JointVector> within_limits() {
-    for (JointVector& joints : found_) {
-      for (Eigen::Index i = 0; i < joints.size(); ++i) {
-        joints[i] = nearest_turn(arm_.joints[static_cast<std::size_t>(i)], joints[i], reference_[i]);
-      }
-    }
-    std::vector<JointVector> inside = found_;
-    std::erase_if(inside, [&](const JointVector& joints) { return outside(joints); });
-    return inside.empty() ? found_ : inside;
-  }
-
-  const Chain& arm_;
-  PoseFunction model_;
-  const Eigen::Isometry3d& tool_;
-  const JointVector& reference_;
-  std::vector<JointVector> found_;
-};
 
 double farthest_joint(const JointVector& one, const JointVector& other) {
   return (one - other).cwiseAbs().maxCoeff();
@@ -130,6 +55,24 @@ bool keep_posture(const Chain& arm, std::vector<JointVector>& joints, const Join
   return true;
 }
 
+/// Leaves those that have the part on the side that it is on at `known`; false: sides cannot be told.
+bool keep_side(const Chain& arm, std::vector<JointVector>& joints, const JointVector& known, std::size_t part) {
+  std::vector<JointVector> kept;
+  for (const JointVector& candidate : joints) {
+    const std::optional<bool> same = same_side(arm, candidate, known, part);
+    if (!same) return false;
+    if (*same) kept.push_back(candidate);
+  }
+  joints = std::move(kept);
+  return true;
+}
+
+/// The words of shoulder, elbow and wrist, a blank between them.
+std::vector<std::string> words_of_parts(const std::string& words) {
+  std::istringstream stream(words);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 /// Leaves those that contradict what is stated least.
 void keep_stated(std::vector<JointVector>& joints, const ArmHint& hint) {
   int least = kMaxJoints;
@@ -152,11 +95,6 @@ Configurations settled(std::vector<JointVector> joints, JointsFrom from) {
 }
 
 }  // namespace
-
-std::vector<JointVector> joints_reaching(const Chain& arm, const Eigen::Isometry3d& tool,
-                                         const JointVector& reference) {
-  return BranchSearch(arm, tool, reference).all();
-}
 
 std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector& from, const Eigen::Isometry3d& tool) {
   constexpr double kStep_m = 0.02, kStep_rad = 0.05, kLeap = 0.3, kMostSteps = 500.0;
@@ -223,6 +161,53 @@ Configurations ConfigurationFinder::find_worded(const Chain& arm, const std::str
   return {JointsFrom::undetermined, joints};
 }
 
+/// Joints that were reached in a configuration with this word for the part.
+std::optional<JointVector> ConfigurationFinder::joints_with(const std::string& word, std::size_t part) const {
+  for (const auto& [words, joints] : worded_) {
+    const std::vector<std::string> each = words_of_parts(words);
+    if (part < each.size() && each[part] == word) return joints;
+  }
+  return std::nullopt;
+}
+
+Configurations ConfigurationFinder::find_by_parts(const Chain& arm, const std::vector<PartHint>& parts,
+                                                  const Eigen::Isometry3d& tool) const {
+  const bool given = !present_ && near_.size() == arm.size();
+  const std::optional<JointVector> before = given ? std::optional(near_) : present_;
+  const JointsFrom from = given ? JointsFrom::given : JointsFrom::before;
+  const std::vector<JointVector> all = joints_reaching(arm, tool, before.value_or(middle_));
+  if (all.size() <= 1) return settled(all, JointsFrom::only);
+  std::vector<JointVector> joints = all;
+  bool told = true, kept = false;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (parts[part].word.empty() && !parts[part].kept) continue;
+    const std::optional<JointVector> known = parts[part].kept ? before : joints_with(parts[part].word, part);
+    told = known && keep_side(arm, joints, *known, part) && told;
+    kept = kept || parts[part].kept;
+  }
+  if (joints.empty()) return {JointsFrom::undetermined, all};
+  if (joints.size() == 1) return {kept ? from : JointsFrom::stated, joints};
+  if (!before) return {JointsFrom::undetermined, joints};
+  if (told) {
+    keep_nearest(joints, *before);
+  } else {
+    keep_adjacent(joints, *before);
+  }
+  return settled(std::move(joints), from);
+}
+
+/// Whether the hint states another configuration than that which the arm is in now.
+bool ConfigurationFinder::states_others(const ArmHint& hint) const {
+  if (present_words_.empty()) return false;
+  if (hint.parts.empty()) return present_words_ != hint.configuration;
+  const std::vector<std::string> words = words_of_parts(present_words_);
+  for (std::size_t part = 0; part < hint.parts.size(); ++part) {
+    const std::string& word = hint.parts[part].word;
+    if (!word.empty() && (part >= words.size() || words[part] != word)) return true;
+  }
+  return false;
+}
+
 Configurations ConfigurationFinder::find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const {
   Configurations found = find_any(arm, target, tool);
   const std::string& words = target.hint.configuration;
@@ -240,11 +225,11 @@ Configurations ConfigurationFinder::find_any(const Chain& arm, const Target& tar
   const bool named = hint.near.size() == arm.size();
   const bool given = near_.size() == arm.size();
   const bool states = !hint.quadrants.empty() || !hint.negative.empty();
-  const bool other_words = !present_words_.empty() && present_words_ != hint.configuration;
-  if (!named && !states && present_ && target.motion == Motion::line && !other_words) {
+  if (!named && !states && present_ && target.motion == Motion::line && !states_others(hint)) {
     if (auto end = joints_after_line(arm, *present_, tool)) return {JointsFrom::line, {std::move(*end)}};
   }
   if (!hint.configuration.empty()) return find_worded(arm, hint.configuration, tool);
+  if (!hint.parts.empty()) return find_by_parts(arm, hint.parts, tool);
   const JointVector& reference = named ? hint.near : present_ ? *present_ : given ? near_ : middle_;
   std::vector<JointVector> joints = joints_reaching(arm, tool, reference);
   for (JointVector& candidate : joints) candidate = in_hinted_turns(arm, candidate, hint, reference);

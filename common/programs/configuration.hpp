@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,7 +55,9 @@ class ConfigurationFinder {
   /// For a target whose tool point (axes of the flange, base frame) is to stand at `tool`. What a target states comes
   /// first, then a straight line from known joints, then nearness to known joints, then to the user's. Words that state
   /// a configuration tell it where a target before had the same; otherwise only joints right before, or the user's, do
-  /// that are so near that no other configuration can be meant.
+  /// that are so near that no other configuration can be meant. Where each part of the arm is stated by itself, those
+  /// are left that have each on the side that is known to be meant; nearness decides on parts of which any side will
+  /// do.
   Configurations find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
 
   /// Tells where the arm is now, nothing: unknown; and in what words that configuration was stated, empty: in none.
@@ -63,6 +66,10 @@ class ConfigurationFinder {
  private:
   Configurations find_any(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
   Configurations find_worded(const Chain& arm, const std::string& words, const Eigen::Isometry3d& tool) const;
+  Configurations find_by_parts(const Chain& arm, const std::vector<PartHint>& parts,
+                               const Eigen::Isometry3d& tool) const;
+  std::optional<JointVector> joints_with(const std::string& word, std::size_t part) const;
+  bool states_others(const ArmHint& hint) const;
 
   JointVector near_, middle_;
   std::optional<JointVector> present_;
@@ -73,5 +80,7 @@ class ConfigurationFinder {
 /// Nothing where the arm is not of six revolute joints with parallel axes 2 and 3 and a wrist whose axes meet, or where
 /// one of the positions is so near to a singular one that a side cannot be told.
 std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other);
+/// The same of shoulder (0), elbow (1) or wrist (2) alone.
+std::optional<bool> same_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part);
 
 }  // namespace demecal::inline programs

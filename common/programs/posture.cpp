@@ -69,17 +69,24 @@ std::optional<std::array<double, 3>> sides_of(const Chain& arm, const JointVecto
 
 }  // namespace
 
-std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other) {
+std::optional<bool> same_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part) {
   constexpr double kTold = 0.02;
   const bool six = arm.joints.size() == kSix &&
                    std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
   if (!six) return std::nullopt;
   const auto sides = sides_of(arm, one), others = sides_of(arm, other);
   if (!sides || !others) return std::nullopt;
+  const double side = (*sides)[part], other_side = (*others)[part];
+  if (std::abs(side) < kTold || std::abs(other_side) < kTold) return std::nullopt;
+  return (side > 0.0) == (other_side > 0.0);
+}
+
+std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other) {
   bool same = true;
-  for (std::size_t i = 0; i < sides->size(); ++i) {
-    if (std::abs((*sides)[i]) < kTold || std::abs((*others)[i]) < kTold) return std::nullopt;
-    same = same && ((*sides)[i] > 0.0) == ((*others)[i] > 0.0);
+  for (std::size_t part = 0; part < 3; ++part) {
+    const std::optional<bool> on_one_side = same_side(arm, one, other, part);
+    if (!on_one_side) return std::nullopt;
+    same = same && *on_one_side;
   }
   return same;
 }

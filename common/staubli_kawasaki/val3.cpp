@@ -176,7 +176,7 @@ class Val3Reader {
     target.position.assign(cells.begin(), cells.begin() + 3);
     target.orientation.assign(cells.begin() + 3, cells.end());
     target.form = OrientationForm::xyz_angles;
-    target.hint.configuration = configuration(value);
+    target.hint = configuration(value);
     const std::string father = word(value, "fatherId");
     if (!is_world(father)) set_frame(target.frames, frame(father, 0));
   }
@@ -189,15 +189,19 @@ class Val3Reader {
 
   static bool is_world(const std::string& father) { return father.empty() || father == "world[0]"; }
 
-  /// "lefty epositive wpositive"; empty where one of them is that of the arm before, or free.
-  std::string configuration(const Val3Value& value) const {
-    std::string words;
+  /// "lefty epositive wpositive"; each part by itself where one of them is the one before, or any.
+  ArmHint configuration(const Val3Value& value) const {
+    ArmHint all, each;
+    bool whole = true, stated = false;
     for (const char* part : {"shoulder", "elbow", "wrist"}) {
       const std::string said = word(value, part);
-      if (said.empty() || said.ends_with("same") || said.ends_with("free")) return "";
-      words += (words.empty() ? "" : " ") + said;
+      const bool kept = said.ends_with("same"), any = said.empty() || said.ends_with("free");
+      each.parts.push_back({kept || any ? "" : said, kept});
+      all.configuration += (all.configuration.empty() ? "" : " ") + said;
+      whole = whole && !kept && !any;
+      stated = stated || !any;
     }
-    return words;
+    return whole ? all : stated ? each : ArmHint{};
   }
 
   /// The transform of a frame or tool to what it hangs on; what is left out is 0.

@@ -178,5 +178,111 @@ TEST(Words, OfAJobContradictEachOtherInTheirFirstThreeNumbers) {
   }
 }
 
+/// A VAL3 program that moves to joints and poses one after the other.
+struct Application {
+  RandomStream stream{7534};
+  CommandModel model = erring_model(stream, elbow_arm(stream));
+  std::string data{}, moves{};
+  int count = 0;
+
+  void add(const std::string& type, const std::string& value, const std::string& motion) {
+    const std::string name = "v" + std::to_string(count++);
+    data += "<Data name=\"" + name + "\" type=\"" + type + "\">" + value + "</Data>\n";
+    moves += motion + '(' + name + ",flange,m)\n";
+  }
+  void joints(const JointVector& joints) { add("jointRx", joints_line(WrittenIn::val3, joints, 0, 9), "movej"); }
+  /// `words`: of shoulder, elbow and wrist.
+  void pose(const JointVector& joints, const std::array<std::string, 3>& words, const std::string& motion = "movej") {
+    const Eigen::Isometry3d pose = forward(model.nominal.chain, joints);
+    std::string value = pose_line(WrittenIn::val3, pose, joints, 0, 9);
+    value.insert(value.find(" fatherId"),
+                 " shoulder=\"" + words[0] + "\" elbow=\"" + words[1] + "\" wrist=\"" + words[2] + "\"");
+    add("pointRx", value, motion);
+  }
+  CorrectedTarget last(const JointVector& near = {}) const {
+    const std::string text = data + "<Program name=\"start\"><Code>begin\n" + moves + "end</Code></Program>\n";
+    return correct_program(text, read_program(WrittenIn::val3, text, "p.dtx", model.nominal.chain), model,
+                           {.temperature_celsius = 20.0, .near = near})
+        .targets.back();
+  }
+};
+
+const std::array<std::string, 3> kSame{"ssame", "esame", "wsame"};
+
+JointVector wrist_turned_over(JointVector joints) {
+  joints[3] -= 3.14159265358979;
+  joints[4] *= -1.0;
+  joints[5] += 3.14159265358979;
+  return joints;
+}
+
+void expect_reached(const CorrectedTarget& corrected, const JointVector& joints) {
+  ASSERT_EQ(corrected.nominal.size(), joints.size());
+  EXPECT_NE(corrected.from, JointsFrom::undetermined);
+  for (Eigen::Index i = 0; i < joints.size(); ++i)
+    EXPECT_NEAR(wrap_near(corrected.nominal[i] - joints[i], 0.0), 0.0, 1e-6) << i;
+}
+
+TEST(Parts, ThatAreKeptStayOnTheirSideHoweverFarTheJointsAre) {
+  RandomStream stream{7535};
+  for (int i = 0; i < 30; ++i) {
+    Application program;
+    const JointVector before = told_joints(stream, program.model.nominal.chain);
+    JointVector goal = told_joints(stream, program.model.nominal.chain);
+    while (sides(goal) != sides(before)) goal = told_joints(stream, program.model.nominal.chain);
+    program.joints(before);
+    program.pose(goal, kSame);
+    expect_reached(program.last(), goal);
+  }
+  Application near;
+  near.joints(wrist_turned_over(standing()) + JointVector::Constant(6, 0.3));
+  near.moves += "movej(v0,flange,m)\n";
+  near.pose(standing(), kSame);
+  expect_reached(near.last(), wrist_turned_over(standing()));
+}
+
+TEST(Parts, AreNotKnownWhereNothingTellsTheirSide) {
+  Application first;
+  first.pose(standing(), kSame);
+  EXPECT_EQ(first.last().outcome, CorrectionOutcome::uncorrected);
+  expect_reached(first.last(standing() + JointVector::Constant(6, 0.8)), standing());
+  Application flat;
+  JointVector singular = standing() + JointVector::Constant(6, 0.9);
+  singular[4] = 0.0;
+  flat.joints(singular);
+  flat.pose(standing(), kSame);
+  EXPECT_EQ(flat.last().outcome, CorrectionOutcome::uncorrected) << "on which side the wrist is cannot be told";
+  Application line;
+  line.joints(standing() + JointVector::Constant(6, 0.1));
+  line.pose(standing(), kSame, "movel");
+  EXPECT_EQ(line.last().from, JointsFrom::line);
+}
+
+TEST(Parts, ThatWordsStateAreOnTheSideOfEarlierPosesWithTheseWords) {
+  const JointVector near = standing() + JointVector::Constant(6, 0.05);
+  const JointVector far = wrist_turned_over(standing()) + JointVector::Constant(6, 0.1);
+  for (const std::string wrist : {"wpositive", "wsame", "wfree"}) {
+    Application program;
+    program.joints(near);
+    program.pose(standing(), {"lefty", "epositive", "wpositive"});
+    program.joints(far);
+    program.pose(standing(), {"lefty", "esame", wrist});
+    expect_reached(program.last(), wrist == "wpositive" ? standing() : wrist_turned_over(standing()));
+  }
+  Application unknown;
+  JointVector away = standing();
+  away += JointVector::Constant(6, 0.7);
+  unknown.joints(away);
+  unknown.pose(standing(), {"righty", "epositive", "wsame"});
+  EXPECT_EQ(unknown.last().outcome, CorrectionOutcome::uncorrected) << "what righty means is not known";
+}
+
+TEST(Parts, OfWhichAnySideWillDoAreThoseOfTheNearestJoints) {
+  Application program;
+  program.joints(wrist_turned_over(standing()) + JointVector::Constant(6, 0.1));
+  program.pose(standing(), {"sfree", "efree", "wfree"});
+  expect_reached(program.last(), wrist_turned_over(standing()));
+}
+
 }  // namespace
 }  // namespace demecal
