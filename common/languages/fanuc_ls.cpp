@@ -18,6 +18,7 @@
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "languages/fanuc_ls_motions.hpp"
+#include "languages/fanuc_ls_positions.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -30,13 +31,6 @@ constexpr std::array<std::string_view, 6> kJointNames{"j1", "j2", "j3", "j4", "j
 constexpr std::array<std::string_view, 6> kPoseNames{"x", "y", "z", "w", "p", "r"};
 constexpr CellUnit kWprAngle{std::numbers::pi / 180.0, kDecimalsDeg};
 
-/// What stands behind a name in a position: a number and its unit, or a word.
-struct PositionPart {
-  BracketItem value;
-  std::string unit{};
-};
-using PositionParts = std::map<std::string, PositionPart>;
-
 class FanucReader {
  public:
   explicit FanucReader(const ReaderInput& input)
@@ -47,9 +41,10 @@ class FanucReader {
   Program read() {
     const std::size_t instructions = fanuc_section(text_, "/mn"), positions = fanuc_section(text_, "/pos");
     if (instructions < positions) motions_.read(text_, instructions, positions, changes_);
-    for (const std::size_t begin : motions_.to_registers())
+    for (const auto& [begin, goal] : motions_.to_others())
       skip_target(program_, {.name = "", .place = text_.place(begin)},
-                  "the motion goes to a register, whose value is not in this file");
+                  goal.empty() ? "the motion goes to a register, whose value is not in this file"
+                               : "the motion goes to '" + goal + "', which is computed when the program runs");
     for (std::size_t at = positions; at < code_.size(); ++at) {
       if (!text_.begins_word(at) || text_.word_at(at) != "p" || text_.next(text_.word_end(at)) != '[') continue;
       at = read_position(at, text_.skip_spaces(text_.word_end(at)));
@@ -91,60 +86,13 @@ class FanucReader {
     Target target{.name = "P[" + std::to_string(number) + ']', .place = text_.place(begin)};
     if (number < 0) text_.fail(open, close + 1 - open, "must be the number of a position");
     given_.insert(number);
-    const auto [first, last] = first_group(brace + 1, end);
-    make_target(number, components(first, last), std::move(target));
+    const auto parts = fanuc_position_parts(text_, brace + 1, end);
+    parts ? make_target(number, *parts, std::move(target))
+          : skip_target(program_, target, "it is of another group of motion than the first");
     return end;
   }
 
-  /// What stands between "GP1:" and the next group or the position's end; all of it where no group is named.
-  std::pair<std::size_t, std::size_t> first_group(std::size_t begin, std::size_t end) const {
-    std::size_t first = begin;
-    bool named = false;
-    for (std::size_t at = begin; at < end; ++at) {
-      if (!text_.begins_word(at)) continue;
-      const std::string word = text_.word_at(at);
-      if (word.size() == 3 && word.starts_with("gp") && is_digit(word[2])) {
-        if (named) return {first, at};
-        if (word == "gp1") first = text_.word_end(at);
-        named = word == "gp1";
-      }
-      at = text_.word_end(at) - 1;
-    }
-    return {first, end};
-  }
-
-  /// "NAME = number unit," and "NAME : word," of [begin, end).
-  PositionParts components(std::size_t begin, std::size_t end) const {
-    PositionParts found;
-    for (std::size_t at = begin; at < end; ++at) {
-      if (!text_.begins_word(at)) continue;
-      const std::size_t word_end = std::min(text_.word_end(at), end), sign = text_.skip_spaces(word_end);
-      const std::string name = lower_case(code_.substr(at, word_end - at));
-      at = word_end - 1;
-      if (sign >= end || (code_[sign] != '=' && code_[sign] != ':')) continue;
-      const PositionPart component = value_at(text_.skip_spaces(sign + 1), end, at);
-      found.try_emplace(name, component);
-    }
-    return found;
-  }
-
-  /// The value that begins at `begin`; `last` becomes its last byte.
-  PositionPart value_at(std::size_t begin, std::size_t end, std::size_t& last) const {
-    begin = std::min(begin, end);
-    if (begin < end && code_[begin] == '\'') {
-      const std::size_t close = std::min(code_.find('\'', begin + 1), end);
-      last = close < end ? close : end - 1;
-      return {{begin + 1, close - begin - 1, false, {}}};
-    }
-    const std::size_t stop = std::min(code_.find_first_of(" \t\r\n,;", begin), end);
-    PositionPart component{{begin, stop - begin, false, {}}, ""};
-    const std::size_t unit = text_.skip_spaces(stop);
-    if (unit < end && (stop == begin || code_[stop] != ',')) component.unit = text_.word_at(unit);
-    last = stop > begin ? stop - 1 : begin;
-    return component;
-  }
-
-  void make_target(int number, const PositionParts& components, Target target) {
+  void make_target(int number, const FanucParts& components, Target target) {
     const std::string why = motions_.not_sent_to(number);
     if (!why.empty()) return skip_target(program_, target, why);
     set_frames(components, target);
@@ -170,7 +118,7 @@ class FanucReader {
 
   bool is_untaught(const BracketItem& item) const { return code_.substr(item.begin, item.size).starts_with("***"); }
 
-  bool has_units(const PositionParts& components, bool of_joints) const {
+  bool has_units(const FanucParts& components, bool of_joints) const {
     const auto has = [&](std::string_view name, std::string_view unit) {
       const auto found = components.find(std::string(name));
       return found != components.end() && found->second.unit == unit;
@@ -182,7 +130,7 @@ class FanucReader {
     return true;
   }
 
-  static std::vector<BracketItem> items(const PositionParts& components, std::span<const std::string_view> names) {
+  static std::vector<BracketItem> items(const FanucParts& components, std::span<const std::string_view> names) {
     std::vector<BracketItem> found;
     for (const std::string_view name : names) {
       if (const auto part = components.find(std::string(name)); part != components.end())
@@ -196,7 +144,7 @@ class FanucReader {
       target.joints = *cells;
   }
 
-  void pose_target(Target& target, const std::vector<BracketItem>& parts, const PositionParts& components) {
+  void pose_target(Target& target, const std::vector<BracketItem>& parts, const FanucParts& components) {
     constexpr std::array<CellUnit, 6> kUnits{kMillimetres, kMillimetres, kMillimetres, kWprAngle, kWprAngle, kWprAngle};
     const auto cells = cells_of(text_, parts, kUnits, Numbers::required, program_, target);
     if (!cells) return;
@@ -212,14 +160,14 @@ class FanucReader {
     }
   }
 
-  std::string word_of(const PositionParts& components, const std::string& name) const {
+  std::string word_of(const FanucParts& components, const std::string& name) const {
     const auto found = components.find(name);
     if (found == components.end()) return "";
     return std::string(code_.substr(found->second.value.begin, found->second.value.size));
   }
 
   /// UF 0 is the arm's base, UT 0 its flange; others are set in the controller.
-  void set_frames(const PositionParts& components, Target& target) const {
+  void set_frames(const FanucParts& components, Target& target) const {
     const std::string frame = word_of(components, "uf"), tool = word_of(components, "ut");
     const auto known = [&](const std::string& word, const std::string& number) {
       if (number == "0") return KnownFrame{word + " 0", Eigen::Isometry3d::Identity(), ""};

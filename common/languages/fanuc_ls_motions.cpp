@@ -13,6 +13,7 @@ namespace demecal::inline languages {
 namespace {
 
 const std::string kIncrement = "a motion goes by it and not to it (INC)";
+const std::string kTouch = "a motion to it is shifted by Touch Offset, which is computed when the program runs";
 const std::string kOffset =
     "a motion to it also names a register or an offset, which is computed when the program runs";
 
@@ -33,14 +34,32 @@ std::string bracketed_number(const ProgramText& text, std::size_t begin, std::si
   return number < 0 ? "" : std::to_string(number);
 }
 
-/// "  12:  P[3]=LPOS" and "P[3,2:y]=...", also behind IF.
+/// Whether the first group of motion may be meant by "1", "GP1" or anything that is computed.
+bool is_first_group(std::string_view group) {
+  const std::string small = lower_case(group);
+  const std::string_view number = small.starts_with("gp") ? std::string_view(small).substr(2) : small;
+  return !std::all_of(number.begin(), number.end(), is_digit) || number == "1";
+}
+
+/// "7" of [7:up], and of [1,7], which names the first group of motion; nothing where it names another group.
+std::optional<std::string> changed_number(std::string_view indices, bool of_group) {
+  const std::size_t comma = indices.find(',');
+  if (of_group && comma != std::string_view::npos) {
+    if (!is_first_group(indices.substr(0, comma))) return std::nullopt;
+    indices.remove_prefix(comma + 1);
+  }
+  return std::string(indices.substr(0, indices.find_first_of(":,")));
+}
+
+/// "  12:  P[3]=LPOS" and "P[3,2:y]=...", also behind IF; $MNUTOOL[1,3]=.. is what UTOOL[3]=.. is.
 void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes) {
   const std::string_view code = text.code().substr(0, end);
   begin = after_line_number(code, begin);
   if (begin < end && code[begin] == '!') return;  // a remark
   for (std::size_t at = begin; at < end; ++at) {
     const std::string word = text.begins_word(at) ? text.word_at(at) : "";
-    if (word != "p" && word != "uframe" && word != "utool") continue;
+    const bool of_group = word == "$mnuframe" || word == "$mnutool";
+    if (word != "p" && word != "uframe" && word != "utool" && !of_group) continue;
     const std::size_t open = text.skip_spaces(text.word_end(at));
     if (open >= end || code[open] != '[') continue;
     std::size_t close = open;
@@ -50,8 +69,9 @@ void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, C
     }
     const std::size_t sign = close < end ? text.skip_spaces(close + 1) : end;
     if (sign >= end || code[sign] != '=') continue;
-    const std::size_t index_end = std::min(code.find_first_of(":,", open), close);
-    changes.changed(word + '[' + std::string(code.substr(open + 1, index_end - open - 1)) + ']', at);
+    const auto number = changed_number(code.substr(open + 1, close - open - 1), of_group);
+    const std::string what = word == "p" ? word : word.ends_with("tool") ? "utool" : "uframe";
+    if (number) changes.changed(what + '[' + *number + ']', at);
   }
 }
 
@@ -94,6 +114,7 @@ int position_number(const ProgramText& text, std::size_t open) {
 void FanucMotions::read(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes) {
   while (begin < end) {
     const std::size_t stop = std::min(text.code().find(';', begin), end);
+    read_touch_offset(text, begin, stop);
     read_statement(text, begin, stop);
     find_changes(text, begin, stop, changes);
     read_way(text, begin, stop);
@@ -136,8 +157,14 @@ void FanucMotions::read_jumps(const ProgramText& text, std::size_t begin, std::s
 void FanucMotions::read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional) {
   if (begin >= end || !text.begins_word(begin)) return;
   const std::string word = text.word_at(begin);
-  const std::size_t next = std::min(text.skip_spaces(text.word_end(begin)), end);
-  const bool tool = word == "utool_num", frame = word == "uframe_num", calls = word == "call";
+  const bool tool = word == "utool_num" || word == "$mnutoolnum";
+  const bool frame = word == "uframe_num" || word == "$mnuframenum", calls = word == "call";
+  std::size_t next = std::min(text.skip_spaces(text.word_end(begin)), end);
+  if (!calls && next < end && text.code()[next] == '[') {
+    const std::size_t close = std::min(text.code().find(']', next), end);
+    if (!is_first_group(text.code().substr(next + 1, close - next - 1))) return;
+    next = std::min(text.skip_spaces(std::min(close + 1, end)), end);
+  }
   if (!calls && (!(tool || frame) || next >= end || text.code()[next] != '=')) return;
   std::size_t value = std::min(next + 1, end);
   const std::string_view number = text.trimmed(value, end);
@@ -190,7 +217,8 @@ void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, st
   if (!line && kind != "j") return;
   if (begin + 1 >= end || is_word_letter(code[begin + 1])) return;
   std::vector<int> numbers;
-  std::string why;
+  std::string why = shifted_ ? kTouch : "";
+  bool of_register = false, wrist_by_joints = false;
   for (std::size_t at = begin + 1; at < end; ++at) {
     if (!text.begins_word(at)) continue;
     const std::size_t word_end = std::min(text.word_end(at), end);
@@ -198,18 +226,32 @@ void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, st
     const bool indexed = text.next(word_end) == '[' && text.skip_spaces(word_end) < end;
     if (word == "p" && indexed) numbers.push_back(position_number(text, text.skip_spaces(word_end)));
     if (word == "inc") why = kIncrement;
-    if (why.empty() && ((indexed && (word == "pr" || word == "vr")) || word.ends_with("offset"))) why = kOffset;
+    of_register = of_register || (indexed && (word == "pr" || word == "vr"));
+    wrist_by_joints = wrist_by_joints || word == "wjnt";
+    if (why.empty() && (of_register || word.ends_with("offset"))) why = kOffset;
     at = word_end - 1;
   }
-  if (numbers.empty() && why == kOffset) to_registers_.push_back(begin);
+  if (numbers.empty()) {
+    std::size_t goal = std::min(begin + 1, end);
+    const std::string_view rest = text.trimmed(goal, end);
+    others_[begin] = of_register ? "" : rest.substr(0, rest.find_first_of(" \t\r\n"));
+  }
   const bool indirect = std::any_of(numbers.begin(), numbers.end(), [](int number) { return number < 0; });
-  if (!why.empty() || indirect) elsewhere_.push_back(begin);
+  if (!why.empty() || indirect || numbers.empty()) elsewhere_.push_back(begin);
   for (const int number : numbers) {
     if (number < 0 && !why.empty()) computed_numbers_ = "a motion may go by it: " + why;
     if (number >= 0 && !why.empty()) not_sent_to_[number] = why;
     way_.motion(begin);
-    if (number >= 0) uses_[number].push_back({begin, line ? Motion::line : Motion::joints, {}});
+    if (number >= 0) uses_[number].push_back({begin, line && !wrist_by_joints ? Motion::line : Motion::joints, {}});
   }
+}
+
+/// From Touch Offset PR[n] to Touch Offset End motions are shifted.
+void FanucMotions::read_touch_offset(const ProgramText& text, std::size_t begin, std::size_t end) {
+  begin = after_line_number(text.code().substr(0, end), begin);
+  if (begin >= end || !text.begins_word(begin) || text.word_at(begin) != "touch") return;
+  const std::size_t offset = text.skip_spaces(text.word_end(begin));
+  if (offset < end && text.word_at(offset) == "offset") shifted_ = text.word_at(text.word_end(offset)) != "end";
 }
 
 std::string FanucMotions::not_sent_to(int number) const {

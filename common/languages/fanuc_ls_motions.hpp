@@ -27,8 +27,8 @@ class FanucMotions {
   /// are told to `changes`.
   void read(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes);
 
-  /// Where motions name a register and no position.
-  const std::vector<std::size_t>& to_registers() const { return to_registers_; }
+  /// Motions that name no position, and to what they go; empty: to a register.
+  const std::map<std::size_t, std::string>& to_others() const { return others_; }
 
   /// Tells `program`, whose targets are known, where motions go elsewhere than to a position alone, and where else it
   /// is not known where the arm comes from; and says which programs that are called between motions are not here.
@@ -49,14 +49,17 @@ class FanucMotions {
 
  private:
   void read_statement(const ProgramText& text, std::size_t begin, std::size_t end);
+  void read_touch_offset(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_way(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_jumps(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional);
 
   std::map<int, std::vector<TargetUse>> uses_;
-  std::vector<std::size_t> to_registers_, elsewhere_;
+  std::map<std::size_t, std::string> others_;
+  std::vector<std::size_t> elsewhere_;
   std::map<int, std::string> not_sent_to_;
   LabelledWay way_{"UTOOL_NUM", "UFRAME_NUM"};  ///< the numbers, as why frames are unknown
+  bool shifted_ = false;                        ///< by Touch Offset
   std::string computed_numbers_{};              ///< why no position is certain; empty: all are
 };
 

@@ -34,6 +34,13 @@ TEST(FanucFrameNumbers, LeavePositionsThatTheyDisagreeWith) {
   EXPECT_THAT(left("1:" + kMove + "2: UFRAME_NUM=4 ;\n"), IsEmpty()) << "what holds before is not told";
 }
 
+TEST(FanucFrameNumbers, OfTheFirstGroupOfMotionCount) {
+  for (const char* number : {"UTOOL_NUM[GP1]=1", "UTOOL_NUM[1]=1", "$MNUTOOLNUM[1]=1"})
+    EXPECT_THAT(left("1: " + std::string(number) + " ;\n2:" + kMove), HasSubstr("UTOOL_NUM=1")) << number;
+  for (const char* number : {"UTOOL_NUM[GP1]=3", "UTOOL_NUM[GP2]=1", "$MNUTOOLNUM[2]=1", "UFRAME_NUM[GP1]=2"})
+    EXPECT_THAT(left("1: " + std::string(number) + " ;\n2:" + kMove), IsEmpty()) << number;
+}
+
 TEST(FanucFrameNumbers, AreTakenForDifferentOnlyWhereTheyAreCertain) {
   for (const char* before :
        {"1: UFRAME_NUM=4 ;\n2: CALL SET ;\n", "1: UFRAME_NUM=4 ;\n2: IF R[1]=2,CALL SET ;\n", "1: UFRAME_NUM=R[1] ;\n",

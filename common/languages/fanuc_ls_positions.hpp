@@ -1,0 +1,25 @@
+// FANUC .LS: what stands in a position of /POS, part by part.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "parsed_programs/program_text.hpp"
+
+namespace demecal::inline languages {
+
+/// What stands behind a name in a position: a number and its unit, or a word.
+struct FanucPart {
+  BracketItem value;
+  std::string unit{};
+};
+/// By names in small letters.
+using FanucParts = std::map<std::string, FanucPart>;
+
+/// The parts of the first group of motion in a position, [begin, end) between its braces; all of them where it names no
+/// group. Nothing where it names other groups only.
+std::optional<FanucParts> fanuc_position_parts(const ProgramText& text, std::size_t begin, std::size_t end);
+
+}  // namespace demecal::inline languages

@@ -1,0 +1,110 @@
+// FANUC: positions of other groups of motion, and motions and changes that are not those of P[n].
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "kinematics/random_arm.hpp"
+#include "languages/reading_checks.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Eigen::Isometry3d any_frame() {
+  return Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3));
+}
+
+std::string listing(const std::string& instructions, const std::string& positions) {
+  return "/MN\n" + instructions + "/POS\n" + positions + "/END\n";
+}
+
+std::string position(int number, const std::string& group = "GP1:") {
+  return "P[" + std::to_string(number) + "]{\n " + group +
+         "\n UF : 2, UT : 3,\n X = 1 mm, Y = 2 mm, Z = 3 mm, W = 4 deg, P = 5 deg, R = 6 deg\n};\n";
+}
+
+Program read_listing(const std::string& instructions, const std::string& positions) {
+  const ProgramSource source(listing(instructions, positions), "p");
+  return read_program(row_of(WrittenIn::fanuc_ls), source, wrist_arm(),
+                      {.frames = {{"2", any_frame()}}, .tools = {{"3", any_frame()}}});
+}
+
+std::string said(const Program& program) {
+  std::string all;
+  for (const std::vector<Remark>* remarks : {&program.uncorrected, &program.remarks}) {
+    for (const Remark& remark : *remarks)
+      all += std::to_string(remark.place.line) + ' ' + remark.name + ": " + remark.sentence + '\n';
+  }
+  return all;
+}
+
+bool ends_at(const Program& program, const std::string& text, const std::string& statement) {
+  const std::size_t begin = text.find(statement);
+  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) { return at == begin; });
+}
+
+TEST(FanucMotions, ToPositionsOfOtherGroupsAloneAreLeft) {
+  const std::string moves = " 1:J P[1] 9% FINE ;\n 2:L P[2] 9mm/sec FINE ;\n";
+  const Program other = read_listing(moves, position(1) + position(2, "GP2:"));
+  EXPECT_THAT(names(other), ElementsAre("P[1]"));
+  EXPECT_THAT(said(other), HasSubstr("P[2]: it is of another group of motion than the first"));
+  EXPECT_TRUE(ends_at(other, listing(moves, ""), "L P[2]"));
+  for (const std::string group : {"GP1:", "",
+                                  "GP1:\n UF : 2, UT : 3,\n X = 1 mm, Y = 2 mm, Z = 3 mm, W = 4 deg, P = 5 "
+                                  "deg, R = 6 deg\n GP2:"}) {
+    const Program program = read_listing(moves, position(1) + position(2, group));
+    EXPECT_THAT(names(program), ElementsAre("P[1]", "P[2]")) << group;
+    EXPECT_EQ(program.targets.at(1).frames.frame, "UF 2") << group;
+    EXPECT_THAT(said(program), IsEmpty()) << group;
+  }
+}
+
+TEST(FanucMotions, ToPlacesOfPalletsAreSaidAndEndWhatIsKnown) {
+  for (const std::string goal : {"PAL_1[A_1]", "PAL_2[BTM]", "PAL_1[R_2]"}) {
+    const std::string moves = " 1:J P[1] 9% FINE ;\n 2:L " + goal + " 9mm/sec FINE ;\n 3:J P[2] 9% FINE ;\n";
+    const Program program = read_listing(moves, position(1) + position(2));
+    EXPECT_THAT(said(program), HasSubstr("3 : the motion goes to '" + goal + "', which is computed")) << goal;
+    EXPECT_TRUE(ends_at(program, listing(moves, ""), "L " + goal)) << goal;
+    EXPECT_THAT(names(program), ElementsAre("P[1]", "P[2]"));
+  }
+  EXPECT_THAT(said(read_listing(" 1:J PR[1] 9% FINE INC ;\n", position(1))), HasSubstr("goes to a register"));
+}
+
+TEST(FanucMotions, WhoseWristGoesByJointsKeepNoConfiguration) {
+  const auto motion = [](const std::string& options) {
+    return read_listing(" 1:L P[1] 9mm/sec FINE" + options + " ;\n", position(1)).targets.at(0).motion;
+  };
+  EXPECT_EQ(motion(" Wjnt"), Motion::joints);
+  EXPECT_EQ(motion(" ACC50 Wjnt"), Motion::joints);
+  EXPECT_EQ(motion(" ACC50"), Motion::line);
+}
+
+TEST(FanucMotions, ThatTouchOffsetShiftsAreLeft) {
+  const Program program = read_listing(
+      " 1:J P[1] 9% FINE ;\n 2:Touch Offset PR[1] ;\n 3:L P[2] 9mm/sec FINE ;\n 4:Touch Offset End ;\n 5:L P[3] "
+      "9mm/sec FINE ;\n",
+      position(1) + position(2) + position(3));
+  EXPECT_THAT(names(program), ElementsAre("P[1]", "P[3]"));
+  EXPECT_THAT(said(program), AllOf(HasSubstr("P[2]: "), HasSubstr("shifted by Touch Offset")));
+}
+
+TEST(FanucMotions, AreInFramesThatSystemVariablesChange) {
+  const auto frames = [](const std::string& instruction) {
+    return read_listing(" 1:" + instruction + " ;\n 2:L P[1] 9mm/sec FINE ;\n", position(1)).targets.at(0).frames;
+  };
+  EXPECT_THAT(frames("$MNUTOOL[1,3]=PR[1]").unknown_tool, HasSubstr("line 2 changes it"));
+  EXPECT_THAT(frames("$MNUFRAME[1,2]=PR[1]").unknown_frame, HasSubstr("line 2 changes it"));
+  EXPECT_THAT(frames("$MNUFRAME[R[1],R[2]]=PR[1]").unknown_frame, HasSubstr("line 2 changes it"));
+  for (const char* other :
+       {"$MNUTOOL[1,4]=PR[1]", "$MNUTOOL[2,3]=PR[1]", "PR[1]=$MNUTOOL[1,3]", "$MNUFRAME[1,3]=PR[1]"})
+    EXPECT_THAT(frames(other).unknown_tool + frames(other).unknown_frame, IsEmpty()) << other;
+}
+
+}  // namespace
+}  // namespace demecal
