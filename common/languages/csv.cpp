@@ -19,6 +19,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/csv_fields.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -26,11 +27,6 @@
 
 namespace demecal::inline languages {
 namespace {
-
-/// The bytes of a field, without quotes and the spaces around it.
-struct Field {
-  std::size_t begin, size;
-};
 
 struct UnitName {
   std::string_view ending;
@@ -68,32 +64,6 @@ class CsvTargets {
   }
 
  private:
-  Field quoted(std::size_t begin, std::size_t end, std::size_t& at) const {
-    const std::size_t quote = text_.text().find('"', begin + 1);
-    if (quote >= end) text_.fail(begin, end - begin, "opens a quote that its line does not close");
-    at = text_.text().find_first_not_of(" \t", quote + 1);
-    return {begin + 1, quote - begin - 1};
-  }
-
-  std::vector<Field> fields(std::size_t begin, std::size_t end) const {
-    const std::string_view line = text_.text().substr(0, end);
-    std::vector<Field> found;
-    for (std::size_t at = begin;; ++at) {
-      const std::string_view blanks = separator_ == '\t' ? " " : " \t";
-      std::size_t first = std::min(line.find_first_not_of(blanks, at), end);
-      if (first < end && line[first] == '"') {
-        found.push_back(quoted(first, end, at));
-        at = std::min(at, end);
-        if (at < end && line[at] != separator_) text_.fail(at, 1, "is text after a closing quote");
-      } else {
-        at = std::min(line.find(separator_, first), end);
-        const std::string_view value = text_.text().substr(first, at - first);
-        found.push_back({first, value.find_last_not_of(" \t") + 1});
-      }
-      if (at == end) return found;
-    }
-  }
-
   void read_header(std::size_t begin, std::size_t end) {
     const std::string_view line = text_.text().substr(begin, end - begin);
     for (const char separator : {',', ';', '\t'}) {
@@ -101,17 +71,20 @@ class CsvTargets {
       if (line.find(separator) != std::string_view::npos) break;
     }
     header_ = begin;
-    headings_ = fields(begin, end);
-    for (const Field& field : headings_) {
+    headings_ = csv_fields(text_, begin, end, separator_);
+    for (const CsvField& field : headings_) {
       names_.push_back(lower_case(text_.text().substr(field.begin, field.size)));
     }
     find_columns();
   }
 
-  /// The column of that name, where there is one.
+  /// The column of that name, where there is one; what is read must not stand there twice.
   const std::size_t* find(const std::string& name) {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) return nullptr;
+    const auto again = std::find(found + 1, names_.end(), name);
+    if (again != names_.end())
+      refuse(static_cast<std::size_t>(again - names_.begin()), "is the name of two columns: one of them must go");
     found_ = static_cast<std::size_t>(found - names_.begin());
     return &found_;
   }
@@ -194,16 +167,15 @@ class CsvTargets {
     for (const char* axis : {"x", "y", "z"}) refuse_twice(axis);
     position_ = all_of({"x", "y", "z"}, kLengths);
     if (!position_.empty()) orientation_ = all_of({"qw", "qx", "qy", "qz"}, kNoUnit);
-    std::vector<std::string> signs;
-    for (std::size_t i = 0; i < arm_.joints.size(); ++i) signs.push_back("s" + std::to_string(i + 1));
-    approach_ = all_of(signs, kNoUnit);
+    for (std::size_t i = 0; i < arm_.joints.size(); ++i)
+      approach_.push_back(find("s" + std::to_string(i + 1), kNoUnit));
     if (!joints_.empty() || !position_.empty()) return;
     throw InputError({text_.source().file(), text_.place(header_).line}, "",
                      "the header has neither a column for every joint of the arm (q1_deg, q2_deg, ...) nor x_mm, y_mm, "
                      "z_mm; the unit stands in a column's name");
   }
 
-  std::vector<Cell> cells(const ProgramColumns& columns, const std::vector<Field>& row) const {
+  std::vector<Cell> cells(const ProgramColumns& columns, const std::vector<CsvField>& row) const {
     std::vector<Cell> found;
     for (const Column& column : columns) {
       found.push_back(text_.number(row[column.index].begin, row[column.index].size, column.unit));
@@ -212,7 +184,7 @@ class CsvTargets {
   }
 
   /// A number of this column that is not below `least`; `rule` says so.
-  std::optional<double> circumstance(const std::string& name, const std::vector<Field>& row, double least,
+  std::optional<double> circumstance(const std::string& name, const std::vector<CsvField>& row, double least,
                                      const std::string& rule) {
     const std::size_t* index = find(name);
     if (index == nullptr) return std::nullopt;
@@ -222,7 +194,7 @@ class CsvTargets {
   }
 
   void read_row(std::size_t begin, std::size_t end) {
-    const std::vector<Field> row = fields(begin, end);
+    const std::vector<CsvField> row = csv_fields(text_, begin, end, separator_);
     if (row.size() != names_.size()) {
       text_.fail(begin, end - begin,
                  "has " + std::to_string(row.size()) + " fields, but the header has " + std::to_string(names_.size()) +
@@ -243,7 +215,7 @@ class CsvTargets {
         target.form = OrientationForm::quaternion;
       }
     }
-    if (!approach_.empty()) target.approach = signs(row);
+    target.approach = signs(row);
     target.payload_kg = circumstance("payload_kg", row, 0.0, "must be 0 or more");
     target.temperature_celsius =
         circumstance("temperature_celsius", row, kAbsoluteZero_celsius, "must not be below -273.15");
@@ -251,17 +223,20 @@ class CsvTargets {
     program_.targets.push_back(std::move(target));
   }
 
-  ApproachSigns signs(const std::vector<Field>& row) const {
-    ApproachSigns approach(arm_.size());
-    Eigen::Index joint = 0;
-    for (const Column& column : approach_) {
-      const Cell sign = text_.number(row[column.index].begin, row[column.index].size, {});
-      if (sign.value != 0.0 && sign.value != 1.0 && sign.value != -1.0) {
+  /// Those that columns state; nothing where there are none.
+  std::optional<ApproachSigns> signs(const std::vector<CsvField>& row) const {
+    ApproachSigns approach = ApproachSigns::Constant(arm_.size(), std::numeric_limits<double>::quiet_NaN());
+    bool stated = false;
+    for (std::size_t joint = 0; joint < approach_.size(); ++joint) {
+      if (!approach_[joint]) continue;
+      const CsvField& field = row[approach_[joint]->index];
+      const Cell sign = text_.number(field.begin, field.size, approach_[joint]->unit);
+      if (sign.value != 0.0 && sign.value != 1.0 && sign.value != -1.0)
         text_.fail(sign.begin, sign.size, "must be -1, 0 or 1");
-      }
-      approach[joint++] = sign.value;
+      approach[static_cast<Eigen::Index>(joint)] = sign.value;
+      stated = true;
     }
-    return approach;
+    return stated ? std::optional(approach) : std::nullopt;
   }
 
   ProgramText text_;
@@ -269,9 +244,10 @@ class CsvTargets {
   Program program_;
   char separator_ = ',';
   std::size_t header_ = 0, line_end_ = 0, found_ = 0;
-  std::vector<Field> headings_;
+  std::vector<CsvField> headings_;
   std::vector<std::string> names_;
-  ProgramColumns joints_, position_, orientation_, approach_;
+  ProgramColumns joints_, position_, orientation_;
+  std::vector<std::optional<Column>> approach_;  ///< of every joint
 };
 
 std::string csv_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

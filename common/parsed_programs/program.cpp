@@ -58,6 +58,14 @@ Eigen::Isometry3d stated_tool_pose(const Target& target) {
   return tool;
 }
 
+ApproachSigns approach_of(const Target& target, const ApproachSigns& motions) {
+  ApproachSigns signs = target.approach.value_or(motions);
+  for (Eigen::Index i = 0; i < signs.size(); ++i) {
+    if (std::isnan(signs[i])) signs[i] = motions[i];
+  }
+  return signs;
+}
+
 std::vector<CellUnit> joint_units(const Chain& arm) {
   std::vector<CellUnit> units;
   for (const Joint& joint : arm.joints) {

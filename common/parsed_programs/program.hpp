@@ -75,7 +75,7 @@ struct Target {
   std::string not_sent_to{};
   /// That reason is only that the program records in it where the arm stands.
   bool only_recorded = false;
-  std::optional<ApproachSigns> approach{};  ///< where the file says it
+  std::optional<ApproachSigns> approach{};  ///< where the file says it; NaN of joints of which it does not
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 
   bool is_pose() const { return joints.empty(); }
@@ -133,6 +133,8 @@ Eigen::Isometry3d stated_tool_pose(const Target& target);
 Eigen::Vector3d stated_point(const Target& target);
 /// The tool's axes on the flange, as the program has them.
 Eigen::Matrix3d tool_axes(const Target& target);
+/// The signs that the target states, and of joints of which it states none those of `motions`.
+ApproachSigns approach_of(const Target& target, const ApproachSigns& motions);
 /// The values of the cells, in SI units or rad.
 std::vector<double> inside(const std::vector<Cell>& cells);
 

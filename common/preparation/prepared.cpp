@@ -55,7 +55,7 @@ MeasuredPose commanded(const Target& target, const RawSet& set) {
   for (Eigen::Index i = 0; i < pose.joints.size(); ++i) {
     pose.joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
   }
-  pose.approach = target.approach;
+  if (target.approach && !target.approach->hasNaN()) pose.approach = target.approach;  // of all joints or none
   pose.payload_kg = target.payload_kg;
   pose.temperature_celsius = target.temperature_celsius;
   pose.time_s = target.time_s;

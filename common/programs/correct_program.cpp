@@ -175,7 +175,7 @@ class Corrector {
 
   Stop stop_at(const Target& target, const TargetVisit& visit, const JointVector& joints) const {
     Stop stop(joints);
-    stop.approach = target.approach.value_or(visit.approach);
+    stop.approach = approach_of(target, visit.approach);
     stop.payload_kg = target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
     stop.temperature_celsius =
         target.temperature_celsius ? target.temperature_celsius : circumstances_.temperature_celsius;

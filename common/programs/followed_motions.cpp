@@ -133,9 +133,13 @@ class ArmFollower {
     return origins;
   }
 
-  /// Goes on from `arm` by the motion, to all its targets; `first` of the paths that lead here.
+  /// Goes on from `arm` by the motion, to all its targets, or to one of them that is not told; `first` of the paths that
+  /// lead here.
   ArmKnowledge moved(std::size_t motion, ArmKnowledge arm, bool first) {
+    const bool to_one = std::ranges::find(program_.unknown_motions, motion) != program_.unknown_motions.end();
+    const ArmKnowledge origin = arm;
     for (std::size_t i = begins_.at(motion); i < visits_.size() && visits_[i].order == motion; ++i) {
+      if (to_one) arm = origin;
       const Target& target = program_.targets[visits_[i].target];
       const Configurations found = configurations(target, arm);
       arm = arrived(target, found, std::move(arm));

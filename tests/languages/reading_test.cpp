@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinematics/random_arm.hpp"
 #include "kinematics/units.hpp"
 #include "languages/reading_checks.hpp"
@@ -65,6 +67,23 @@ TEST(Csv, FindsItsColumnsByTheirNames) {
   EXPECT_EQ(points.targets[0].form, OrientationForm::unknown);
 }
 
+TEST(Csv, TakesTheSideOfEveryJointByItself) {
+  const auto approach = [](const std::string& columns, const std::string& row) {
+    return read_program(WrittenIn::csv,
+                        "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg" + columns + "\n1,2,3,4,5,6" + row + '\n', "p",
+                        wrist_arm())
+        .targets.at(0)
+        .approach;
+  };
+  const auto some = approach(",s3,s2", ",1,-1");
+  ASSERT_TRUE(some);
+  for (Eigen::Index joint = 0; joint < 6; ++joint) EXPECT_EQ(std::isnan((*some)[joint]), joint != 1 && joint != 2);
+  EXPECT_EQ((*some)[1], -1.0);
+  EXPECT_EQ((*some)[2], 1.0);
+  EXPECT_EQ(approach("", ""), std::nullopt);
+  EXPECT_EQ(approach(",s7", ",1"), std::nullopt);
+}
+
 TEST(Csv, NamesTheFault) {
   const std::string head = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
   expect_fault(WrittenIn::csv, head + "1,2,3,4,5,6\n1,2,,4,5,6\n", 3, "a number is missing (column 5)");
@@ -87,6 +106,10 @@ TEST(Csv, RefusesColumnsThatContradictEachOtherOrTheArm) {
   expect_fault(WrittenIn::csv, head + ",payload_kg\n1,2,3,4,5,6,-5\n", 2, "'-5': must be 0 or more");
   expect_fault(WrittenIn::csv, head + ",temperature_celsius\n1,2,3,4,5,6,20\n1,2,3,4,5,6,-400\n", 3,
                "'-400': must not be below -273.15");
+  expect_fault(WrittenIn::csv, head + ",payload_kg,payload_kg\n1,2,3,4,5,6,1,5\n", 1, "is the name of two columns");
+  expect_fault(WrittenIn::csv, "x_mm,y_mm,z_mm,qw,qx,qy,qz,QW\n1,2,3,1,0,0,0,0\n", 1, "'QW': is the name of two");
+  expect_fault(WrittenIn::csv, head + ",s2,s2\n1,2,3,4,5,6,1,1\n", 1, "'s2': is the name of two");
+  EXPECT_EQ(read_program(WrittenIn::csv, head + ",note,note\n1,2,3,4,5,6,a,b\n", "p", wrist_arm()).targets.size(), 1u);
   EXPECT_EQ(read_program(WrittenIn::csv, head + ",a7\n1,2,3,4,5,6,x\n", "p", wrist_arm()).targets.size(), 1u);
 }
 

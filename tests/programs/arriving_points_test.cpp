@@ -169,5 +169,38 @@ TEST(ArrivingPoints, OfVal3AreKnownWhereTheWayIsStraight) {
   EXPECT_THAT(called.said, AllOf(HasSubstr("pick, are not in the files given"), HasSubstr("the arm")));
 }
 
+TEST(ArrivingPoints, OfAnIndexThatIsComputedDoNotComeFromEachOther) {
+  const auto value = [](const std::string& key, double away) {
+    std::string text = joints_line(WrittenIn::val3, usual_joints().array() + away, 0, 4);
+    return text.replace(text.find("\"0\""), 3, '"' + key + '"');
+  };
+  RandomStream stream{7521};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  for (const std::string goal : {"b[n]", "b[1]"}) {
+    const std::string text = "<Data name=\"a\" type=\"jointRx\">" + value("0", 0.0) +
+                             "</Data>\n<Data name=\"b\" type=\"jointRx\">" + value("0", 0.2) + value("1", 0.1) +
+                             "</Data>\n<Program name=\"start\"><Code>begin\nmovej(a,flange,m)\nmovej(" + goal +
+                             ",flange,m)\nend</Code></Program>\n";
+    const CorrectedProgram corrected =
+        correct_program(text, read_program(WrittenIn::val3, text, "p", model.nominal.chain), model, {});
+    ASSERT_EQ(corrected.program.targets.at(2).name, "b[1]");
+    const ApproachSigns& signs = corrected.targets.at(2).stop.approach;
+    EXPECT_GE(signs.minCoeff(), 0.0) << goal << ": from b[0], joints would come down";
+    EXPECT_TRUE(goal == "b[n]" || signs.minCoeff() == 1.0);
+  }
+}
+
+TEST(ArrivingPoints, OfTablesComeFromTheSideThatTheySayOfEachJoint) {
+  const std::string text = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,s2,s3\n1,2,3,4,5,6,0,0\n2,3,4,5,6,7,-1,0\n";
+  RandomStream stream{7521};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  const CorrectedProgram corrected =
+      correct_program(text, read_program(WrittenIn::csv, text, "p", model.nominal.chain), model, {});
+  ApproachSigns expected = ApproachSigns::Ones(6);
+  expected[1] = -1.0;
+  expected[2] = 0.0;
+  EXPECT_EQ(corrected.targets.at(1).stop.approach, expected);
+}
+
 }  // namespace
 }  // namespace demecal
