@@ -212,6 +212,7 @@ class JobReader {
         uses.why = "it is used by " + word + ", which moves by it or changes it";
       }
     }
+    if (!motion && word != "refp" && names_computed_position(text_, begin, end)) changes_any_ = word;
     if (relative || coordinated || (motion && shifts_)) program_.unknown_motions.push_back(begin);
     if (motion && !named) note_computed(std::min(text_.skip_spaces(text_.word_end(begin)), end), end);
   }
@@ -235,6 +236,8 @@ class JobReader {
       if (position.why.empty() && !changes_of_controller_.empty() && kept)
         position.why = "the job changes the controller's tools or user frames (" + changes_of_controller_ + ')';
       if (position.why.empty() && several_robots_) position.why = "the job moves several robots";
+      if (position.why.empty() && !changes_any_.empty() && position.key.starts_with('P'))
+        position.why = "it may be the one that " + changes_any_ + " changes, whose number is computed";
       if (position.why.empty() && uses.motions.empty() && position.key.starts_with('P'))
         position.why = "no motion of this job goes to it";
       if (!position.why.empty()) {
@@ -273,6 +276,7 @@ class JobReader {
   bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false, shifts_ = false,
        always_shifts_ = false;
   std::string changes_of_controller_;  ///< the instruction that does
+  std::string changes_any_;            ///< the one that may change any P
   std::vector<Position> positions_;
   std::map<std::string, Uses> uses_;  ///< by position_name
   LabelledWay way_{"", ""};

@@ -73,4 +73,9 @@ void read_job_way(const ProgramText& text, std::size_t begin, std::size_t end, L
   if (word == "call") read_job_call(text, begin, end, way);
 }
 
+bool names_computed_position(const ProgramText& text, std::size_t begin, std::size_t end) {
+  const std::string argument = lower_case(argument_of(text, begin, end));
+  return argument.starts_with("p[") || argument.starts_with("px[");
+}
+
 }  // namespace demecal::inline languages

@@ -143,6 +143,23 @@ TEST(UntoldPlaces, OfYaskawaAreReported) {
               IsEmpty());
 }
 
+TEST(UntoldPlaces, OfYaskawaAreAllPositionsWhereOneOfThemChangesWhoseNumberIsComputed) {
+  const auto of = [](const std::string& instruction) {
+    return "//POS\n///POSTYPE BASE\n///RECTAN\nC1=1,2,3,4,5,6\nP3=1,2,3,4,5,6\n//INST\nNOP\n" + instruction +
+           "\nMOVJ C1\nMOVL P3\nEND\n";
+  };
+  for (const char* instruction : {"ADD P[I000] P010", "SET P[I000] P002", "GETS PX[B001] $PX000"}) {
+    const Program program = read_program(WrittenIn::yaskawa_jbi, of(instruction), "p", wrist_arm());
+    EXPECT_THAT(said_in_line(program, 5), HasSubstr("P3: it may be the one that")) << instruction;
+    EXPECT_TRUE(ends_in_line(program, of(instruction), 10)) << instruction;
+    EXPECT_THAT(names(program), ::testing::ElementsAre("C1"));
+  }
+  for (const char* instruction : {"ADD P010 P[I000]", "SET I000 1", "REFP 1 P[I000]", "MOVJ P[I000]"})
+    EXPECT_THAT(names(read_program(WrittenIn::yaskawa_jbi, of(instruction), "p", wrist_arm())),
+                ::testing::ElementsAre("C1", "P3"))
+        << instruction;
+}
+
 TEST(UntoldPlaces, OfFanucAreReported) {
   const auto of = [](const std::string& motions, const std::string& positions = "") {
     return "/MN\n  1:J P[1] 100% FINE ;\n" + motions + "/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n J1= 1 deg, J2= 2 deg, " +
