@@ -86,9 +86,21 @@ void Val3Statements::read(std::size_t begin, std::size_t end, const std::string&
       calls_elsewhere_.emplace(open, code_.code().substr(open, stop - open));
     }
     const bool call = open < end && code_.code()[open] == '(';
+    if (call) note_loading(at, open, end);
     at = call ? read_call(at, open, end) : read_reference(at, end, use);
   }
   --depth_;
+}
+
+/// libLoad(...), and the program that taskCreate starts: they may do what a program that is called does.
+void Val3Statements::note_loading(std::size_t begin, std::size_t open, std::size_t end) {
+  const std::string_view code = code_.code();
+  const std::string_view word = code.substr(begin, code_.word_end(begin) - begin);
+  if (word.ends_with("libLoad"))
+    calls_elsewhere_.emplace(begin, text_.text().substr(begin, close_of(open, end) + 1 - begin));
+  const std::size_t line = code.rfind('\n', begin) + 1, start = code_.skip_spaces(line);
+  const bool starts_task = start < begin && code_.word_at(start).starts_with("taskcreate");
+  if (starts_task && code_.word_end(start) < begin && depth_ == 1) calls_elsewhere_.emplace(begin, word);
 }
 
 /// Takes a name that no motion is given: as changed, unless `use` is "kept". Returns where to go on.

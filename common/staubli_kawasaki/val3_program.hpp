@@ -69,7 +69,8 @@ class Val3Statements {
   /// All motions to values, or near them, by the values' names; of a computed index the name without it.
   const std::map<std::string, std::vector<Val3Motion>>& motions() const { return motions_; }
   const std::vector<Val3Nearby>& nearby() const { return nearby_; }
-  /// The calls of programs that are none of these, and where they stand.
+  /// The calls of programs that are none of these, the tasks of such, and libraries that are loaded, and where they
+  /// stand.
   const std::map<std::size_t, std::string>& calls_elsewhere() const { return calls_elsewhere_; }
   /// Where motions go to what is computed, and what that is.
   const std::map<std::size_t, std::string>& computed() const { return computed_; }
@@ -85,6 +86,7 @@ class Val3Statements {
   };
 
   void read(std::size_t begin, std::size_t end, const std::string& use);
+  void note_loading(std::size_t begin, std::size_t open, std::size_t end);
   std::size_t read_reference(std::size_t begin, std::size_t end, const std::string& use);
   std::size_t read_call(std::size_t begin, std::size_t open, std::size_t end);
   void read_motion(const std::string& word, std::size_t begin, const std::vector<Argument>& arguments);

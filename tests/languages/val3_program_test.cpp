@@ -174,5 +174,17 @@ TEST(Val3Program, SaysOnceThatCallsOfOtherProgramsAreNotFollowed) {
   EXPECT_THAT(read_program(row_of(WrittenIn::val3), both, wrist_arm()).remarks, IsEmpty());
 }
 
+TEST(Val3Program, SaysThatLibrariesAndTasksOfOtherProgramsAreNotFollowed) {
+  const auto said = [](const std::string& code) {
+    const Program program = read_application(code + "movel(p,t,m)\n");
+    return program.remarks.empty() ? std::string() : program.remarks.front().sentence;
+  };
+  EXPECT_THAT(said("libLoad(\"Disk://cell2\")\n"), HasSubstr("libLoad(\"Disk://cell2\"), are not in the files given"));
+  EXPECT_THAT(said("cell:libLoad(sPath)\n"), HasSubstr("libLoad(sPath), are not"));
+  EXPECT_THAT(said("taskCreate \"bg\",10,watch(1)\n"), HasSubstr("watch, are not in the files given"));
+  EXPECT_THAT(said("taskCreate \"bg\",10,start()\n"), IsEmpty()) << "it is in the file";
+  EXPECT_THAT(said("taskKill(\"bg\")\n"), IsEmpty());
+}
+
 }  // namespace
 }  // namespace demecal
