@@ -50,6 +50,7 @@ class FanucReader {
       at = read_position(at, text_.skip_spaces(text_.word_end(at)));
     }
     changes_.mark(program_.targets);
+    note_other_zero();
     end_at_motions_elsewhere();
     motions_.note_way(text_, program_);
     for (Target& target : program_.targets) {
@@ -60,6 +61,25 @@ class FanucReader {
   }
 
  private:
+  /// Says that the controller's number 0 is not what --frames gives.
+  void note_other_zero() {
+    const auto other = [](const std::map<std::string, Eigen::Isometry3d>& given) {
+      const auto zero = given.find("0");
+      return zero != given.end() && !zero->second.isApprox(Eigen::Isometry3d::Identity(), 1e-9);
+    };
+    const auto note = [&](const std::string& what, const std::string& is) {
+      program_.remarks.push_back({kWholeProgram, "",
+                                  "--frames gives " + what + " 0 numbers that are not 0, but FANUC's is always " + is +
+                                      ": they are not used; give them under the number that the positions name"});
+    };
+    const auto named = [&](const auto& name) { return std::ranges::any_of(program_.targets, name); };
+    if (other(controller_.frames) &&
+        named([](const Target& target) { return target.is_pose() && target.frames.frame == "UF 0"; }))
+      note("frame", "the arm's base");
+    if (other(controller_.tools) && named([](const Target& target) { return target.frames.tool_name == "UT 0"; }))
+      note("tool", "the flange");
+  }
+
   /// Where motions go to none of the targets; positions that are not in the file are said.
   void end_at_motions_elsewhere() {
     std::set<std::string> corrected;

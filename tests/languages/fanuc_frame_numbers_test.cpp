@@ -74,5 +74,24 @@ TEST(FanucFrameNumbers, OfFramesThatTheProgramSetsGiveNoKnownFrame) {
   EXPECT_THAT(frames("PR[4]=UFRAME[2]").unknown_frame, IsEmpty());
 }
 
+TEST(FanucFrameNumbers, OfZeroAreTheBaseAndTheFlangeWhateverIsGiven) {
+  const auto said = [](const std::string& numbers, const Eigen::Isometry3d& zero) {
+    const std::string text = "/MN\n 1:" + kMove + "/POS\nP[1]{\n GP1:\n " + numbers +
+                             "\n X = 1 mm, Y = 2 mm, Z = 3 mm, W = 4 deg, P = 5 deg, R = 6 deg\n};\n/END\n";
+    const ProgramSource source(text, "p");
+    const Eigen::Isometry3d any(Eigen::Translation3d(1, 2, 3));
+    const Program program = read_program(row_of(WrittenIn::fanuc_ls), source, wrist_arm(),
+                                         {.frames = {{"0", zero}, {"2", any}}, .tools = {{"0", zero}, {"3", any}}});
+    std::string all;
+    for (const Remark& remark : program.remarks) all += remark.sentence + '\n';
+    return all;
+  };
+  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity(), other(Eigen::Translation3d(0.5, 0, 0));
+  EXPECT_THAT(said("UF : 0, UT : 3,", other), AllOf(HasSubstr("frame 0"), HasSubstr("they are not used")));
+  EXPECT_THAT(said("UF : 2, UT : 0,", other), AllOf(HasSubstr("tool 0"), HasSubstr("the flange")));
+  EXPECT_THAT(said("UF : 2, UT : 3,", other), IsEmpty());
+  EXPECT_THAT(said("UF : 0, UT : 0,", none), IsEmpty());
+}
+
 }  // namespace
 }  // namespace demecal
