@@ -58,7 +58,7 @@ class Corrector {
       check_posture(target, visits[i], line_at(visits[i].order), corrected);
     for (std::size_t i = 1; i < visits.size() && !corrected.is_uncorrected(); ++i)
       check_side(target, visits[i], line_at(visits[i].order), corrected);
-    if (!corrected.is_uncorrected() && !target.approach) {
+    if (!corrected.is_uncorrected() && !(target.approach && target.approach->allFinite())) {
       corrected.unknown_side_m = unknown_side_m(model_for(target), corrected);
       if (corrected.error95_m) *corrected.error95_m += 0.5 * corrected.unknown_side_m;
     }
@@ -92,7 +92,7 @@ class Corrector {
   /// Says so where the side that it then comes from asks for another correction.
   void check_side(const Target& target, const TargetVisit& visit, std::size_t line, CorrectedTarget& corrected) {
     const bool known = corrected.from != JointsFrom::undetermined;
-    if (!known || target.approach || visit.approach == corrected.stop.approach) return;
+    if (!known || approach_of(target, visit.approach) == corrected.stop.approach) return;
     const CorrectedTarget again = correct_target(target, model_for(target), stop_at(target, visit, corrected.nominal));
     if (again.is_uncorrected() || agree(corrected, again)) return;
     const PoseError difference = pose_error(corrected.command_tool, again.command_tool);

@@ -133,8 +133,8 @@ class ArmFollower {
     return origins;
   }
 
-  /// Goes on from `arm` by the motion, to all its targets, or to one of them that is not told; `first` of the paths that
-  /// lead here.
+  /// Goes on from `arm` by the motion, to all its targets, or to one of them that is not told; `first` of the paths
+  /// that lead here.
   ArmKnowledge moved(std::size_t motion, ArmKnowledge arm, bool first) {
     const bool to_one = std::ranges::find(program_.unknown_motions, motion) != program_.unknown_motions.end();
     const ArmKnowledge origin = arm;
