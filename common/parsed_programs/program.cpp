@@ -101,7 +101,10 @@ void take_uses(const std::vector<TargetUse>& uses, Target& target) {
   for (const TargetUse& use : uses) {
     if (use.begin != first->begin) target.further_motions.push_back(use.begin);
     if (use.motion == Motion::joints) target.motion = Motion::joints;
-    if (!same_tool(use.frames, first->frames)) target.frames.unknown_tool = "it is moved to with different tools";
+    if (!same_tool(use.frames, first->frames)) {
+      target.frames.unknown_tool = "it is moved to with different tools";
+      target.frames.several_tools = true;
+    }
     if (!same_frame(use.frames, first->frames)) target.frames.unknown_frame = "it is moved to in different frames";
   }
 }

@@ -56,6 +56,7 @@ struct StatedFrames {
   std::string tool_name{};                  ///< as the program names it
   std::string unknown_frame{};              ///< why the frame cannot be known; empty: it is known
   std::string unknown_tool{};               ///< the same of the tool
+  bool several_tools = false;               ///< motions go to it with different ones
 };
 
 /// A target of joints or of a pose.

@@ -112,7 +112,7 @@ class Corrector {
   CorrectedTarget refused(const Target& target) const {
     const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
     return left(unknown_frames(target, circumstances_) + "; this line was not corrected" +
-                (frame ? "" : "; --tool-mm states the tool"));
+                (frame || target.frames.several_tools ? "" : "; --tool-mm states the tool"));
   }
 
   /// The model with the tool that the target states: one that the user names beside it is none of the target's.

@@ -208,7 +208,7 @@ class ArmFollower {
 
 std::string unknown_frames(const Target& target, const Circumstances& circumstances) {
   if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
-  return circumstances.tool_given ? "" : target.frames.unknown_tool;
+  return circumstances.tool_given && !target.frames.several_tools ? "" : target.frames.unknown_tool;
 }
 
 std::vector<TargetVisit> followed_motions(const Program& program, const CommandModel& model,

@@ -206,5 +206,34 @@ TEST(GivenTool, LeavesTheMeasuredToolToTargetsThatStateTheirs) {
   EXPECT_NE(text_of(script, WrittenIn::urscript, beside, model), text_of(script, WrittenIn::urscript, alone, own));
 }
 
+TEST(GivenTool, NamesTheToolsThatItStandsInForAndIsNotSeveralOfOnePoint) {
+  RandomStream stream{7514};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  const Circumstances given{.temperature_celsius = 20.0, .tool_given = true};
+  const auto said_of = [&](WrittenIn language, const std::string& text) {
+    std::string said;
+    for (const Remark& warning :
+         correct_program(text, read_program(language, text, "p", model.nominal.chain), model, given).warnings)
+      said += warning.sentence + '\n';
+    return said;
+  };
+  const std::string axes = "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n",
+                    joints = "DECL E6AXIS XP1={A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n";
+  EXPECT_THAT(said_of(WrittenIn::krl, "BAS(#TOOL,3)\n" + axes + "BAS(#TOOL,4)\n" + axes),
+              HasSubstr("stands in for 2 different ones, TOOL_DATA[3], TOOL_DATA[4], that"));
+  EXPECT_THAT(said_of(WrittenIn::krl, "BAS(#TOOL,3)\n" + axes + axes), HasSubstr("stands in for one that"));
+  EXPECT_THAT(said_of(WrittenIn::krl, joints + "BAS(#TOOL,3)\nPTP XP1\nBAS(#TOOL,4)\nPTP XP1\n"),
+              HasSubstr("it is moved to with different tools; this line was not corrected\n"));
+  const std::string listed = "/MN\n  1:J P[1] 9% FINE ;\n  2:J P[2] 9% FINE ;\n/POS\n";
+  const auto position = [](const std::string& number, const std::string& tool) {
+    return "P[" + number + "]{\n GP1:\n UF : 0, UT : " + tool +
+           ",\n J1= 10 deg, J2= -60 deg, J3= 70 deg, J4= 20 deg, J5= 50 deg, J6= 5 deg\n};\n";
+  };
+  EXPECT_THAT(said_of(WrittenIn::fanuc_ls, listed + position("1", "1") + position("2", "2") + "/END\n"),
+              HasSubstr("stands in for 2 different ones, UT 1, UT 2, that"));
+  EXPECT_THAT(said_of(WrittenIn::fanuc_ls, listed + position("1", "1") + position("2", "1") + "/END\n"),
+              HasSubstr("stands in for one that"));
+}
+
 }  // namespace
 }  // namespace demecal
