@@ -124,8 +124,8 @@ TEST(ArrivingPoints, OfYaskawaAreNotKnownBehindBranchesAndJumps) {
   const std::string move = "MOVJ C3 VJ=9\n";
   for (const std::string& between :
        {"JUMP *A IF IN#(1)=ON\n" + move + "*A\n", "IFTHEN IN#(1)=ON\n" + move + "ENDIF\n",
-        "IFTHEN I000=1\n" + move + "ELSEIF I000=2\n" + move + "ELSE\n" + move + "ENDIF\n",
-        "SWITCH I000 CASE 1\n" + move + "DEFAULT\n" + move + "ENDSWITCH\n", "JUMP S000\n" + move + "*A\n"})
+        "IFTHEN I000=1\n" + move + "ELSEIF I000=2\n" + move + "ELSE\nENDIF\n",
+        "SWITCH I000\nCASE 1\n" + move + "DEFAULT\nENDSWITCH\n", "JUMP S000\n" + move + "*A\n"})
     EXPECT_FALSE(yaskawa(between).known) << between;
   EXPECT_FALSE(yaskawa("*A\n", move + "JUMP *A\n").known) << "it comes back from the last";
 }
