@@ -194,9 +194,30 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
     const std::size_t brace = name.find('{');
     const bool computed =
         brace != std::string::npos && name.find_first_not_of("0123456789,{}", brace) != std::string::npos;
+    use.near = near_place(at, stop);
     uses_[computed ? name.substr(0, brace) : name].push_back(use);
     at = stop - 1;
   }
+}
+
+/// Of the name in Offs(NAME, x, y, z) or RelTool(NAME, x, y, z).
+std::optional<NearPlace> RapidFrames::near_place(std::size_t name, std::size_t name_end) const {
+  const std::string_view code = text_.code();
+  const std::size_t open = code.find_last_not_of(" \t\r\n", name - 1);
+  if (open == std::string_view::npos || open == 0 || code[open] != '(') return std::nullopt;
+  const std::size_t last = code.find_last_not_of(" \t\r\n", open - 1);
+  if (last == std::string_view::npos) return std::nullopt;
+  std::size_t begin = last + 1;
+  while (begin > 0 && is_word_letter(code[begin - 1])) --begin;
+  const std::string function = lower_case(code.substr(begin, last + 1 - begin));
+  if (function != "offs" && function != "reltool") return std::nullopt;
+  NearPlace place{.along_tool = function == "reltool"};
+  const std::size_t comma = text_.skip_spaces(name_end), close = code.find(')', name_end);
+  const std::size_t before = begin == 0 ? std::string_view::npos : code.find_last_not_of(" \t\r\n", begin - 1);
+  const bool inside_another = before != std::string_view::npos && code[before] == '(';
+  if (comma < code.size() && code[comma] == ',' && close != std::string_view::npos && !inside_another)
+    place.shift_m = rapid_shift_m(text_, comma + 1, close);
+  return place;
 }
 
 /// The motions to the target, or to an element of its array that is not told.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ class RapidFrames {
   std::vector<TargetUse> uses_of(const std::string& name) const;
   void read_declaration(const std::string& type, std::size_t at);
   void read_move(std::size_t begin, const std::string& word, std::size_t end);
+  std::optional<NearPlace> near_place(std::size_t name, std::size_t name_end) const;
   void read_header(std::size_t end);
   void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
   /// Of a tool that the motion at `begin` names.

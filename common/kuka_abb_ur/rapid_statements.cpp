@@ -53,6 +53,21 @@ std::size_t targets_of_rapid_motion(std::string_view word) {
   return other || (plain && (word.size() == 5 || (word.size() == 7 && word.ends_with('o')))) ? 1 : 0;
 }
 
+std::optional<Eigen::Vector3d> rapid_shift_m(const ProgramText& text, std::size_t begin, std::size_t end) {
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+  Eigen::Index count = 0;
+  for (std::size_t at = begin; at < end; ++count) {
+    const std::size_t stop = std::min(text.code().find(',', at), end);
+    std::size_t first = at;
+    const std::string_view number = text.trimmed(first, stop);
+    const auto cell = cell_at(text.code(), first, number.size(), {});
+    if (!cell || count == 3) return std::nullopt;
+    shift_m[count] = 1e-3 * cell->value;
+    at = stop + 1;
+  }
+  return count == 3 ? std::optional(shift_m) : std::nullopt;
+}
+
 std::vector<std::size_t> argument_ends(std::string_view code, std::size_t begin) {
   std::vector<std::size_t> ends;
   int depth = 0;
@@ -227,19 +242,9 @@ bool RapidStatements::is_plain(std::size_t begin, std::size_t end, std::size_t n
 
 /// What stands behind the name in Offs(name, x, y, z) or RelTool(name, x, y, z \Rx:=..).
 void RapidStatements::judge_offset(std::size_t begin, std::size_t end, std::string_view name) {
-  double square = 0.0;
-  bool computed = code_.substr(begin, end - begin).find('\\') != std::string_view::npos;
-  for (std::size_t at = begin; at < end && !computed;) {
-    const std::size_t stop = std::min(code_.find(',', at), end);
-    std::size_t first = at;
-    const std::string_view number = text_.trimmed(first, stop);
-    const auto cell = cell_at(code_, first, number.size(), {});
-    computed = !cell;
-    square += cell ? cell->value * cell->value : 0.0;
-    at = stop + 1;
-  }
+  const auto shift_m = rapid_shift_m(text_, begin, end);
   note_offset(program_, text_.place(begin), std::string(name),
-              computed ? std::nullopt : std::optional(std::sqrt(square)));
+              shift_m ? std::optional(1e3 * shift_m->norm()) : std::nullopt);
 }
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -1,7 +1,9 @@
 // ABB RAPID: what statements do with the targets that a program declares, besides moving to them.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,6 +18,8 @@ namespace demecal::inline kuka_abb_ur {
 /// How many targets a motion instruction begins with; 0 for words that are none.
 std::size_t targets_of_rapid_motion(std::string_view word);
 
+/// The numbers in "x, y, z", mm; nothing where they are others, or followed by what turns.
+std::optional<Eigen::Vector3d> rapid_shift_m(const ProgramText& text, std::size_t begin, std::size_t end);
 /// The ends of the arguments from `begin`: commas outside of brackets, and the semicolon (or end) last.
 std::vector<std::size_t> argument_ends(std::string_view code, std::size_t begin);
 

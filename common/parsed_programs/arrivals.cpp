@@ -32,6 +32,7 @@ class ArrivalSearch {
     for (const Target& target : program.targets) {
       motions_.insert(target.order);
       motions_.insert(target.further_motions.begin(), target.further_motions.end());
+      for (const auto& [begin, place] : target.near_motions) motions_.insert(begin);
     }
   }
 

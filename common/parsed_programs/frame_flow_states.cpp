@@ -140,6 +140,7 @@ void FrameFlow::note_unknown_arrivals(Program& program) const {
   for (const Target& target : program.targets) {
     motions.insert(target.order);
     motions.insert(target.further_motions.begin(), target.further_motions.end());
+    for (const auto& [begin, place] : target.near_motions) motions.insert(begin);
   }
   motions.insert(program.unknown_motions.begin(), program.unknown_motions.end());
   for (const Node& node : nodes_) program.way.push_back({node.at, node.next});

@@ -51,9 +51,18 @@ Eigen::Vector3d stated_point(const Target& target) {
          Eigen::Vector3d(target.position[0].inside(), target.position[1].inside(), target.position[2].inside());
 }
 
+NearPlace place_before(std::optional<double> distance_mm) {
+  if (!distance_mm) return {};
+  return {.shift_m = Eigen::Vector3d(0.0, 0.0, -1e-3 * *distance_mm)};
+}
+
+Eigen::Matrix3d stated_axes(const Target& target, bool of_tool) {
+  const Eigen::Matrix3d frame = target.frames.base_from_frame.linear();
+  return of_tool ? frame * rotation_from(target.form, inside(target.orientation)) : frame;
+}
+
 Eigen::Isometry3d stated_tool_pose(const Target& target) {
-  Eigen::Isometry3d tool(target.frames.base_from_frame.linear() *
-                         rotation_from(target.form, inside(target.orientation)) * tool_axes(target).transpose());
+  Eigen::Isometry3d tool(stated_axes(target, true) * tool_axes(target).transpose());
   tool.translation() = stated_point(target);
   return tool;
 }
@@ -92,15 +101,21 @@ void set_frame(StatedFrames& frames, const KnownFrame& frame) {
 }
 
 void take_uses(const std::vector<TargetUse>& uses, Target& target) {
-  const auto first = std::min_element(
-      uses.begin(), uses.end(), [](const TargetUse& one, const TargetUse& other) { return one.begin < other.begin; });
+  const auto first = std::ranges::min_element(
+      uses, {}, [](const TargetUse& use) { return std::pair(use.near.has_value(), use.begin); });
   target.order = first->begin;
   target.frames = first->frames;
   target.motion = Motion::line;
   target.further_motions.clear();
+  target.near_motions.clear();
   for (const TargetUse& use : uses) {
-    if (use.begin != first->begin) target.further_motions.push_back(use.begin);
-    if (use.motion == Motion::joints) target.motion = Motion::joints;
+    if (use.near) {
+      target.near_motions[use.begin] = *use.near;
+      target.near_motions[use.begin].motion = use.motion;
+    } else if (use.begin != first->begin) {
+      target.further_motions.push_back(use.begin);
+    }
+    if (use.motion == Motion::joints && use.near.has_value() == first->near.has_value()) target.motion = Motion::joints;
     if (!same_tool(use.frames, first->frames)) {
       target.frames.unknown_tool = "it is moved to with different tools";
       target.frames.several_tools = true;
@@ -122,6 +137,7 @@ void end_at_motions_to(const Target& target, Program& program) {
   program.unknown_motions.push_back(target.order);
   program.unknown_motions.insert(program.unknown_motions.end(), target.further_motions.begin(),
                                  target.further_motions.end());
+  for (const auto& [begin, place] : target.near_motions) program.unknown_motions.push_back(begin);
 }
 
 void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm) {

@@ -59,6 +59,13 @@ struct StatedFrames {
   bool several_tools = false;               ///< motions go to it with different ones
 };
 
+/// A place near a target that the program moves to in its stead, as by appro, Offs or JAPPRO.
+struct NearPlace {
+  std::optional<Eigen::Vector3d> shift_m{};  ///< from the target; nothing: it turns, or is not told in numbers
+  bool along_tool = true;                    ///< by the tool's axes at the target; otherwise by those of the frame
+  Motion motion = Motion::joints;
+};
+
 /// A target of joints or of a pose.
 struct Target {
   std::string name{};  ///< as the file has it; empty: it has none
@@ -69,8 +76,9 @@ struct Target {
   std::vector<Cell> orientation{};
   ArmHint hint{};
   Motion motion = Motion::joints;
-  std::size_t order = 0;                       ///< targets are visited by this, then in the order of the text
-  std::vector<std::size_t> further_motions{};  ///< bytes at which the program moves to it again
+  std::size_t order = 0;                            ///< targets are visited by this, then in the order of the text
+  std::vector<std::size_t> further_motions{};       ///< bytes at which the program moves to it again
+  std::map<std::size_t, NearPlace> near_motions{};  ///< by the bytes at which it moves near it
   StatedFrames frames{};
   /// Why the robot may be sent elsewhere than to these numbers, which are then left as they are; empty: it is not.
   std::string not_sent_to{};
@@ -132,6 +140,10 @@ bool keeps_orientation(const Target& target);
 Eigen::Isometry3d stated_tool_pose(const Target& target);
 /// Its tool point alone, base frame.
 Eigen::Vector3d stated_point(const Target& target);
+/// A place this far before a target, against the direction of the tool's z axis; where it is not told, near it.
+NearPlace place_before(std::optional<double> distance_mm);
+/// The axes of the tool at the target, as the program has them, or of the frame that it is stated in, in the base.
+Eigen::Matrix3d stated_axes(const Target& target, bool of_tool);
 /// The tool's axes on the flange, as the program has them.
 Eigen::Matrix3d tool_axes(const Target& target);
 /// The signs that the target states, and of joints of which it states none those of `motions`.
@@ -170,10 +182,11 @@ struct TargetUse {
   std::size_t begin = 0;  ///< of the motion in the text
   Motion motion = Motion::joints;
   StatedFrames frames{};
+  std::optional<NearPlace> near{};  ///< of a motion that does not go to the target itself
 };
 
-/// Gives the target what its uses (at least one) say: the place of the first, a line only where all are lines, and
-/// their frames, unknown where they differ.
+/// Gives the target what its uses (at least one) say: the place of the first that goes to it (of the first, where none
+/// does), a line only where all are lines, and their frames, unknown where they differ.
 void take_uses(const std::vector<TargetUse>& uses, Target& target);
 
 /// Whether a target's numbers must be numbers: those that declare it as data; elsewhere they may be expressions.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,6 +22,7 @@ struct ArmKnowledge {
   std::optional<JointVector> joints{};
   std::string words{};  ///< that state their configuration
   ApproachSigns signs{};
+  bool about = false;  ///< it is near these joints: they tell its posture, and no side of the next motion
   bool operator==(const ArmKnowledge&) const = default;
 };
 
@@ -28,13 +30,15 @@ constexpr double kMoved = 2e-3;  ///< rad or m: a joint that changes by less has
 
 /// Takes the signs of a motion to these joints, and that the arm is there.
 void arrive_at(const JointVector& joints, const std::string& words, ArmKnowledge& arm) {
-  if (!arm.joints) arm.signs.setZero();
-  for (Eigen::Index i = 0; i < joints.size() && arm.joints; ++i) {
+  const bool tells_sides = arm.joints && !arm.about;
+  if (!tells_sides) arm.signs.setZero();
+  for (Eigen::Index i = 0; i < joints.size() && tells_sides; ++i) {
     const double change = joints[i] - (*arm.joints)[i];
     if (std::abs(change) >= kMoved) arm.signs[i] = change > 0.0 ? 1.0 : -1.0;
   }
   arm.joints = joints;
   arm.words = words;
+  arm.about = false;
 }
 
 bool same_joints(const JointVector& one, const JointVector& other) {
@@ -48,6 +52,7 @@ void keep_common(const ArmKnowledge& other, ArmKnowledge& arm) {
     arm.joints.reset();
     arm.words.clear();
   }
+  arm.about = arm.about || other.about;
   for (Eigen::Index i = 0; i < arm.signs.size(); ++i) {
     if (arm.signs[i] != other.signs[i]) arm.signs[i] = 0.0;
   }
@@ -79,8 +84,11 @@ class ArmFollower {
         finder_(circumstances.near, middle_joints(model)) {
     nowhere_.signs.setZero(last_.size());
     for (std::size_t i = 0; i < program.targets.size(); ++i) {
-      visits_.push_back({.order = program.targets[i].order, .target = i});
-      for (const std::size_t order : program.targets[i].further_motions) visits_.push_back({order, i, true});
+      const Target& target = program.targets[i];
+      visits_.push_back({.order = target.order, .target = i, .near = target.near_motions.contains(target.order)});
+      for (const std::size_t order : target.further_motions) visits_.push_back({order, i, true});
+      for (const auto& [order, place] : target.near_motions)
+        if (order != target.order) visits_.push_back({order, i, true, true});
     }
     std::ranges::stable_sort(visits_, {}, &TargetVisit::order);
     for (std::size_t i = 0; i < visits_.size(); ++i) begins_.try_emplace(visits_[i].order, i);
@@ -99,6 +107,10 @@ class ArmFollower {
       const std::set<std::size_t>& next = followers_[motion];
       due.insert(next.begin(), next.end());
     }
+    const auto counts = [this](const TargetVisit& visit) {
+      return !visit.near || visit.order == program_.targets[visit.target].order;
+    };
+    std::erase_if(visits_, std::not_fn(counts));
     return std::move(visits_);
   }
 
@@ -141,11 +153,12 @@ class ArmFollower {
     for (std::size_t i = begins_.at(motion); i < visits_.size() && visits_[i].order == motion; ++i) {
       if (to_one) arm = origin;
       const Target& target = program_.targets[visits_[i].target];
-      const Configurations found = configurations(target, arm);
-      arm = arrived(target, found, std::move(arm));
       TargetVisit& visit = visits_[i];
+      const Configurations found = configurations(target, arm);
+      arm = visit.near ? arrived_near(target, target.near_motions.at(motion), std::move(arm))
+                       : arrived(target, found, std::move(arm));
       if (first) {
-        visit = {visit.order, visit.target, visit.again, found, arm.signs};
+        visit = {visit.order, visit.target, visit.again, visit.near, found, arm.signs};
       } else {
         join(found, visit.found);
         join_signs(arm.signs, visit);
@@ -173,14 +186,29 @@ class ArmFollower {
     return arm;
   }
 
-  /// The joints that the arm comes to the target with from where it is.
-  Configurations configurations(const Target& target, const ArmKnowledge& arm) {
+  ArmKnowledge arrived_near(Target target, const NearPlace& place, ArmKnowledge arm) {
+    target.motion = place.motion;
+    const bool told = place.shift_m && target.is_pose() && target.form != OrientationForm::unknown;
+    const Eigen::Vector3d shift_m = told ? *place.shift_m : Eigen::Vector3d::Zero();
+    arm = arrived(target, configurations(target, arm, shift_m, place.along_tool), std::move(arm));
+    arm.about = arm.about || !told;
+    if (arm.about) arm.signs.setZero();
+    return arm;
+  }
+
+  /// The joints that the arm comes to the target with from where it is, or to a place that is shifted from it.
+  Configurations configurations(const Target& target, const ArmKnowledge& arm,
+                                const Eigen::Vector3d& shift_m = Eigen::Vector3d::Zero(), bool along_tool = true) {
     if (!target.is_pose()) return {JointsFrom::target, {joints_of(target)}};
     if (!target.not_sent_to.empty() || !unknown_frames(target, circumstances_).empty()) return {};
     Chain chain = model_.nominal.chain;
     if (target.frames.tool) chain.tool_m = target.frames.tool->translation();
     finder_.arrive(arm.joints, arm.words);
-    if (target.form != OrientationForm::unknown) return finder_.find(chain, target, stated_tool_pose(target));
+    if (target.form != OrientationForm::unknown) {
+      Eigen::Isometry3d pose = stated_tool_pose(target);
+      pose.translation() += stated_axes(target, along_tool) * shift_m;
+      return finder_.find(chain, target, pose);
+    }
     const auto joints = joints_at_point(chain, stated_point(target), last_);
     return joints ? Configurations{JointsFrom::before, {*joints}} : Configurations{};
   }

@@ -17,6 +17,7 @@ namespace demecal::inline programs {
 struct TargetVisit {
   std::size_t order = 0, target = 0;
   bool again = false;
+  bool near = false;  ///< it goes near the target: the only ones that the target has
   /// The joints that the arm reaches the target with. Where paths differ in them, all of these joints, undetermined.
   Configurations found{};
   /// From which side each joint comes; 0 where that is not known, or paths differ.

@@ -90,12 +90,13 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   }
   const std::string name = location_name(text, first, last);
   if (name.size() == argument.size()) {
-    uses_[location_key(name)].push_back(use);
+    TargetUse& own = uses_[location_key(name)].emplace_back(use);
     if (!word.ends_with("appro")) return;
     std::size_t distance = std::min(last + 1, end);
     const std::string_view number = text.trimmed(distance, end_of_argument(code, distance, end));
     const auto cell = cell_at(code, distance, number.size(), {});
     approaches_.push_back({begin, name, cell ? std::optional(cell->value) : std::nullopt});
+    own.near = place_before(approaches_.back().distance_mm);
     return;
   }
   computed_.emplace_back(first, std::string(argument));

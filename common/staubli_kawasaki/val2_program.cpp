@@ -107,12 +107,14 @@ void Val2Statements::read_motion(const std::string& word, std::size_t statement,
     return;
   }
   const bool line = word == "moves" || word == "movest" || word == "appros";
-  uses_[location_key(name)].push_back({statement, line ? Motion::line : Motion::joints, {}});
+  TargetUse& own =
+      uses_[location_key(name)].emplace_back(TargetUse{statement, line ? Motion::line : Motion::joints, {}});
   if (!word.starts_with("appro")) return;
   std::size_t distance = std::min(last + 1, end);
   const std::string_view number = text_.trimmed(distance, end);
   const auto cell = cell_at(text_.code(), distance, number.size(), {});
   approaches_.push_back({statement, name, cell ? std::optional(cell->value) : std::nullopt});
+  own.near = place_before(approaches_.back().distance_mm);
 }
 
 /// "SET a = b": only copies and SHIFT leave the locations on the right what they are.

@@ -86,19 +86,33 @@ class Val3Reader {
   }
 
   void note_what_is_nearby() {
-    for (const Val3Nearby& nearby : statements_.nearby())
-      note_offset(program_, text_.place(nearby.begin), nearby.name,
-                  nearby.offset.empty() ? nearby.distance_mm : offset_mm(nearby.offset));
+    for (const Val3Nearby& nearby : statements_.nearby()) {
+      const auto shift_m = shift_of(nearby);
+      const auto distance_mm = shift_m ? std::optional(1e3 * shift_m->norm()) : std::nullopt;
+      note_offset(program_, text_.place(nearby.begin), nearby.name, distance_mm);
+    }
   }
 
-  /// The length of a value of the data that displaces; nothing where it turns, is not given or is changed.
-  std::optional<double> offset_mm(const std::string& name) const {
-    const auto value =
-        std::ranges::find_if(values_, [&](const Val3Value& one) { return one.type == "trsf" && one.name == name; });
-    if (value == values_.end() || !statements_.changed(name).empty()) return std::nullopt;
+  /// Where the motion goes near the value and not to it.
+  std::optional<NearPlace> near_place(const Val3Motion& motion, const std::string& name) const {
+    for (const Val3Nearby& nearby : statements_.nearby()) {
+      if (nearby.begin != motion.begin || (nearby.name != name && nearby.name != name.substr(0, name.find('['))))
+        continue;
+      return nearby.along_tool ? NearPlace{.shift_m = shift_of(nearby)} : NearPlace{};
+    }
+    return std::nullopt;
+  }
+
+  /// What the offset, or the value of the data that it is, displaces by; nothing where that turns, is not given or is
+  /// changed.
+  std::optional<Eigen::Vector3d> shift_of(const Val3Nearby& nearby) const {
+    if (nearby.offset.empty()) return nearby.shift_m;
+    const auto value = std::ranges::find_if(
+        values_, [&](const Val3Value& one) { return one.type == "trsf" && one.name == nearby.offset; });
+    if (value == values_.end() || !statements_.changed(nearby.offset).empty()) return std::nullopt;
     const auto pose = transform(*value);
     if (!pose || !pose->linear().isApprox(Eigen::Matrix3d::Identity(), 1e-9)) return std::nullopt;
-    return 1e3 * pose->translation().norm();
+    return Eigen::Vector3d(pose->translation());
   }
 
   /// Says once which programs may change the data, and are not here.
@@ -143,6 +157,7 @@ class Val3Reader {
     for (const Val3Motion& motion : statements_.motions(value.name)) {
       TargetUse use{motion.begin, motion.motion, target.frames};
       set_tool(use.frames, motion.tool.empty() ? KnownFrame::computed("the motion's tool") : tool(motion.tool));
+      use.near = near_place(motion, value.name);
       uses.push_back(std::move(use));
     }
     if (!uses.empty()) return take_uses(uses, target);

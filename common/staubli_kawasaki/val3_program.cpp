@@ -171,28 +171,29 @@ bool Val3Statements::read_nearby(const Argument& argument, const Val3Motion& mot
   const std::string name = only_reference(given.front()).name;
   if (name.empty()) return false;
   motions_[name].push_back({motion.begin, Motion::joints, motion.tool});
-  nearby_.push_back({motion.begin, name, written_distance_mm(given.back()), only_reference(given.back()).name});
+  nearby_.push_back(
+      {motion.begin, name, written_shift_m(given.back()), only_reference(given.back()).name, function == "appro"});
   return true;
 }
 
 /// Of "{x, y, z, rx, ry, rz}" that is all numbers and does not turn.
-std::optional<double> Val3Statements::written_distance_mm(const Argument& offset) const {
+std::optional<Eigen::Vector3d> Val3Statements::written_shift_m(const Argument& offset) const {
   const std::string_view code = code_.code();
   const std::size_t open = code_.skip_spaces(offset.begin), close = code.find('}', open);
   if (open >= offset.end || code[open] != '{' || close >= offset.end || code_.skip_spaces(close + 1) < offset.end)
     return std::nullopt;
-  double square = 0.0;
-  std::size_t count = 0;
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+  Eigen::Index count = 0;
   for (std::size_t at = open + 1; at <= close; ++count) {
     const std::size_t stop = std::min(code.find(',', at), close);
     std::size_t first = at;
     const std::string_view number = code_.trimmed(first, stop);
     const auto cell = cell_at(code, first, number.size(), {});
     if (!cell || (count >= 3 && cell->value != 0.0)) return std::nullopt;
-    square += cell->value * cell->value;
+    if (count < 3) shift_m[count] = 1e-3 * cell->value;
     at = stop + 1;
   }
-  return count == 6 ? std::optional(std::sqrt(square)) : std::nullopt;
+  return count == 6 ? std::optional(shift_m) : std::nullopt;
 }
 
 /// NAME, NAME[index], and what is taken of it; no name where it is one of the program's own or a number.

@@ -2,6 +2,7 @@
 // (.pgx) does with these points, joints, frames and tools: to which it moves, with which tool, and which it changes.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -46,8 +47,9 @@ struct Val3Motion {
 struct Val3Nearby {
   std::size_t begin = 0;  ///< of the motion in the text
   std::string name{};
-  std::optional<double> distance_mm{};  ///< that the offset writes, if it does not turn
-  std::string offset{};                 ///< the value that is the offset; empty: none
+  std::optional<Eigen::Vector3d> shift_m{};  ///< that the offset writes, if it does not turn
+  std::string offset{};                      ///< the value that is the offset; empty: none
+  bool along_tool = true;                    ///< by the tool's axes at the point, as appro() takes it
 };
 
 /// Reads the code of all programs. Names are those of val3_values(): "pPick[2]", and "pPick[0]" of pPick alone; an
@@ -92,7 +94,7 @@ class Val3Statements {
   void read_motion(const std::string& word, std::size_t begin, const std::vector<Argument>& arguments);
   void read_goal(const Argument& argument, const Val3Motion& motion);
   bool read_nearby(const Argument& argument, const Val3Motion& motion);
-  std::optional<double> written_distance_mm(const Argument& offset) const;
+  std::optional<Eigen::Vector3d> written_shift_m(const Argument& offset) const;
   Reference reference(std::size_t begin, std::size_t end) const;
   /// The reference that the argument is, and nothing else.
   Reference only_reference(const Argument& argument) const;

@@ -122,6 +122,33 @@ TEST(Configuration, OfAPointThatIsMovedToAgainIsThatOfEveryMotion) {
   EXPECT_THAT(judged(of("NEAR")), ::testing::Each("joints_before"));
 }
 
+/// The sides from which the last target of a program of AS is come to, which moves from NEAR as `motions` say; "pt" is
+/// the place of POSE, "before" that 80 mm before it.
+ApproachSigns sides_behind(const std::string& motions) {
+  RandomStream stream{7561};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  const auto location = [&](const std::string& name, double before_m) {
+    const Eigen::Isometry3d pose = model.nominal_tool(joints_named("POSE")) * Eigen::Translation3d(0.0, 0.0, -before_m);
+    return name + ' ' + listed(six_numbers(pose, pose.linear().eulerAngles(2, 1, 2)), 9, ",") + '\n';
+  };
+  const CorrectedProgram corrected =
+      corrected_motions(WrittenIn::kawasaki_as,
+                        "@NEAR\n" + motions + ".END\n.TRANS\n" + location("before", 0.08) + location("pt", 0.0), model);
+  const auto last = std::ranges::find(corrected.program.targets, "pt", &Target::name);
+  const CorrectedTarget& target =
+      corrected.targets.at(static_cast<std::size_t>(last - corrected.program.targets.begin()));
+  EXPECT_FALSE(target.is_uncorrected()) << motions;
+  return target.stop.approach;
+}
+
+TEST(Approach, OfAPointBehindAPlaceNearItIsThatFromThere) {
+  const ApproachSigns written_out = sides_behind("JMOVE before\nLMOVE pt\n");
+  EXPECT_EQ(sides_behind("JAPPRO pt,80\nLMOVE pt\n"), written_out);
+  EXPECT_NE(sides_behind("LMOVE pt\n"), written_out) << "the place before it matters";
+  EXPECT_TRUE(sides_behind("JAPPRO pt,d\nLMOVE pt\n").isZero()) << "the distance is not told";
+  EXPECT_EQ(sides_behind("LMOVE pt\nJAPPRO pt,80\n"), sides_behind("LMOVE pt\n")) << "it leaves from there";
+}
+
 /// What is said of the program as a whole.
 std::vector<std::string> said_of_sides(const InLanguages& programs) {
   const CommandModel model = lost_motion_model();
