@@ -170,7 +170,7 @@ bool Val3Statements::read_nearby(const Argument& argument, const Val3Motion& mot
   if (given.size() != needed || code_.skip_spaces(close + 1) < argument.end) return false;
   const std::string name = only_reference(given.front()).name;
   if (name.empty()) return false;
-  motions_[name].push_back({motion.begin, Motion::joints, motion.tool});
+  motions_[name].push_back(motion);
   nearby_.push_back(
       {motion.begin, name, written_shift_m(given.back()), only_reference(given.back()).name, function == "appro"});
   return true;

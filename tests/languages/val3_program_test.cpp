@@ -72,7 +72,12 @@ TEST(Val3Program, TellsTheToolOfEveryMotion) {
   EXPECT_EQ(tool_z_mm(program, "p[0]"), 0.0);
   EXPECT_EQ(tool_z_mm(program, "p[up]"), 200.0);
   EXPECT_EQ(find_target(program, "p[1]")->motion, Motion::line);
-  EXPECT_EQ(find_target(program, "p[0]")->motion, Motion::joints) << "the way to a point near it ends elsewhere";
+  EXPECT_EQ(find_target(program, "p[0]")->motion, Motion::line);
+  ASSERT_EQ(find_target(program, "p[0]")->near_motions.size(), 1u);
+  const auto& [begin, place] = *find_target(program, "p[0]")->near_motions.begin();
+  EXPECT_LT(begin, find_target(program, "p[0]")->order) << "the way to a point near it ends elsewhere";
+  EXPECT_EQ(place.motion, Motion::line);
+  EXPECT_TRUE(place.shift_m.value_or(Eigen::Vector3d::Zero()).isApprox(Eigen::Vector3d(0.0, 0.0, -0.05)));
   EXPECT_LT(find_target(program, "j[0]")->order, find_target(program, "p[1]")->order);
   EXPECT_EQ(program.file_at(find_target(program, "j[0]")->order), 1u);
   EXPECT_EQ(find_target(program, "j[0]")->place.file, 0u);
