@@ -37,9 +37,15 @@ double from_inches(double value) {
 double from_thousandths(double value) {
   return value * 1e-3;
 }
+double from_kelvin(double value) {
+  return value - 273.15;
+}
+double from_fahrenheit(double value) {
+  return (value - 32.0) / 1.8;
+}
 
-/// Units that headings give in brackets, beside those above.
-constexpr std::array<ColumnUnit, 24> kHeadingUnits{{
+/// Units that headings give in brackets, beside those above; names end in those of masses and temperatures too.
+constexpr std::array<ColumnUnit, 31> kHeadingUnits{{
     {"°", Quantity::angle, radians},
     {"degree", Quantity::angle, radians},
     {"degrees", Quantity::angle, radians},
@@ -59,6 +65,13 @@ constexpr std::array<ColumnUnit, 24> kHeadingUnits{{
     {"g", Quantity::mass, from_thousandths},
     {"°c", Quantity::temperature, unchanged},
     {"c", Quantity::temperature, unchanged},
+    {"degc", Quantity::temperature, unchanged},
+    {"°f", Quantity::temperature, from_fahrenheit},
+    {"f", Quantity::temperature, from_fahrenheit},
+    {"degf", Quantity::temperature, from_fahrenheit},
+    {"fahrenheit", Quantity::temperature, from_fahrenheit},
+    {"k", Quantity::temperature, from_kelvin},
+    {"kelvin", Quantity::temperature, from_kelvin},
     {"sec", Quantity::time, unchanged},
     {"seconds", Quantity::time, unchanged},
     {"ms", Quantity::time, from_thousandths},
@@ -91,6 +104,16 @@ const Wording& wording(Quantity quantity) {
 std::string suffix_of(std::string_view column) {
   const std::size_t underscore = column.rfind('_');
   return underscore == std::string_view::npos ? "" : lower_case(column.substr(underscore + 1));
+}
+
+/// The unit that a name ends in. Masses and temperatures without one are taken for kg and deg C, so that other units at
+/// the end are read; angles and lengths without one are asked for, and have few.
+std::optional<ColumnUnit> unit_at_end(std::string_view column, Quantity quantity) {
+  const std::string suffix = suffix_of(column);
+  if (const auto unit = find_unit(suffix)) return unit;
+  if (quantity != Quantity::mass && quantity != Quantity::temperature) return std::nullopt;
+  const auto unit = find_heading_unit(suffix);
+  return unit && unit->quantity == quantity ? unit : std::nullopt;
 }
 
 std::string expected_ending(Quantity quantity) {
@@ -200,16 +223,20 @@ std::optional<ColumnUnit> find_heading_unit(std::string_view text) {
 }
 
 ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUnits& assumed) {
-  const std::string suffix = suffix_of(column.name);
-  if (const auto unit = find_unit(suffix)) {
+  if (const auto unit = unit_at_end(column.name, quantity)) {
     if (unit->quantity == quantity) return *unit;
     throw InputError(column.where, column.name,
                      "ends in a unit of " + std::string(wording(unit->quantity).is) + "; " + expected_ending(quantity));
   }
-  if (std::find(kForeignUnits.begin(), kForeignUnits.end(), suffix) != kForeignUnits.end()) {
+  if (std::ranges::find(kForeignUnits, suffix_of(column.name)) != kForeignUnits.end()) {
     throw InputError(column.where, column.name, "ends in a unit that is not supported; " + expected_ending(quantity));
   }
   return unit_without_suffix(column, quantity, assumed);
+}
+
+bool states_unit(const CsvTable& table, std::size_t column, Quantity quantity) {
+  if (!table.units.empty() && !table.units[column].empty()) return true;
+  return unit_at_end(table.columns[column], quantity).has_value();
 }
 
 Quantity angle_or_length(const CsvTable& table, const ColumnName& column) {
@@ -232,6 +259,7 @@ TableColumn::TableColumn(const CsvTable& table, const ColumnName& name, UnitConv
 TableColumn::TableColumn(const CsvTable& table, const ColumnName& name, Quantity quantity, const AssumedUnits& units)
     : TableColumn(table, name) {
   to_inside_ = conversion_of(table, name, index_, quantity, units);
+  unit_is_stated_ = states_unit(table, index_, quantity);
 }
 
 double TableColumn::number(const CsvRow& row) const {

@@ -111,9 +111,13 @@ struct AssumedUnits {
 };
 
 /// The unit of a column that holds `quantity`: that in which its name ends, else the assumed one. Masses, temperatures,
-/// times, torques and forces have one unit each and need none in the name. Throws InputError where an angle or length
+/// times, torques and forces have one unit each that is taken where the name has none; masses and temperatures may end
+/// in those of find_heading_unit() too. Throws InputError where an angle or length
 /// has no unit, or where the name ends in a unit of something else or one that is not supported.
 ColumnUnit unit_of(const ColumnName& column, Quantity quantity, const AssumedUnits& assumed);
+
+/// Whether the table itself says the column's unit, at the end of its name or beside it.
+bool states_unit(const CsvTable& table, std::size_t column, Quantity quantity);
 
 /// Angle where the column's name or its heading gives a unit of that, else length.
 Quantity angle_or_length(const CsvTable& table, const ColumnName& column);
@@ -128,6 +132,8 @@ class TableColumn {
 
   std::size_t table() const { return table_; }  ///< ColumnName::table
   std::size_t index() const { return index_; }
+  /// Of a column of a quantity: by states_unit().
+  bool unit_is_stated() const { return unit_is_stated_; }
   const std::string& text(const CsvRow& row) const { return row.fields[index_]; }
   /// The row's number, converted. Throws InputError where the field writes none.
   double number(const CsvRow& row) const;
@@ -139,6 +145,7 @@ class TableColumn {
   std::size_t index_;
   std::size_t table_ = 0;
   char decimal_ = '.';
+  bool unit_is_stated_ = false;
   UnitConversion to_inside_;
 };
 

@@ -171,18 +171,27 @@ std::vector<double> read_distances(const TableColumns& columns, const PoseRows& 
 }
 
 double read_payload(const TableColumn& column, const PoseRows& rows) {
-  constexpr double kMost_kg = 1e5;  ///< no robot carries it; a slip of the keyboard would rule every judgement
+  constexpr double kMost_kg = 1e5, kMostUnstated_kg = 2300.0;  ///< of no robot; of the strongest that are made
   const double payload_kg = rows.number(column);
   if (payload_kg < 0.0) rows.fail(column, "must not be negative: it is a mass");
   if (payload_kg > kMost_kg) rows.fail(column, "is more than any robot carries (100 t): is it in kg?");
+  if (payload_kg > kMostUnstated_kg && !column.unit_is_stated())
+    rows.fail(column,
+              "is above 2300 kg, more than robots carry, and the heading states no unit: end the name in _g, or in _kg "
+              "if it is right");
   return payload_kg;
 }
 
 double read_temperature(const TableColumn& column, const PoseRows& rows) {
-  constexpr double kLowest_celsius = -273.15, kHighest_celsius = 1000.0;
+  constexpr double kLowest_celsius = -273.15, kHighest_celsius = 1000.0, kHighestUnstated_celsius = 60.0;
   const double celsius = rows.number(column);
   if (celsius < kLowest_celsius || celsius > kHighest_celsius)
     rows.fail(column, "is no temperature of an arm: is it in deg C?");
+  if (celsius > kHighestUnstated_celsius && !column.unit_is_stated())
+    rows.fail(
+        column,
+        "is above 60 deg C, warmer than arms are, and the heading states no unit: end the name in _f or _k, or in "
+        "_celsius if it is right");
   return celsius;
 }
 

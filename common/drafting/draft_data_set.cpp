@@ -53,7 +53,8 @@ std::optional<AssumedUnit> assumed_unit(const std::vector<GivenTable>& tables, c
   for (const GivenTable& given : tables) {
     const auto& group = given.columns.*columns;
     const CsvTable& table = given.read.table;
-    if (group.empty() || std::ranges::all_of(group, [&](std::size_t column) { return states_unit(table, column); }))
+    if (group.empty() ||
+        std::ranges::all_of(group, [&](std::size_t column) { return states_unit(table, column, quantity); }))
       continue;
     const double most = largest(table, group);
     const std::string unit(likely_unit(quantity, most));

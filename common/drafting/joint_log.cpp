@@ -101,7 +101,7 @@ class LogReader {
       for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
         if (is_revolute(robot_.chain.joints[joint]) != angles) continue;
         const TableColumn column(table_, joints_[joint]);
-        if (states_unit(table_, column.index())) continue;
+        if (states_unit(table_, column.index(), angles ? Quantity::angle : Quantity::length)) continue;
         for (const CsvRow& row : table_.rows) most = std::max(most, std::abs(column.number(row)));
         any = true;
       }

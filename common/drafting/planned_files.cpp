@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -154,6 +155,19 @@ std::vector<std::string> approach_names(const ColumnMap& columns, std::size_t jo
   return names;
 }
 
+/// Payloads under the data set's name for them, in the unit that it ends in.
+struct PayloadColumn {
+  std::string name = "payload_kg";
+  UnitConversion to_inside = find_unit("kg")->to_inside;
+
+  std::string text(double payload_kg) const { return fmt::format("{:.6g}", payload_kg / to_inside(1.0)); }
+};
+std::optional<PayloadColumn> payload_column(const ColumnMap& columns) {
+  if (!columns.payload) return std::nullopt;
+  if (columns.payload->number > 0) return PayloadColumn{};
+  return PayloadColumn{columns.payload->name, unit_of(*columns.payload, Quantity::mass, {}).to_inside};
+}
+
 }  // namespace
 
 std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const DataSet& data,
@@ -167,7 +181,8 @@ std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const
                  .rows = {}};
   for (const JointColumn& joint : joints) table.columns.push_back(joint.name);
   for (std::string& name : approach_names(columns, joints.size())) table.columns.push_back(std::move(name));
-  if (columns.payload) table.columns.push_back(columns.payload->number == 0 ? columns.payload->name : "payload_kg");
+  const std::optional<PayloadColumn> payload = payload_column(columns);
+  if (payload) table.columns.push_back(payload->name);
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Stop& stop = stops[i];
     CsvRow row{0, {"N" + std::to_string(i + 1)}};
@@ -177,7 +192,7 @@ std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const
     for (Eigen::Index k = 0; k < stop.joints.size(); ++k) {
       row.fields.push_back(fmt::format("{:.0f}", stop.approach.size() > 0 ? stop.approach[k] : 0.0));
     }
-    if (columns.payload) row.fields.push_back(fmt::format("{:.6g}", stop.payload_kg));
+    if (payload) row.fields.push_back(payload->text(stop.payload_kg));
     table.rows.push_back(std::move(row));
   }
   return csv_text(table);

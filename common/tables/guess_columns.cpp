@@ -189,13 +189,6 @@ GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const st
   return table.header_line > 0 ? by_names(table, joints, joint_names) : by_contents(table, joints);
 }
 
-bool states_unit(const CsvTable& table, std::size_t column) {
-  if (!table.units.empty() && !table.units[column].empty()) return true;
-  const std::string& name = table.columns[column];
-  const std::size_t ending = name.rfind('_');
-  return ending != std::string::npos && find_unit(lower_case(name.substr(ending + 1))).has_value();
-}
-
 std::string_view likely_unit(Quantity quantity, double largest) {
   constexpr double kMostAngle_rad = 2.0 * std::numbers::pi + 0.2, kMostLength_m = 20.0;
   if (quantity == Quantity::angle) return largest > kMostAngle_rad ? "deg" : "rad";

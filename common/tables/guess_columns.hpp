@@ -21,9 +21,6 @@ using GuessedColumns = PoseColumns<std::size_t>;
 /// is the name.
 GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names);
 
-/// Whether the table itself says the column's unit, at the end of its name or beside it.
-bool states_unit(const CsvTable& table, std::size_t column);
-
 /// "rad" or "deg", "m" or "mm": that of a column of angles or lengths whose largest value this is. No arm turns a joint
 /// much beyond one turn, or measures beyond 20 m.
 std::string_view likely_unit(Quantity quantity, double largest);

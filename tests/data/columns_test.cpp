@@ -28,6 +28,18 @@ TEST(ColumnUnit, NeedsNoNameWhereThereIsOnlyOne) {
   EXPECT_EQ(unit_of(column("T"), Quantity::temperature, {}).name, "celsius");
 }
 
+TEST(ColumnUnit, OfTemperaturesAndMassesMayBeThoseOfOtherPrograms) {
+  for (const char* name : {"Temp_F", "temperature_degF", "arm_fahrenheit"})
+    EXPECT_NEAR(unit_of(column(name), Quantity::temperature, {}).to_inside(68.0), 20.0, 1e-12) << name;
+  for (const char* name : {"T_K", "arm_kelvin"})
+    EXPECT_NEAR(unit_of(column(name), Quantity::temperature, {}).to_inside(293.15), 20.0, 1e-12) << name;
+  for (const char* name : {"T_C", "arm_degC", "arm_celsius"})
+    EXPECT_EQ(unit_of(column(name), Quantity::temperature, {}).to_inside(20.0), 20.0) << name;
+  EXPECT_DOUBLE_EQ(unit_of(column("payload_g"), Quantity::mass, {}).to_inside(2500.0), 2.5);
+  const AssumedUnits assumed{find_unit("deg"), find_unit("mm")};
+  EXPECT_EQ(unit_of(column("x_c"), Quantity::length, assumed).name, "mm") << "a name, not a unit";
+}
+
 TEST(ColumnUnit, RefusesTheWrongUnitAndNone) {
   const auto refusal = [](const char* name, Quantity quantity) {
     return complaint([&] { unit_of(column(name), quantity, {}); });

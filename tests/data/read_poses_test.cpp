@@ -168,6 +168,28 @@ TEST(ReadPoses, RefusesBrokenCircumstances) {
   EXPECT_EQ(with("target", "", target), "");
 }
 
+TEST(ReadPoses, RefusesTemperaturesAndPayloadsThatAreOfAnotherUnitUnlessTheHeadingSaysTheUnit) {
+  const auto with = [](const std::string& heading, const std::string& value, bool warm) {
+    ColumnMap map = small_map();
+    (warm ? map.temperature : map.payload) = column(heading);
+    return refusal(kHeading + "," + heading + "\n40,0,0,1,2,3," + value + "\n", map);
+  };
+  for (const char* value : {"75.2", "297.15"})
+    EXPECT_EQ(
+        with("temperature", value, true),
+        "poses.csv:2: '" + std::string(value) +
+            "': column temperature is above 60 deg C, warmer than arms are, and the heading states no unit: end the "
+            "name in _f or _k, or in _celsius if it is right");
+  EXPECT_THAT(with("payload", "5000", false), HasSubstr("'5000': column payload is above 2300 kg"));
+  EXPECT_EQ(with("temperature", "59.5", true), "");
+  EXPECT_EQ(with("temperature_celsius", "75.2", true), "");
+  EXPECT_EQ(with("temperature_f", "75.2", true), "");
+  EXPECT_EQ(with("temperature_k", "297.15", true), "");
+  EXPECT_EQ(with("payload", "2300", false), "");
+  EXPECT_EQ(with("payload_kg", "5000", false), "");
+  EXPECT_EQ(with("payload_g", "5000", false), "");
+}
+
 TEST(ReadPoses, HoldsRepeatsOfAPoseTogether) {
   ColumnMap map = small_map();
   map.pose = column("pose");

@@ -38,5 +38,10 @@ TEST(ProposedPoses, FollowUnitsThatStandApartAndNameThePayload) {
             "pose_id,turn,slide_m,s1,s2,load_kg\nN1,0.250000,0.100000,-1,1,1.5\n");
 }
 
+TEST(ProposedPoses, HavePayloadsInTheUnitOfTheirName) {
+  const std::string text = changed(kDataSetText, "  approach: [s1, s2]\n", "  payload: load_g\n");
+  EXPECT_NE(proposed(text, {stop_at(0.0, 0.1, 1.5)}).find("load_g\nN1,0.000,100.000,-1,1,1500\n"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace demecal
