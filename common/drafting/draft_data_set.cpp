@@ -12,6 +12,7 @@
 #include "data/columns.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
+#include "drafting/assumptions.hpp"
 #include "errors/input_error.hpp"
 #include "tables/join.hpp"
 #include "tables/time_stamp.hpp"
@@ -59,7 +60,7 @@ std::optional<AssumedUnit> assumed_unit(const std::vector<GivenTable>& tables, c
     const double most = largest(table, group);
     const std::string unit(likely_unit(quantity, most));
     return AssumedUnit{key, unit,
-                       "units of " + references(table, group) + " are taken to be " + unit + ", since the largest is " +
+                       "units of " + in_words(table, group) + " are taken to be " + unit + ", since the largest is " +
                            number_text(std::round(1e3 * most) / 1e3) + ": check `units`"};
   }
   return std::nullopt;
@@ -199,13 +200,13 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
     std::vector<std::size_t>& sigma = given.columns.sigma;
     if (given.columns.position.empty() || !are_sigmas(given.read.table, sigma)) sigma.clear();
     if (!sigma.empty())
-      assumed.push_back("positions weigh by " + references(given.read.table, sigma) +
+      assumed.push_back("positions weigh by " + in_words(given.read.table, sigma) +
                         ", taken to be their standard uncertainties: leave `sigma` out if they are not");
   }
   for (const GivenTable& given : tables) {
     if (!given.columns.target || !holds_several(given.read.table, *given.columns.target)) continue;
     assumed.push_back("all points are taken to be of one target: if " +
-                      reference(given.read.table, *given.columns.target) + " of " + given.path.string() +
+                      in_words(given.read.table, {*given.columns.target}) + " of " + given.path.string() +
                       " names several on the tool, name it under `columns: target` and give their places under "
                       "`tools_mm`");
   }
@@ -241,6 +242,10 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
       body += "  " + unit->key + ": " + unit->unit + "\n";
       assumed.push_back(unit->sentence);
     }
+  }
+  for (const GivenTable& given : tables) {
+    add_assumed_circumstances(given, assumed);
+    add_unused(given, assumed);
   }
   if (any(&GuessedColumns::position))
     assumed.push_back("positions are in the instrument's own frame: set `frame: base` if they are in the robot's");

@@ -6,12 +6,14 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "../config/temporary_folder.hpp"
 
 namespace demecal {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -30,6 +32,44 @@ TEST(Drafts, SayThatTargetsAreTakenForOne) {
   EXPECT_THAT(two.text, Not(HasSubstr("target:")));
   const auto one = draft_of(folder, folder.path(), "1,2,3,4,5,left\n2,3,4,5,6,left\n");
   EXPECT_THAT(one.assumed, Not(Contains(HasSubstr("of one target"))));
+}
+
+/// What is assumed of two poses with further columns.
+std::vector<std::string> assumed_with(const std::string& headings, const std::string& values) {
+  const TemporaryFolder folder;
+  const auto table = folder.write("points.csv", "q1_deg,q2_deg,y axis,x_mm,y_mm,z_mm," + headings + "\n1,2,0,3,4,5," +
+                                                    values + "\n2,3,0,4,5,6," + values + "\n");
+  return draft_data_sets(read_given_tables({table}, 2, {}), folder.path(), "robot.yaml", 2, {}).front().assumed;
+}
+
+TEST(Drafts, SayTheUnitsOfTemperatureAndPayloadWhereHeadingsDoNot) {
+  const auto silent = assumed_with("temp,payload", "20,3");
+  EXPECT_THAT(silent,
+              Contains(AllOf(HasSubstr("temp of "), HasSubstr("is taken to be the arm's temperature in deg C"))));
+  EXPECT_THAT(silent, Contains(AllOf(HasSubstr("payload of "), HasSubstr("is taken to be the payload in kg"))));
+  for (const char* headings : {"Temp_F,payload_g", "temperature_degF,payload_kg", "temp [K],payload [g]", "T_C,load"})
+    EXPECT_THAT(assumed_with(headings, "70,3"), Not(Contains(HasSubstr(" is taken to be the ")))) << headings;
+}
+
+TEST(Drafts, NameTheColumnsThatNothingReads) {
+  EXPECT_THAT(assumed_with("temp_f,target_q1", "70,3"), Contains(HasSubstr("not used: columns y axis, target_q1 of ")));
+  const TemporaryFolder folder;
+  EXPECT_THAT(draft_of(folder, folder.path(), "1,2,3,4,5,a\n2,3,4,5,6,a\n").assumed,
+              Not(Contains(HasSubstr("not used"))));
+  std::string headings, values;
+  for (int i = 0; i < 40; ++i) {
+    headings += (i == 0 ? "" : ",") + std::string("channel") + std::to_string(i);
+    values += i == 0 ? "1" : ",1";
+  }
+  EXPECT_THAT(assumed_with(headings, values), Contains(HasSubstr("channel10 and 29 more of ")));
+}
+
+TEST(Drafts, NameColumnsAsTheFileDoes) {
+  const TemporaryFolder folder;
+  const auto table = folder.write("points.csv", "q1_deg,q2_deg,x,y,z\n1,2,300,4,5\n2,3,400,5,6\n");
+  const auto draft = draft_data_sets(read_given_tables({table}, 2, {}), folder.path(), "robot.yaml", 2, {}).front();
+  EXPECT_THAT(draft.assumed, Contains(HasSubstr("units of x, y, z are taken to be mm")));
+  EXPECT_THAT(draft.text, HasSubstr("[x, \"y\", z]"));
 }
 
 TEST(Drafts, AreCalledAsTheirFolder) {
