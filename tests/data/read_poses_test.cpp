@@ -190,6 +190,18 @@ TEST(ReadPoses, RefusesTemperaturesAndPayloadsThatAreOfAnotherUnitUnlessTheHeadi
   EXPECT_EQ(with("payload_g", "5000", false), "");
 }
 
+TEST(ReadPoses, SaysThatANumberHasItsThousandsApart) {
+  const auto with = [](const std::string& value) {
+    return refusal(kHeading + "\n40,0,0,1,2,3\n40,0,0,\"" + value + "\",2,3\n");
+  };
+  for (const char* value : {"3,070.733", "-1,003,070", "+3'070.733", "3 070.733"})
+    EXPECT_EQ(with(value), "poses.csv:3: '" + std::string(value) +
+                               "': column x_mm looks like a number with separators of thousands: export the table "
+                               "without them");
+  for (const char* value : {"3,07", "3070,733", "3,070'733", ",070", "a,070"})
+    EXPECT_THAT(with(value), HasSubstr("is not a number")) << value;
+}
+
 TEST(ReadPoses, HoldsRepeatsOfAPoseTogether) {
   ColumnMap map = small_map();
   map.pose = column("pose");
