@@ -177,12 +177,16 @@ std::vector<Finding> take_out_copies(DataSet& data) {
       continue;
     }
     const MeasuredPose& other = kept[entry->second];
+    // Rows of another file may have been joined to one line.
+    const std::string rows =
+        pose.line == other.line
+            ? fmt::format("Two rows that belong to line {} ({}) are alike", pose.line, pose.pose_id)
+            : fmt::format("Line {} ({}) repeats line {} ({})", pose.line, pose.pose_id, other.line, other.pose_id);
     found.push_back(
         {.kind = FindingKind::copied_rows,
          .poses = {other.pose_id, pose.pose_id},
-         .sentence = fmt::format("Line {} ({}) repeats line {} ({}) to the last digit: a copy, not a second "
-                                 "measurement; it is left out.",
-                                 pose.line, pose.pose_id, other.line, other.pose_id)});
+         .sentence = rows + fmt::format(" to the last digit: a copy, not a second measurement; {} is left out.",
+                                        pose.line == other.line ? "one" : "it")});
   }
   data.poses = std::move(kept);
   return found;

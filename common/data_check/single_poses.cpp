@@ -70,6 +70,12 @@ class OutlierSearch {
 
  private:
   const std::string& id(std::size_t row) const { return data_.poses[rows_[row].pose].pose_id; }
+  /// By its name; with its line where another of `rows` has that name too.
+  std::string name_among(const std::vector<std::size_t>& rows, std::size_t row) const {
+    const auto same = [&](std::size_t other) { return id(other) == id(row); };
+    if (std::ranges::count_if(rows, same) < 2) return id(row);
+    return fmt::format("line {} ({})", data_.poses[rows_[row].pose].line, id(row));
+  }
   double error(const TrialRow& row) const { return (row.point_m - predict_.point(row)).norm(); }
   bool fits(const TrialRow& row, double before_m) const {
     return error(row) < kMuchBetter * before_m && predict_.deviations_off(row) < kWithinNoise;
@@ -102,6 +108,8 @@ class OutlierSearch {
     }
     if (cycle.size() < 2 || cycle.size() > kLongestCycle) return;
     Finding finding{.kind = FindingKind::rows_exchanged, .as_given_mm = 0.0, .if_changed_mm = 0.0};
+    std::vector<std::size_t> rows;
+    for (const std::size_t i : cycle) rows.push_back(far_[i].row);
     std::string names;
     for (std::size_t k = 0; k < cycle.size(); ++k) {
       const std::size_t i = cycle[k];
@@ -111,7 +119,7 @@ class OutlierSearch {
       TrialRow moved = rows_[far_[cycle[(k + 1) % cycle.size()]].row];
       moved.point_m = rows_[far_[i].row].point_m;
       finding.if_changed_mm = std::max(finding.if_changed_mm, millimetres(error(moved)));
-      names += (k == 0 ? "" : k + 1 == cycle.size() ? " and " : ", ") + id(far_[i].row);
+      names += (k == 0 ? "" : k + 1 == cycle.size() ? " and " : ", ") + name_among(rows, far_[i].row);
     }
     finding.sentence =
         fmt::format("{} fit if their measured points are exchanged: {:.2f} mm off as given, {:.2f} mm if exchanged.",

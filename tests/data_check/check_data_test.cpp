@@ -99,6 +99,13 @@ TEST(CheckData, PutsExchangedRowsInOneSentence) {
   EXPECT_THAT(sentences_of(check), HasSubstr("fit if their measured points are exchanged"));
 }
 
+TEST(CheckData, TellsRowsOfOneNameByTheirLines) {
+  DataSet data = case_of("two pairs of rows exchanged").data;
+  for (MeasuredPose& pose : data.poses) pose.pose_id = "P11";
+  EXPECT_THAT(sentences_of(checked(data)),
+              ::testing::ContainsRegex("line [0-9]+ \\(P11\\) and line [0-9]+ \\(P11\\) fit"));
+}
+
 TEST(CheckData, SaysWhereTheSetsThatJudgeStandAtCalibrationPoses) {
   DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
@@ -130,6 +137,17 @@ TEST(CheckData, TakesCopiesOutSoThatTheyAreNoRepeats) {
   const std::vector<Finding> copies = take_out_copies(data);
   EXPECT_EQ(copies.size(), 2u);
   EXPECT_EQ(data.poses.size(), before - 2);
+}
+
+TEST(CheckData, SaysOfCopiesThatWereJoinedToOneLineThatTheyAreTwoRows) {
+  DataSet data = case_of("rows copied with their ids").data;
+  for (std::size_t i = 0; i < data.poses.size(); ++i) data.poses[i].line = i + 2;
+  EXPECT_THAT(take_out_copies(data).front().sentence, HasSubstr(" repeats line "));
+  data.poses.push_back(data.poses.front());
+  const std::string line = std::to_string(data.poses.front().line) + " (" + data.poses.front().pose_id + ")";
+  EXPECT_EQ(take_out_copies(data).front().sentence,
+            "Two rows that belong to line " + line +
+                " are alike to the last digit: a copy, not a second measurement; one is left out.");
 }
 
 TEST(CheckData, LeavesRepeatsOfCoarseDigitsAlone) {
