@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,6 +79,7 @@ class PendantSearch {
       for (const Explanation& one : best->explanations) one.apply(read);
       if (settles(fit_base_and_tools(read), readings, read.chain)) return;
     }
+    if (settles_without_one()) return;
     if (try_numbers({.registration = true, .tool = true, .joint_offset = true}, false)) return;
     try_numbers({.registration = true, .tool = true, .joint_offset = true, .geometry = true}, true);
   }
@@ -93,6 +95,28 @@ class PendantSearch {
     result_.findings = std::move(readings);
     result_.explained = true;
     return true;
+  }
+
+  /// Whether all poses but a certain one agree: where leaving out another helps as well, none is to blame.
+  bool settles_without_one() {
+    std::optional<std::size_t> odd;
+    TrialFit fit;
+    for (std::size_t out = 0; out < trial_.rows.size(); ++out) {
+      Trial rest = trial_;
+      rest.rows.erase(rest.rows.begin() + static_cast<std::ptrdiff_t>(out));
+      TrialFit without = fit_base_and_tools(rest);
+      if (largest(without.error_m) > kPendantRounding_m) continue;
+      if (odd) return false;
+      odd = out;
+      fit = std::move(without);
+    }
+    if (!odd) return false;
+    const MeasuredPose& pose = data_.poses[*odd];
+    const bool named = pose.pose_id != fmt::format("line {}", pose.line);
+    return settles(fit, {fmt::format("Line {}{}: the other {} poses agree, and by them its point is at {}, not at {}: "
+                                     "correct it, or read it off again.",
+                                     pose.line, named ? " (" + pose.pose_id + ")" : "", fit.error_m.size(),
+                                     triple(predicted_point(fit, trial_.rows[*odd])), triple(*pose.position_m))});
   }
 
   /// Whether other numbers of the links make it fit; those that differ most are named.

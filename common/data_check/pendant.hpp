@@ -25,8 +25,8 @@ inline constexpr std::size_t kFewestPendantPoses = 6;
 /// `data` holds joints and the positions that the controller states for them in its base frame: numbers of its own
 /// kinematics, so that a right description agrees with them to their rounding. Where it does not, the simplest change
 /// that does is named: the tool point or the base frame alone; joints' signs, exchanges, sums, the convention, units
-/// and mirrored axes, as for measured data; zeros of joints; link lengths. With fewer than kFewestPendantPoses only
-/// errors are told, and that.
+/// and mirrored axes, as for measured data; a single pose that was not read off as it stands; zeros of joints; link
+/// lengths. With fewer than kFewestPendantPoses only errors are told, and that.
 PendantComparison compare_with_pendant(const DataSet& data);
 
 }  // namespace demecal::inline data_check

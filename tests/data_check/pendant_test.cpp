@@ -146,6 +146,36 @@ TEST(Pendant, NamesAJointThatMovesWithTheOneBefore) {
   EXPECT_TRUE(says(comparison, "joint 3")) << ::testing::PrintToString(comparison.findings);
 }
 
+TEST(Pendant, NamesTheLineOfASinglePoseThatIsWrong) {
+  for (const std::size_t wrong : {0U, 5U, 9U}) {
+    for (const bool joint : {false, true}) {
+      DataSet data = read_off(elbow(), elbow(), 10);
+      for (std::size_t i = 0; i < data.poses.size(); ++i) data.poses[i].line = i + 2;
+      (joint ? data.poses[wrong].joints[2] : data.poses[wrong].position_m->y()) += 0.1;
+      const PendantComparison comparison = compare_with_pendant(data);
+      EXPECT_TRUE(comparison.explained);
+      ASSERT_EQ(comparison.findings.size(), 1U);
+      EXPECT_TRUE(says(comparison, "Line " + std::to_string(wrong + 2) + " (" + std::to_string(wrong + 1) +
+                                       "): the other 9 poses agree"))
+          << comparison.findings.front();
+    }
+  }
+}
+
+TEST(Pendant, SaysALineThatHasNoOtherNameOnce) {
+  DataSet data = read_off(elbow(), elbow(), 10);
+  data.poses[4].line = 6;
+  data.poses[4].pose_id = "line 6";
+  data.poses[4].position_m->x() += 0.1;
+  EXPECT_TRUE(says(compare_with_pendant(data), "Line 6: the other 9 poses agree"));
+}
+
+TEST(Pendant, BlamesNoLineWhereTwoAreWrong) {
+  DataSet data = read_off(elbow(), elbow(), 20);
+  for (const std::size_t wrong : {3U, 8U}) data.poses[wrong].position_m->y() += 0.1;
+  EXPECT_FALSE(says(compare_with_pendant(data), "the other"));
+}
+
 TEST(Pendant, SaysWhatItCannotTell) {
   const PendantComparison few = compared([](Chain& chain) { chain.joints[1].a_m = 0.7; }, 4);
   EXPECT_FALSE(few.explained);
