@@ -50,6 +50,7 @@ class DataChecker {
     if (trial_.rows.size() < kFewestRows) return std::move(check_);
     const TrialFit placed = fit_base_and_tools(trial_);
     fit_ = fit_arm(trial_, placed);
+    if (auto computed = find_computed_positions(trial_, placed)) add(std::move(*computed));
     for (Finding& finding : find_contradictions(data_, {whole_, trial_}, placed, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();

@@ -23,6 +23,7 @@ enum class FindingKind {
   rows_exchanged,
   instrument_moved,
   joint_zero_changed,
+  computed_positions,
   set_in_other_frame,
   wrong_tool,
   constant_joint,

@@ -43,6 +43,10 @@ std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whol
 /// The same rows where they are farther off than any arm errs, and nothing that was tried explains them.
 std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
 
+/// Whether base and tools alone bring the nominal arm to the points as closely as their file is rounded, or to a
+/// hundred thousandth of its reach: then nobody measured them. `placed`: the fit of base and tools to `trial`.
+std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFit& placed);
+
 /// In data said to be in the base's frame: axes, a turn of joint 1, or another frame where the fitted base is not
 /// there.
 std::vector<Finding> find_other_base(const DataSet& data, const TrialFit& fit);
