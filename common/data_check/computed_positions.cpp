@@ -77,11 +77,13 @@ std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFi
       .kind = FindingKind::computed_positions,
       .as_given_mm = millimetres(placed.median_m),
       .sentence = fmt::format(
-          "With base and tool alone the nominal arm reaches half of the points to {:.3g} mm{}: these are positions "
+          "With base and tool alone the nominal arm reaches half of the points to within {:.2g} mm{}: these are "
+          "positions "
           "that "
           "the controller (or a simulation) computed from the joints, not measured ones. Measure the points with an "
           "instrument: computed ones say nothing about the arm.",
-          millimetres(placed.median_m), by_rounding ? ", the rounding of the file" : ", as no arm does")};
+          std::max(millimetres(placed.median_m), 1e-4),
+          by_rounding ? ", the rounding of the file" : ", as no arm does")};
 }
 
 }  // namespace demecal::inline data_check

@@ -19,6 +19,7 @@
 #include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
+#include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
@@ -82,6 +83,18 @@ std::string print_page(const CertifyRequest& request) {
   return "no certificate.pdf: " + why;
 }
 
+/// Whether the positions were computed and not measured, so that an agreement with them proves nothing: said on
+/// standard error.
+bool are_computed(const CheckedData& checked) {
+  for (const Finding& finding : checked.check.findings) {
+    if (finding.kind != FindingKind::computed_positions) continue;
+    fmt::print(stderr, "{}: {} No certificate was made; --force makes it all the same.\n", checked.data.file,
+               finding.sentence);
+    return true;
+  }
+  return false;
+}
+
 ExitCode run(const CertifyRequest& request) {
   if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
   CalibratedModel model = load_model(request.model_file);
@@ -91,6 +104,7 @@ ExitCode run(const CertifyRequest& request) {
   model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
   require_same_arm(model.robot, data);
   if (refuses(checked, request.force)) return ExitCode::contradiction;
+  if (!request.force && are_computed(checked)) return ExitCode::contradiction;
   if (!request.force) require_alike_arm(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
   check_fitted(data, model.robot, checked.check);

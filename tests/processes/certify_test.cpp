@@ -103,6 +103,22 @@ TEST(Certify, JudgesKnownLengthsWhereNothingWasMeasured) {
   EXPECT_TRUE(has(refused.err, "contacts.distances")) << refused.err;
 }
 
+TEST(Certify, RefusesPositionsThatWereComputed) {
+  Certified robot;
+  std::string scenario = robot.text("scenario.yaml");
+  scenario.erase(scenario.find("errors:"));
+  scenario.replace(scenario.find("noise_mm: 0.05"), 14, "noise_mm: 0");
+  std::ofstream(robot.path("exact.yaml")) << scenario;
+  const Ended simulated =
+      run("demecal", {"simulate", robot.path("exact.yaml"), "--out", robot.path("data"), "--force"});
+  ASSERT_EQ(simulated.code, 0) << simulated.err;
+  const Ended refused = robot.certify("10");
+  EXPECT_EQ(refused.code, 12) << refused.out;
+  EXPECT_TRUE(has(refused.err, "not measured ones")) << refused.err;
+  EXPECT_TRUE(robot.text("signed/certificate.html").empty());
+  EXPECT_EQ(robot.certify("10", {"--force"}).code, 0);
+}
+
 TEST(Certify, HasTheFiguresOfTheReport) {
   Certified robot;
   ASSERT_EQ(robot.certify("0.5").code, 0);
