@@ -48,8 +48,7 @@ class DataChecker {
       for (Finding& finding : check_contacts(data_)) add(std::move(finding));
     trial_ = calibration_rows();
     if (trial_.rows.size() < kFewestRows) return std::move(check_);
-    const TrialFit placed = fit_base_and_tools(trial_);
-    fit_ = fit_arm(trial_, placed);
+    const TrialFit placed = place();
     if (auto computed = find_computed_positions(trial_, placed)) add(std::move(*computed));
     for (Finding& finding : find_contradictions(data_, {whole_, trial_}, placed, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
@@ -73,6 +72,20 @@ class DataChecker {
       if (data_.poses[whole_.rows[i].pose].set == PoseSet::calibration) rows.push_back(i);
     for (const std::size_t i : spread_indices(rows.size(), kTrialRows)) trial.rows.push_back(whole_.rows[rows[i]]);
     return trial;
+  }
+
+  /// Fits base, tools and links to the trial; returns the fit of base and tools alone. Where the error is notable these
+  /// are searched for, and taken from there if all fits so.
+  TrialFit place() {
+    TrialFit placed = fit_base_and_tools(trial_);
+    fit_ = fit_arm(trial_, placed);
+    const double notable_m = kNotableShare * trial_.reach_m();
+    if (fit_.median_m <= notable_m) return placed;
+    TrialFit searched = search_base_and_tools(trial_, placed);
+    TrialFit with_links = fit_arm(trial_, searched);
+    if (with_links.median_m > notable_m) return placed;
+    fit_ = std::move(with_links);
+    return searched;
   }
 
   /// Moves of the instrument among the calibration poses; the other rows get the station of their neighbours.

@@ -23,7 +23,7 @@ constexpr double kSmallestScale_m = 1e-6;
 constexpr double kUsualShare = 2e-4;      ///< of the reach, which fitted links leave: 0.1 to 0.4 mm of medium arms
 constexpr double kTukey = 6.0;            ///< deviations at which a row's weight is nothing
 constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
-constexpr int kRegistrations = 8, kPlacingSteps = 6, kArmSteps = 8;
+constexpr int kRegistrations = 8, kPlacingSteps = 6, kSearchSteps = 20, kArmSteps = 8;
 
 double tukey_weight(double error_m, double deviation_m) {
   const double share = error_m / (kTukey * deviation_m);
@@ -239,6 +239,11 @@ TrialFit fit_base_and_tools(const Trial& trial) {
   fit.usual_m = kUsualShare * trial.reach_m();
   measure_errors(trial, fit);
   return descend(trial, std::move(fit), false, kPlacingSteps);
+}
+
+TrialFit refit_base_and_tools(const Trial& trial, TrialFit start) {
+  measure_errors(trial, start);
+  return descend(trial, std::move(start), false, kSearchSteps);
 }
 
 TrialFit fit_arm(const Trial& trial, const TrialFit& placed) {

@@ -62,6 +62,14 @@ struct TrialFit {
 /// variance reach at that rank, times sqrt(n / (n - p / 3)).
 TrialFit fit_base_and_tools(const Trial& trial);
 
+/// Steps from the base and tools of `start`, in place of a registration.
+TrialFit refit_base_and_tools(const Trial& trial, TrialFit start);
+
+/// The fit of base and tools with the least median, of `placed` and of steps from orientations of the base all round,
+/// each with the tools that suit it best: along a smooth path the nominal tool may lead to another minimum. Of trials
+/// of one station.
+TrialFit search_base_and_tools(const Trial& trial, const TrialFit& placed);
+
 /// The same with every link parameter beside them, held near nominal by kLinkDeviation over the scale of the errors:
 /// where nothing fits, links stay as they are; where all fits, they take what the points show. Goes on from `placed`,
 /// a fit of base and tools.

@@ -4,13 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "../errors/complaint.hpp"
 #include "data_check/searches.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "mistaken_case.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal {
 namespace {
@@ -68,6 +74,49 @@ TEST(CheckData, NamesEveryMistakeOfTheBenchmark) {
 TEST(CheckData, FindsNothingWhereNothingIsWrong) {
   for (const MistakenCase& one : bench::unmistaken_cases(arms(), 24)) {
     EXPECT_THAT(sentences_of(checked(one.data)), IsEmpty()) << one.arm << " " << one.number;
+  }
+}
+
+/// Poses along a smooth path, measured at a point that the robot's description does not know of.
+DataSet smooth_path(const Robot& arm, double step_rad, std::uint64_t seed) {
+  DataSet data;
+  data.robot = arm;
+  data.robot.chain.tool_m.setZero();
+  data.frame = Frame::sensor;
+  RandomStream random{seed};
+  const Eigen::Isometry3d base(Eigen::Translation3d(2.8, -0.6, 0.4) * Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()));
+  std::vector<double> phases;
+  for (int joint = 0; joint < arm.chain.size(); ++joint) phases.push_back(random.real(0.0, 6.0));
+  for (int i = 0; i < 100; ++i) {
+    MeasuredPose pose;
+    pose.joints.resize(arm.chain.size());
+    for (int joint = 0; joint < arm.chain.size(); ++joint)
+      pose.joints[joint] =
+          (1.0 + 0.3 * joint) * std::sin(step_rad * i * (0.9 + 0.4 * joint) + phases[static_cast<std::size_t>(joint)]);
+    const Eigen::Vector3d noise(random.normal(), random.normal(), random.normal());
+    pose.position_m = base * (forward(arm.chain, pose.joints) * Eigen::Vector3d(0.08, 0.03, 0.12)) + 3e-5 * noise;
+    pose.pose_id = std::to_string(i + 1);
+    data.poses.push_back(std::move(pose));
+  }
+  return data;
+}
+
+TEST(CheckData, DoesNotRefuseASmoothPathWithAnUnknownTool) {
+  for (const Robot& arm : arms()) {
+    for (const double step_rad : {0.004, 0.006}) {
+      for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+        const DataCheck check = checked(smooth_path(arm, step_rad, seed));
+        EXPECT_NE(check.verdict(), DataVerdict::contradiction) << arm.name << " " << seed << sentences_of(check);
+      }
+    }
+  }
+}
+
+TEST(CheckData, RefusesASmoothPathWhoseRowsAreShifted) {
+  for (const Robot& arm : arms()) {
+    DataSet data = smooth_path(arm, 0.06, 1);
+    for (std::size_t i = 0; i + 3 < data.poses.size(); ++i) data.poses[i].position_m = data.poses[i + 3].position_m;
+    EXPECT_TRUE(checked(data).has(FindingKind::rows_shifted)) << arm.name;
   }
 }
 

@@ -59,6 +59,37 @@ TEST(TrialFit, FindsAnExactArmFromFarOff) {
   }
 }
 
+/// An arm along a smooth path, its tool unknown.
+Trial smooth_trial(std::uint64_t seed) {
+  Trial trial = exact_trial(seed);
+  RandomStream random{seed, 5};
+  const Eigen::Vector3d tool_m = trial.tools_m[0] + Eigen::Vector3d(0.15, -0.1, 0.05);
+  trial.tools_m[0].setZero();
+  const Eigen::Isometry3d base(Eigen::Translation3d(1.0, -2.0, 0.5) *
+                               Eigen::AngleAxisd(2.2, Eigen::Vector3d(1, 2, 3).normalized()));
+  std::vector<double> phases;
+  for (int joint = 0; joint < trial.chain.size(); ++joint) phases.push_back(random.real(0.0, 6.0));
+  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
+    TrialRow& row = trial.rows[i];
+    for (int joint = 0; joint < trial.chain.size(); ++joint)
+      row.joints[joint] =
+          1.4 * std::sin(0.01 * static_cast<double>(i) * (0.9 + 0.4 * joint) + phases[static_cast<std::size_t>(joint)]);
+    row.point_m = base * (forward(trial.chain, row.joints) * tool_m);
+  }
+  return trial;
+}
+
+TEST(TrialFit, ASearchFindsTheToolAlongASmoothPath) {
+  int missed = 0;
+  for (std::uint64_t seed = 70; seed < 90; ++seed) {
+    const Trial trial = smooth_trial(seed);
+    const TrialFit placed = fit_base_and_tools(trial), searched = search_base_and_tools(trial, placed);
+    missed += placed.median_m > 1e-3 ? 1 : 0;
+    EXPECT_LT(searched.median_m, 1e-4) << seed << " " << placed.median_m;
+  }
+  EXPECT_GT(missed, 0) << "the registration of the nominal tool's points would do";
+}
+
 TEST(TrialFit, IsNotMovedByAFewWrongRows) {
   for (const std::uint64_t seed : {4, 5, 6}) {
     Trial trial = exact_trial(seed);
