@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -24,6 +25,9 @@ namespace {
 /// What base and tool alone usually leave; only the ratio between the kinds matters here.
 constexpr double kTypicalResidual_m = 1e-3, kTypicalResidual_rad = 2e-3;
 constexpr int kFirstIterations = 10;
+/// More than base and tool leave of most arms: the tool as described may have led to another minimum.
+constexpr double kMisplaced_m = 1e-3;
+constexpr double kFarLess = 0.25;  ///< of the cost, below which another minimum is taken: equals stay as they were
 
 /// At most `count` of the poses, spread over all: multiples of a stride that shares no divisor with their number, so
 /// that targets measured in turn all occur.
@@ -73,7 +77,15 @@ class BaseSearch {
       PlacedRobot placed = refined(with_base(base), kFirstIterations);
       if (placed.cost < best.cost) best = std::move(placed);
     }
-    return refined(best.robot, 10 * kFirstIterations).robot;
+    best = refined(best.robot, 10 * kFirstIterations);
+    if (!tool_ || root_mean_squares(data_, best.robot, observations_)[kPosition] < kMisplaced_m) return best.robot;
+    PlacedRobot other{start_};
+    for (const Eigen::Isometry3d& base : bases) {
+      PlacedRobot placed = refined(with_tools(base), 5 * kFirstIterations);
+      if (placed.cost < other.cost) other = std::move(placed);
+    }
+    other = refined(other.robot, 10 * kFirstIterations);
+    return other.cost < kFarLess * best.cost ? other.robot : best.robot;
   }
 
   const std::vector<Observation>& observations() const { return observations_; }
@@ -88,6 +100,30 @@ class BaseSearch {
     CorrectedRobot robot = start_;
     robot.sensor_from_base = base;
     if (tool_) turn_tools(robot, data_, observations_);
+    return robot;
+  }
+
+  /// The base so turned, its translation and the tools at least squares, in which measured positions are linear.
+  CorrectedRobot with_tools(const Eigen::Isometry3d& base) const {
+    CorrectedRobot robot = with_base(base);
+    std::map<std::string, Eigen::Index> places;
+    for (const Observation& observation : observations_)
+      places.try_emplace(data_.poses[observation.pose].target, 3 + 3 * std::ssize(places));
+    const auto rows = 3 * std::ssize(observations_), size = 3 + 3 * std::ssize(places);
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows, size);
+    Eigen::VectorXd points = Eigen::VectorXd::Zero(rows);
+    for (Eigen::Index row = 0; row < rows; row += 3) {
+      const Observation& observation = observations_[static_cast<std::size_t>(row / 3)];
+      const MeasuredPose& pose = data_.poses[observation.pose];
+      if (!pose.position_m) continue;
+      const Eigen::Isometry3d flange = forward(robot.chain, observation.corrected);
+      slopes.block<3, 3>(row, 0).setIdentity();
+      slopes.block<3, 3>(row, places.at(pose.target)) = base.linear() * flange.linear();
+      points.segment<3>(row) = measured_point(robot, pose) - base.linear() * flange.translation();
+    }
+    const Eigen::VectorXd placed = slopes.completeOrthogonalDecomposition().solve(points);
+    robot.sensor_from_base.translation() = placed.head<3>();
+    for (const auto& [target, place] : places) robot.tools.at(target).translation() = placed.segment<3>(place);
     return robot;
   }
 

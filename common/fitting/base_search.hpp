@@ -19,7 +19,8 @@ namespace demecal::inline fitting {
 /// over `poses`: near enough for every parameter to be refined together. Every start is refined a little and the best
 /// one to the end. Starts are: the start's own base; the closed-form registration of its predicted points to the
 /// measured ones; and options.starts orientations spread evenly over all (super-Fibonacci spiral, Alexa 2022) with the
-/// middle of the points brought together or, where only distances were measured, set down around the anchors. The base
+/// middle of the points brought together or, where only distances were measured, set down around the anchors. Where
+/// that leaves more than 1 mm, every start again with the tools that suit its orientation best. The base
 /// is searched for only in a data set whose frame is the instrument's. The start's effects are too small to matter to
 /// the search, which leaves them out. With options.starts 0 the start is trusted.
 CorrectedRobot locate_base_and_tools(const DataSet& data, std::span<const std::size_t> poses,
