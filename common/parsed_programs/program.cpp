@@ -115,7 +115,8 @@ void take_uses(const std::vector<TargetUse>& uses, Target& target) {
     } else if (use.begin != first->begin) {
       target.further_motions.push_back(use.begin);
     }
-    if (use.motion == Motion::joints && use.near.has_value() == first->near.has_value()) target.motion = Motion::joints;
+    const bool ends_elsewhere = use.near && first->near;
+    if (ends_elsewhere || (!use.near && use.motion == Motion::joints)) target.motion = Motion::joints;
     if (!same_tool(use.frames, first->frames)) {
       target.frames.unknown_tool = "it is moved to with different tools";
       target.frames.several_tools = true;

@@ -130,11 +130,11 @@ std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const St
 }
 
 /// Fills a field's rows, pose by pose.
-class PoseRows {
+class FieldRows {
  public:
   /// Keeps all but the noise by reference.
-  PoseRows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point, const RowScales& scales,
-           const NoiseModel& noise, bool robust)
+  FieldRows(const DataSet& data, const ParameterSpace& space, const ModelPoint& point, const RowScales& scales,
+            const NoiseModel& noise, bool robust)
       : data_(data), space_(space), point_(point), scales_(scales), noise_(noise), robust_(robust) {}
 
   /// Those of the field's pose of this number, which `observation` is of.
@@ -153,7 +153,7 @@ class PoseRows {
 };
 
 /// How far out the pose is: what poses share may be the larger part of it.
-double PoseRows::norm_in_deviations(const ResidualField& field, std::size_t number) const {
+double FieldRows::norm_in_deviations(const ResidualField& field, std::size_t number) const {
   const Eigen::Index first = field.first_row[number], count = field.rows_of_pose(number);
   const double shared = noise_.repeats * noise_.repeats + noise_.order * noise_.order - noise_.fast;
   if (shared <= 0.0) return field.residual.segment(first, count).norm();
@@ -163,7 +163,7 @@ double PoseRows::norm_in_deviations(const ResidualField& field, std::size_t numb
   return whole.llt().matrixL().solve(rows_.residual).norm();
 }
 
-void PoseRows::fill(ResidualField& field, std::size_t number, const Observation& observation) {
+void FieldRows::fill(ResidualField& field, std::size_t number, const Observation& observation) {
   const MeasuredPose& pose = data_.poses[observation.pose];
   const CorrectedRobot& robot = space_.reference();
   scaled_rows(data_, space_, point_, observation, scales_, rows_);
@@ -216,7 +216,7 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
   field.scattering = turns_of(data.robot.chain);
   const ModelPoint point = space.at(Eigen::VectorXd::Zero(space.size()));
   in_pieces((in_use.size() + kPosesOfPiece - 1) / kPosesOfPiece, [&](std::size_t piece) {
-    PoseRows rows(data, space, point, scales, noise, robust);
+    FieldRows rows(data, space, point, scales, noise, robust);
     const std::size_t end = std::min((piece + 1) * kPosesOfPiece, in_use.size());
     for (std::size_t pose = piece * kPosesOfPiece; pose < end; ++pose) rows.fill(field, pose, *in_use[pose]);
   });
