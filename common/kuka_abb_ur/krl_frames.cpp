@@ -285,7 +285,7 @@ void KrlFrames::complete(Target& target) {
 }
 
 void KrlFrames::note_routines(Program& program) const {
-  flow_.note_unknown_arrivals(program);
+  flow_.note_arrivals(program);
   if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 

@@ -132,7 +132,7 @@ void end_at_rapid_routines(const ProgramText& text, Program& program) {
     if (name == 0 && begin != own) way.read_word(begin, word);
   });
   flow.finish();
-  flow.note_unknown_arrivals(program);
+  flow.note_arrivals(program);
 }
 
 RapidStatements::RapidStatements(const ProgramText& text, Program& program)

@@ -25,7 +25,7 @@ void LabelledWay::motion(std::size_t at) {
 }
 
 void LabelledWay::note_arrivals(const ProgramText& text, Program& program) const {
-  flow_.note_unknown_arrivals(program);
+  flow_.note_arrivals(program);
   if (jumps_anywhere_) program.unknown_motions.insert(program.unknown_motions.end(), labels_.begin(), labels_.end());
   std::set<std::size_t> between = flow_.calls_elsewhere();
   std::erase_if(between,

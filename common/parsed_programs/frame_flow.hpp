@@ -64,7 +64,7 @@ class FrameFlow {
   Held at(std::size_t offset) const;
   /// Tells `program`, whose motions are known, the way through it, and where calls of routines that move leave unknown
   /// where the arm comes from.
-  void note_unknown_arrivals(Program& program) const;
+  void note_arrivals(Program& program) const;
   /// The calls of routines of other files.
   std::set<std::size_t> calls_elsewhere() const;
 

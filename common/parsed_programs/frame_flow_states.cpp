@@ -135,7 +135,7 @@ const FrameFlow::Node* FrameFlow::node_at(std::size_t offset) const {
   return next == nodes_.begin() ? nullptr : &*std::prev(next);
 }
 
-void FrameFlow::note_unknown_arrivals(Program& program) const {
+void FrameFlow::note_arrivals(Program& program) const {
   std::set<std::size_t> motions;
   for (const Target& target : program.targets) {
     motions.insert(target.order);

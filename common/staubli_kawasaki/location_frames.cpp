@@ -105,7 +105,7 @@ void LocationFrames::note_routines(const ProgramText& text, Program& program) co
     note_unknown_motion(program, at, {.name = "", .place = text.place(at)},
                         "the motion of " + word + " goes to no location of this program");
   }
-  flow_.note_unknown_arrivals(program);
+  flow_.note_arrivals(program);
   if (believed_) note_calls_elsewhere(text, flow_.calls_elsewhere(), calls_, program);
 }
 

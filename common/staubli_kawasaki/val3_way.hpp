@@ -18,7 +18,7 @@ class Val3Way {
   void finish() { flow_.finish(); }
   /// Tells `program`, whose targets are known, where the motion before in the text is not, or not always, the one that
   /// the arm comes from.
-  void note_arrivals(Program& program) const { flow_.note_unknown_arrivals(program); }
+  void note_arrivals(Program& program) const { flow_.note_arrivals(program); }
 
  private:
   void read_word(const ProgramText& code, std::size_t begin);
