@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "fitting/row_sums.hpp"
@@ -114,14 +116,9 @@ class MarquardtDamping {
 
 }  // namespace
 
-double norm_quantile(int rows, double normal_quantile) {
-  const double spread = 2.0 / (9.0 * rows);
-  return std::sqrt(rows * std::pow(1.0 - spread + normal_quantile * std::sqrt(spread), 3.0));
-}
-
 double huber_threshold(int rows) {
-  constexpr double kOnceInTwenty = 1.645;
-  return norm_quantile(rows, kOnceInTwenty);
+  static const NormalLengths threshold(0.95);
+  return threshold(rows);
 }
 
 Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start) {
@@ -228,14 +225,15 @@ Eigen::MatrixXd prior_information(const LeastSquares& problem, const Eigen::Vect
 
 std::vector<std::size_t> find_outliers(const LeastSquares& problem, const CorrectedRobot& robot,
                                        const RowScales& scales) {
-  // At least the normal quantile that one of so many exceeds once in a hundred fits: P(Z > x) < exp(-x^2 / 2) / 2.
-  const double quantile = std::sqrt(2.0 * std::log(50.0 * static_cast<double>(problem.observations.size())));
+  // At least the quantile that one of so many exceeds once in a hundred fits: P(Z > x) < exp(-x^2 / 2) / 2.
+  const double normal = std::sqrt(2.0 * std::log(50.0 * static_cast<double>(problem.observations.size())));
+  const NormalLengths threshold(1.0 - 0.5 * std::erfc(normal * std::numbers::sqrt2 / 2.0));
   std::vector<std::size_t> outliers;
   ScaledRows rows;
   for (const Observation& observation : problem.observations) {
     scaled_residual(problem.data, robot, observation, scales, rows);
     const auto used = static_cast<int>(rows.residual.size());
-    if (used > 0 && rows.residual.norm() > norm_quantile(used, quantile)) outliers.push_back(observation.pose);
+    if (used > 0 && rows.residual.norm() > threshold(used)) outliers.push_back(observation.pose);
   }
   std::sort(outliers.begin(), outliers.end());
   return outliers;

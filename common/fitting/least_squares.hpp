@@ -56,10 +56,6 @@ Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start);
 /// once in twenty poses.
 double huber_threshold(int rows);
 
-/// The root of the chi-squared quantile with `rows` degrees of freedom at which a normal variable has `normal_quantile`
-/// (Wilson and Hilferty, 1931).
-double norm_quantile(int rows, double normal_quantile);
-
 struct Scatter {
   RowScales deviation{};         ///< standard deviation per kind, sqrt(2 cost / dof); 0 for kinds not in use
   RowScales median_deviation{};  ///< the same from the median of absolute residuals, which outliers cannot move

@@ -24,6 +24,16 @@ double normal_length_quantile(int axes, double share) {
   return std::sqrt(boost::math::quantile(boost::math::chi_squared(axes), share));
 }
 
+NormalLengths::NormalLengths(double share) : share_(share) {
+  int axes = 0;
+  for (float& length : of_axes_) length = static_cast<float>(normal_length_quantile(++axes, share));
+}
+
+double NormalLengths::operator()(int axes) const {
+  const auto place = static_cast<std::size_t>(axes - 1);
+  return place < of_axes_.size() ? of_axes_[place] : static_cast<float>(normal_length_quantile(axes, share_));
+}
+
 double median_coverage(std::size_t count, std::size_t rank) {
   return 1.0 -
          2.0 * boost::math::cdf(boost::math::binomial(static_cast<double>(count), 0.5), static_cast<double>(rank));

@@ -1,6 +1,7 @@
 // Shares and quantiles of the distributions that judgements rest on, by Boost.Math; medians, and how sure they are.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -14,6 +15,17 @@ double fisher_quantile(double share, double above, double below);
 /// The length that a vector of `axes` independent standard normal numbers stays below with probability `share`: the
 /// root of the quantile of chi-square.
 double normal_length_quantile(int axes, double share);
+
+/// The same for many calls, of 24 bits, in which the C libraries of all machines agree: thresholds of fits.
+class NormalLengths {
+ public:
+  explicit NormalLengths(double share);
+  double operator()(int axes) const;
+
+ private:
+  double share_;
+  std::array<float, 12> of_axes_{};  ///< from 1 on
+};
 
 /// The probability that a median lies between the value number `rank` (from 0) of a sample of `count`, in order, and
 /// the one as far from the end: how many values lie below the median is binomial with 1/2.

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "errors/input_error.hpp"
 #include "fitting/known_arm.hpp"
+#include "fitting/least_squares.hpp"
 #include "parameters/parameter_space.hpp"
 
 namespace demecal {
@@ -45,6 +48,21 @@ TEST_P(EveryArm, IsRecoveredWithTheTargetHeldInAnyOrientation) {
   EXPECT_LT(largest_error_m(fit.robot, arm, stream), kExact_m);
   for (const MeasuredPose& pose : arm.data.poses) {
     EXPECT_LT(residual(fit.robot, arm.data, pose).norm(), kExact_m);
+  }
+}
+
+TEST(Fit, HoldsOneCleanPoseInTwentyForFar) {
+  RandomStream stream{71, 21};
+  for (const int rows : {1, 3, 6}) {
+    constexpr int kDraws = 20000;
+    int far = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      double squares = 0.0;
+      for (int row = 0; row < rows; ++row) squares += std::pow(stream.normal(), 2);
+      if (std::sqrt(squares) > huber_threshold(rows)) ++far;
+    }
+    constexpr double kStandardError = 0.00154;
+    EXPECT_NEAR(static_cast<double>(far) / kDraws, 0.05, 3.0 * kStandardError) << rows;
   }
 }
 

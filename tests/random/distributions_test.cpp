@@ -33,6 +33,17 @@ TEST(Distributions, KnowTheLengthsOfNormalVectors) {
   }
 }
 
+TEST(Distributions, KeepTheLengthsOfNormalVectors) {
+  for (const double share : {0.5, 0.95, 1 - 1e-7}) {
+    const NormalLengths lengths(share);
+    for (int axes = 1; axes <= 20; ++axes) {
+      const double length = normal_length_quantile(axes, share);
+      EXPECT_NEAR(lengths(axes), length, 1e-7 * length) << axes;
+      EXPECT_EQ(lengths(axes), static_cast<float>(lengths(axes)));
+    }
+  }
+}
+
 TEST(Distributions, CountValuesBelowAMedian) {
   for (std::size_t count = 2; count <= 20; ++count) {
     double ways = 1.0, below = 0.0;  // of exactly `rank` values below, and of as many at most
