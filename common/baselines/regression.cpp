@@ -1,12 +1,13 @@
 #include "baselines/regression.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <limits>
 #include <map>
 #include <string>
 #include <utility>
+
+#include "decompositions/decompositions.hpp"
 
 namespace demecal::inline baselines {
 namespace {
@@ -100,7 +101,7 @@ Eigen::MatrixXd ridge_solution(const RidgeSums& sums, const Eigen::VectorXd& wei
     square(k, k) += unit[k] > 0.0 ? held : 1.0;
     if (unit[k] > 0.0) linear.row(k) -= held / unit[k] * offset.row(k);
   }
-  return unit.asDiagonal() * square.ldlt().solve(linear);
+  return unit.asDiagonal() * PivotedCholesky(square).solve(linear);
 }
 
 std::span<const double> ridges() {

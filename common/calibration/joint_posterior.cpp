@@ -1,6 +1,4 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +10,7 @@
 
 #include "calibration/joint_targets.hpp"
 #include "data/data_set.hpp"
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
@@ -49,10 +48,10 @@ struct JointRows {
       squares[row] = std::pow(scales[kinds[static_cast<std::size_t>(row)]], 2);
     return squares;
   }
-  Eigen::LLT<Eigen::MatrixXd> covariance(const RowScales& scales) const {
+  Cholesky covariance(const RowScales& scales) const {
     Eigen::MatrixXd sum = jacobian * jacobian.transpose();
     sum.diagonal() += variances(scales);
-    return Eigen::LLT<Eigen::MatrixXd>(sum);
+    return Cholesky(sum);
   }
 };
 
@@ -80,9 +79,8 @@ JointRows rows_at(const DataSet& data, const MeasuredPose& pose, const Corrected
 
 /// Minus twice the logarithm of the rows' probability density.
 double deviance(const JointRows& rows, const RowScales& scales) {
-  const Eigen::LLT<Eigen::MatrixXd> covariance = rows.covariance(scales);
-  const Eigen::VectorXd whitened = covariance.matrixL().solve(rows.residual);
-  return whitened.squaredNorm() + 2.0 * covariance.matrixLLT().diagonal().array().log().sum();
+  const Cholesky covariance = rows.covariance(scales);
+  return covariance.whitened(rows.residual).squaredNorm() + covariance.log_determinant();
 }
 
 /// Minus twice the logarithm of the density of `x`, standard deviations from the mean, given the rows.

@@ -1,12 +1,12 @@
 #include "calibration/joint_targets.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "prediction/measurement.hpp"
 
@@ -29,7 +29,7 @@ Eigen::Vector3d measured_position(const CorrectedRobot& robot, const DataSet& da
   for (int iteration = 0; iteration < 5; ++iteration) {
     const Eigen::VectorXd missing = residual(moved, data, pose);
     const Eigen::MatrixXd rows = measurement_jacobian(moved, tool, data, pose).leftCols<3>();
-    const Eigen::Vector3d step = rows.completeOrthogonalDecomposition().solve(missing);
+    const Eigen::Vector3d step = least_norm_solution(rows, missing);
     moved.sensor_from_base.pretranslate(step);
     tool.pretranslate(step);
   }

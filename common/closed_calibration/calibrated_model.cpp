@@ -1,12 +1,11 @@
 #include "closed_calibration/calibrated_model.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
 #include "fitting/least_squares.hpp"
 #include "prediction/measurement.hpp"
@@ -52,11 +51,11 @@ void widen(const Linearization& linearization, Eigen::MatrixXd& covariance) {
   if (places.empty()) return;
   const Eigen::VectorXd unit = Eigen::Map<const Eigen::VectorXd>(usual.data(), std::ssize(usual));
   const Eigen::MatrixXd columns = linearization.fitted.declared(Eigen::all, places) * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
-  const double largest = eigen.eigenvalues().maxCoeff();
+  const auto eigen = eigen_system(columns.transpose() * columns);
+  const double largest = eigen.values.maxCoeff();
   for (Eigen::Index k = 0; k < unit.size(); ++k) {
-    if (eigen.eigenvalues()[k] > kUnseen * largest) continue;
-    const Eigen::VectorXd unseen = unit.asDiagonal() * eigen.eigenvectors().col(k);
+    if (eigen.values[k] > kUnseen * largest) continue;
+    const Eigen::VectorXd unseen = unit.asDiagonal() * eigen.vectors.col(k);
     for (std::size_t i = 0; i < places.size(); ++i) {
       for (std::size_t j = 0; j < places.size(); ++j) {
         covariance(places[i], places[j]) += unseen[static_cast<Eigen::Index>(i)] * unseen[static_cast<Eigen::Index>(j)];
@@ -71,11 +70,9 @@ Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd deviations = covariance.diagonal().cwiseMax(1e-40).cwiseSqrt();
   const Eigen::MatrixXd correlation =
       deviations.cwiseInverse().asDiagonal() * covariance * deviations.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(root.transpose());
-  const Eigen::MatrixXd upper = qr.matrixQR().triangularView<Eigen::Upper>();
-  return deviations.asDiagonal() * upper.transpose();
+  const auto eigen = eigen_system(correlation);
+  const Eigen::MatrixXd root = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return deviations.asDiagonal() * upper_factor(root.transpose()).transpose();
 }
 
 /// Axes in which a pose's tool error has noise: of a touched plane one, of a measured point three.

@@ -1,6 +1,5 @@
 #include "data/data_set.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
@@ -97,8 +97,9 @@ void weigh_by_stated_uncertainty(DataSet& data) {
   data.usual_sigma_m = *middle;
   for (MeasuredPose& pose : data.poses) {
     if (!pose.position_covariance_m2) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(*pose.position_covariance_m2);
-    pose.position_whitening = data.usual_sigma_m * own.operatorInverseSqrt();
+    const auto own = eigen_system_of_three(*pose.position_covariance_m2);
+    pose.position_whitening = data.usual_sigma_m * (own.vectors * own.values.cwiseInverse().cwiseSqrt().asDiagonal() *
+                                                    own.vectors.transpose());
   }
 }
 

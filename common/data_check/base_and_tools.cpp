@@ -1,7 +1,5 @@
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
@@ -19,6 +17,7 @@
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
+#include "decompositions/decompositions.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -91,7 +90,7 @@ std::optional<double> turn_of_last_joint(const Chain& chain, const Eigen::Vector
 bool is_elsewhere(const TrialFit& fit, int target, const Eigen::Vector3d& nominal) {
   const Eigen::Vector3d change = fit.tools_m[static_cast<std::size_t>(target)] - nominal;
   if (nominal.norm() == 0.0 || change.norm() < kOtherTool_m || !fit.has_links()) return false;
-  return change.dot(fit.tool_covariance(target).ldlt().solve(change)) >= kSureDeviations * kSureDeviations * 3.0;
+  return change.dot(solve_pivoted(fit.tool_covariance(target), change)) >= kSureDeviations * kSureDeviations * 3.0;
 }
 
 Finding other_tool(const Trial& trial, int target, const TrialFit& fit, const std::string& which) {

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +14,7 @@
 #include "data/text.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
+#include "decompositions/decompositions.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 
@@ -49,7 +48,7 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& points) {
   for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& point : points) spread += (point - mean) * (point - mean).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return eigen_system_of_three(spread).values.cwiseMax(0.0).cwiseSqrt();
 }
 
 std::vector<Finding> degenerate_points(const DataSet& data, const std::vector<std::size_t>& poses) {

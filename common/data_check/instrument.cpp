@@ -1,6 +1,4 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,4 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "data_check/explanations.hpp"
 #include "data_check/point_pairs.hpp"
 #include "data_check/trial_fit.hpp"
+#include "decompositions/decompositions.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
 
@@ -38,7 +37,7 @@ std::vector<Eigen::Vector3d> own_tools(const TrialFit& fit, std::span<const Tria
         information += weight * Eigen::Matrix3d::Identity();
         gradient += weight * flange.linear().transpose() * error;
       }
-      tools[target] += information.llt().solve(gradient);
+      tools[target] += solve_positive(information, gradient);
     }
   }
   return tools;

@@ -1,10 +1,10 @@
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <utility>
 
 #include "data_check/trial_fit.hpp"
+#include "decompositions/decompositions.hpp"
 #include "fitting/base_search.hpp"
 #include "kinematics/forward.hpp"
 
@@ -26,7 +26,7 @@ void place_tools(const Trial& trial, const Eigen::Matrix3d& turn, TrialFit& fit)
     slopes.block<3, 3>(3 * i, 3 + 3 * row.target) = turn * flange.linear();
     points.segment<3>(3 * i) = row.point_m - turn * flange.translation();
   }
-  const Eigen::VectorXd placed = slopes.completeOrthogonalDecomposition().solve(points);
+  const Eigen::VectorXd placed = least_norm_solution(slopes, points);
   fit.sensor_from_base.front().linear() = turn;
   fit.sensor_from_base.front().translation() = placed.head<3>();
   for (std::size_t i = 0; i < fit.tools_m.size(); ++i)

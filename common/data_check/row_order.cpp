@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "data_check/explanations.hpp"
 #include "data_check/trial_fit.hpp"
+#include "decompositions/decompositions.hpp"
 #include "fitting/base_search.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
@@ -147,7 +147,7 @@ double brought_together(const Clouds& clouds, Eigen::Isometry3d& base) {
     const double now = median(distances);
     if (now > 0.999 * before) return now;
     before = now;
-    base = Eigen::Isometry3d(Eigen::umeyama(clouds.arm, matched, false));
+    base = rigid_motion(clouds.arm, matched);
   }
   return before;
 }

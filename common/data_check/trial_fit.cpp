@@ -1,8 +1,7 @@
 #include "data_check/trial_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
-#include <Eigen/SVD>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -11,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
 #include "parameters/declared_model.hpp"
@@ -162,7 +162,7 @@ bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, T
   }
   const Eigen::MatrixXd by_points = normal.information.selfadjointView<Eigen::Lower>();
   add_priors(trial, fit, places, normal);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(normal.information.selfadjointView<Eigen::Lower>());
+  const PivotedCholesky factor(normal.information.selfadjointView<Eigen::Lower>());
   const Eigen::VectorXd step = factor.solve(normal.gradient);
   if (!step.allFinite()) return false;
   fit.covariance = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
@@ -212,7 +212,7 @@ Eigen::Matrix3d TrialFit::prediction_covariance(const TrialRow& row) const {
 double TrialFit::deviations_off(const TrialRow& row) const {
   const Eigen::Vector3d error = row.point_m - predicted_point(*this, row);
   const Eigen::Matrix3d expected = prediction_covariance(row) + deviation_m * deviation_m * Eigen::Matrix3d::Identity();
-  return std::sqrt(std::max(0.0, error.dot(expected.ldlt().solve(error))));
+  return std::sqrt(std::max(0.0, error.dot(solve_pivoted(expected, error))));
 }
 
 Eigen::Matrix3d TrialFit::tool_covariance(int tool) const {
@@ -277,10 +277,8 @@ Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eige
   const Eigen::Vector3d from_mean = from * weights / sum, to_mean = to * weights / sum;
   const Eigen::Matrix3d cross =
       (to.colwise() - to_mean) * weights.asDiagonal() * (from.colwise() - from_mean).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = svd.matrixU() * Eigen::Vector3d(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
+  motion.linear() = nearest_rotation(cross);
   motion.translation() = to_mean - motion.linear() * from_mean;
   return motion;
 }

@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "data_check/explanations.hpp"
 #include "data_check/point_pairs.hpp"
 #include "data_check/trial_fit.hpp"
+#include "decompositions/decompositions.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
@@ -38,7 +38,7 @@ class Projected {
     const Eigen::MatrixXd weighted = weights_.asDiagonal() * linear_.jacobian;
     Eigen::MatrixXd information = linear_.jacobian.transpose() * weighted;
     information.diagonal() += linear_.prior;
-    factor_.compute(information);
+    factor_ = PivotedCholesky(information);
     weighted_ = weighted;
     error_ = factor_.solve(weighted_.transpose() * linear_.error_m);
   }
@@ -56,14 +56,14 @@ class Projected {
     const Eigen::VectorXd error = with_error(columns);
     Eigen::MatrixXd squares = with_itself(columns);
     squares.diagonal() *= 1.0 + 1e-9;
-    return 0.5 * error.dot(squares.ldlt().solve(error));
+    return 0.5 * error.dot(PivotedCholesky(squares).solve(error));
   }
 
  private:
   LinearizedTrial linear_;
   Eigen::VectorXd weights_, error_;
   Eigen::MatrixXd weighted_;
-  Eigen::LDLT<Eigen::MatrixXd> factor_;
+  PivotedCholesky factor_;
 };
 
 /// How points move with one joint, three coordinates a row.

@@ -1,10 +1,10 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "diagnosis/explain.hpp"
 #include "diagnosis/judgement.hpp"
 #include "effects/law_terms.hpp"
@@ -41,12 +41,13 @@ NewColumns new_columns(const LoopEnd& end, const Linearization& linearization, c
 /// The trial of some of the columns beside all others: what a fit of all says of them.
 Projection::Trial beside_others(const Projection::Trial& all, const Eigen::MatrixXd& inverse, const ColumnSpan& span) {
   const Eigen::MatrixXd own = inverse.block(span.first, span.first, span.count, span.count);
-  const Eigen::MatrixXd turn = own.ldlt().solve(inverse.middleCols(span.first, span.count).transpose()).transpose();
+  const Eigen::MatrixXd turn =
+      PivotedCholesky(own).solve(inverse.middleCols(span.first, span.count).transpose()).transpose();
   Projection::Trial trial;
   trial.fitted = all.fitted * turn;
   trial.validation = all.validation * turn;
   trial.coefficients = all.coefficients.segment(span.first, span.count);
-  trial.drop = trial.coefficients.dot(own.ldlt().solve(trial.coefficients));
+  trial.drop = trial.coefficients.dot(PivotedCholesky(own).solve(trial.coefficients));
   trial.rank = span.count;
   trial.validation_residual = all.validation_residual;
   return trial;
@@ -136,8 +137,7 @@ std::vector<Round> judged_together(const LoopEnd& end, const DiagnosedModel& mod
   const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
   scaled.diagonal().array() += kNewShare;
-  const Eigen::MatrixXd inverse =
-      scale.asDiagonal() * scaled.llt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols())) * scale.asDiagonal();
+  const Eigen::MatrixXd inverse = scale.asDiagonal() * Cholesky(scaled).inverse() * scale.asDiagonal();
   const double squares = linearization.projection.squares() - all.drop;
   const JointJudgement judgement(end, model, linearization);
   std::vector<Round> rounds;

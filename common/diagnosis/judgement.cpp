@@ -1,7 +1,6 @@
 #include "diagnosis/judgement.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/tall_products.hpp"
 #include "kinematics/chain.hpp"
@@ -60,12 +60,12 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment
   constexpr double kNothing = 1e-9;
   Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
   for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * gram * scale.asDiagonal());
-  Eigen::VectorXd turned = eigen.eigenvectors().transpose() * scale.cwiseProduct(moment);
+  const auto eigen = eigen_system(scale.asDiagonal() * gram * scale.asDiagonal());
+  Eigen::VectorXd turned = eigen.vectors.transpose() * scale.cwiseProduct(moment);
   for (Eigen::Index i = 0; i < turned.size(); ++i) {
-    turned[i] = eigen.eigenvalues()[i] > kNothing ? turned[i] / eigen.eigenvalues()[i] : 0.0;
+    turned[i] = eigen.values[i] > kNothing ? turned[i] / eigen.values[i] : 0.0;
   }
-  return scale.cwiseProduct(eigen.eigenvectors() * turned);
+  return scale.cwiseProduct(eigen.vectors * turned);
 }
 
 /// By place and axis, one motion a state.

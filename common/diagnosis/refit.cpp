@@ -1,9 +1,7 @@
+#include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -56,7 +54,7 @@ double rise_without(const Linearization& linearization, const Effect& effect,
           linearization.covariance(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]);
     }
   }
-  return values.dot(covariance.completeOrthogonalDecomposition().solve(values));
+  return values.dot(least_norm_solution(covariance, values));
 }
 
 /// The effect whose loss would shorten the description most, if any would.

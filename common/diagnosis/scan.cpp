@@ -1,13 +1,13 @@
 #include "diagnosis/scan.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
 #include "pieces/pieces.hpp"
@@ -69,13 +69,13 @@ void Scan::invert(const std::vector<ColumnSpan>& spans) {
     const Eigen::MatrixXd left = whole_[i] - along * along.transpose();
     Eigen::VectorXd scale = whole_[i].diagonal().cwiseSqrt();
     for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * left * scale.asDiagonal());
-    Eigen::VectorXd inverse = eigen.eigenvalues();
+    const auto eigen = eigen_system(scale.asDiagonal() * left * scale.asDiagonal());
+    Eigen::VectorXd inverse = eigen.values;
     for (double& value : inverse) {
       grams_[i].rank += value > kNewShare;
       value = value > kNewShare ? 1 / value : 0.0;
     }
-    const Eigen::MatrixXd turned = scale.asDiagonal() * eigen.eigenvectors();
+    const Eigen::MatrixXd turned = scale.asDiagonal() * eigen.vectors;
     grams_[i].inverse = turned * inverse.asDiagonal() * turned.transpose();
     grams_[i].visible = left.diagonal().cwiseMax(0.0);
     if (grams_[i].rank == 0) grams_[i].visible.setZero();

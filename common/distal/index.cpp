@@ -1,7 +1,7 @@
 #include "distal/index.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +9,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/training.hpp"
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/inverse.hpp"
@@ -143,7 +144,7 @@ ChosenShapes AmplitudeFit::fitted(std::span<const std::size_t> chosen, std::span
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (std::ranges::count(held, chosen[i]) > 0) hold[static_cast<Eigen::Index>(i)] *= kFirmHold / kHold;
   products.diagonal() += hold;
-  const Eigen::VectorXd factors = products.ldlt().solve(moments_(chosen) + hold);
+  const Eigen::VectorXd factors = PivotedCholesky(products).solve(moments_(chosen) + hold);
   return chosen_shapes(factors, index_mm2(chosen, factors));
 }
 

@@ -1,11 +1,11 @@
 #include "effect_sets/fitted_set.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "decompositions/decompositions.hpp"
 #include "primitives/elementary.hpp"
 
 namespace demecal::inline effect_sets {
@@ -49,7 +49,7 @@ double FittedSet::rise_without(std::size_t place) const {
   if (count == 0) return 0.0;
   const Eigen::VectorXd own = coefficients_.segment(first, count);
   const Eigen::MatrixXd inverse = inverse_.block(first, first, count, count);
-  return own.dot(inverse.llt().solve(own));
+  return own.dot(Cholesky(inverse).solve(own));
 }
 
 double FittedSet::gain_without(std::size_t place) const {
@@ -77,7 +77,7 @@ std::vector<Alike> FittedSet::alike(std::size_t place) const {
     const Eigen::MatrixXd fresh =
         problem_->gram.block(span.first, span.first, span.count, span.count) -
         beside.middleCols(span.first, span.count).transpose() * explained.middleCols(span.first, span.count);
-    const Eigen::LLT<Eigen::MatrixXd> solver(fresh);
+    const Cholesky solver(fresh);
     const Eigen::VectorXd moment = left.segment(span.first, span.count), along = share.segment(span.first, span.count);
     const double squares = others.squares_ - moment.dot(solver.solve(moment));
     const double nats = saved_nats(squares / squares_) + price_nats(i) - price_nats(present);
@@ -99,7 +99,7 @@ void FittedSet::add(std::size_t effect) {
   const Eigen::MatrixXd explained = inverse_ * beside;
   const Eigen::MatrixXd fresh =
       problem_->gram.block(span.first, span.first, span.count, span.count) - beside.transpose() * explained;
-  const Eigen::MatrixXd fresh_inverse = fresh.llt().solve(Eigen::MatrixXd::Identity(span.count, span.count));
+  const Eigen::MatrixXd fresh_inverse = Cholesky(fresh).inverse();
   const Eigen::VectorXd left = problem_->moment.segment(span.first, span.count) - beside.transpose() * coefficients_;
   const Eigen::VectorXd own = fresh_inverse * left;
   const Eigen::MatrixXd turned = explained * fresh_inverse;
@@ -123,7 +123,7 @@ void FittedSet::remove(std::size_t place) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < inverse_.rows(); ++i)
     if (i < first || i >= first + count) kept.push_back(i);
-  const Eigen::LLT<Eigen::MatrixXd> own(inverse_.block(first, first, count, count));
+  const Cholesky own(inverse_.block(first, first, count, count));
   const Eigen::VectorXd weighted = own.solve(coefficients_.segment(first, count));
   squares_ += coefficients_.segment(first, count).dot(weighted);
   columns_.erase(columns_.begin() + first, columns_.begin() + first + count);

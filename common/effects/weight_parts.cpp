@@ -1,8 +1,7 @@
 #include "effects/weight_parts.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <map>
 #include <numbers>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/law_terms.hpp"
 #include "expression/bound.hpp"
 #include "kinematics/chain.hpp"
@@ -131,7 +131,7 @@ std::map<std::string, double> logged_weights(const Robot& robot, const std::vect
     gravity[row] = -state.drive_torque(joint) - payload_torque(robot, state, joint);
   }
   if (rows == 0 || gravity.maxCoeff() - gravity.minCoeff() < kVaried) return {};
-  const Eigen::VectorXd fitted = columns.completeOrthogonalDecomposition().solve(gravity);
+  const Eigen::VectorXd fitted = least_norm_solution(columns, gravity);
   std::map<std::string, double> weights{{"logged_friction", fitted[count]}, {"logged_zero", fitted[count + 1]}};
   for (Eigen::Index part = 0; part < count; ++part) {
     weights[std::string(kLogged) + name_of(parts[static_cast<std::size_t>(part)])] = fitted[part];

@@ -1,6 +1,5 @@
 #include "explanations/error_budget.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>

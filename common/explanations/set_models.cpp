@@ -1,7 +1,6 @@
 #include "explanations/set_models.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "data/data_set.hpp"
+#include "decompositions/decompositions.hpp"
 #include "explanations/causes.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
@@ -86,12 +86,12 @@ void SetModels::project(const RowMatrix& columns, const std::vector<ColumnSpan>&
     const Eigen::MatrixXd own = gram.block(span.first, span.first, span.count, span.count);
     Eigen::VectorXd scale = columns.middleCols(span.first, span.count).colwise().norm().transpose();
     for (double& value : scale) value = value > kNoColumn ? 1.0 / value : 0.0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * own * scale.asDiagonal());
+    const auto eigen = eigen_system(scale.asDiagonal() * own * scale.asDiagonal());
     Eigen::MatrixXd turned(span.count, span.count);
     Eigen::Index rank = 0;
     for (Eigen::Index i = 0; i < span.count; ++i) {
-      const double share = eigen.eigenvalues()[i];
-      if (share >= kNewShare) turned.col(rank++) = scale.cwiseProduct(eigen.eigenvectors().col(i)) / std::sqrt(share);
+      const double share = eigen.values[i];
+      if (share >= kNewShare) turned.col(rank++) = scale.cwiseProduct(eigen.vectors.col(i)) / std::sqrt(share);
     }
     to_coefficients_.emplace_back(turned.leftCols(rank));
     problem_.spans.push_back({found, rank});

@@ -1,7 +1,7 @@
 #include "fitting/base_search.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/SVD>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
 #include "kinematics/forward.hpp"
@@ -121,7 +122,7 @@ class BaseSearch {
       slopes.block<3, 3>(row, places.at(pose.target)) = base.linear() * flange.linear();
       points.segment<3>(row) = measured_point(robot, pose) - base.linear() * flange.translation();
     }
-    const Eigen::VectorXd placed = slopes.completeOrthogonalDecomposition().solve(points);
+    const Eigen::VectorXd placed = least_norm_solution(slopes, points);
     robot.sensor_from_base.translation() = placed.head<3>();
     for (const auto& [target, place] : places) robot.tools.at(target).translation() = placed.segment<3>(place);
     return robot;
@@ -185,7 +186,7 @@ RegisteredPoints measured_points(const DataSet& data, const std::vector<Observat
 
 std::vector<Eigen::Isometry3d> candidates_from_points(const RegisteredPoints& points, int count) {
   std::vector<Eigen::Isometry3d> bases;
-  bases.emplace_back(Eigen::umeyama(points.in_base, points.in_sensor, false));
+  bases.emplace_back(rigid_motion(points.in_base, points.in_sensor));
   const Eigen::Vector3d base_middle = points.in_base.rowwise().mean(),
                         sensor_middle = points.in_sensor.rowwise().mean();
   for (int i = 0; i < count; ++i) bases.push_back(base_through(spread_rotation(i, count), base_middle, sensor_middle));
@@ -289,12 +290,6 @@ Eigen::Matrix3d spread_rotation(int index, int count) {
   return Eigen::Quaterniond(outer * std::cos(beta), inner * std::sin(alpha), inner * std::cos(alpha),
                             outer * std::sin(beta))
       .toRotationMatrix();
-}
-
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  return svd.matrixU() * Eigen::Vector3d(1, 1, turn < 0 ? -1 : 1).asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace demecal::inline fitting

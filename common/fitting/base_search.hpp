@@ -37,7 +37,4 @@ std::vector<Eigen::Isometry3d> base_candidates(const DataSet& data, const std::v
 /// The `index`-th of `count` rotations spread evenly over all (super-Fibonacci spiral, Alexa 2022).
 Eigen::Matrix3d spread_rotation(int index, int count);
 
-/// The rotation nearest to `matrix` (Frobenius).
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
-
 }  // namespace demecal::inline fitting

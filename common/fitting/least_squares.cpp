@@ -1,8 +1,6 @@
 #include "fitting/least_squares.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/row_sums.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
@@ -88,8 +87,8 @@ DampedStep damped_step(const QuadraticModel& model, double damping) {
   const double raise = damping * std::max(model.curvature.diagonal().mean(), 1e-300);
   const Eigen::Index n = model.gradient.size();
   const Eigen::MatrixXd damped = model.curvature + raise * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(damped);
-  if (factor.info() != Eigen::Success || !factor.isPositive()) return {Eigen::VectorXd::Zero(n), -1.0};
+  const PivotedCholesky factor(damped);
+  if (!factor.is_positive()) return {Eigen::VectorXd::Zero(n), -1.0};
   DampedStep step{factor.solve(-model.gradient), 0.0};
   step.model_cost_change = -model.gradient.dot(step.z) - 0.5 * step.z.dot(model.curvature * step.z);
   return step;
@@ -171,11 +170,11 @@ constexpr double kMedianToDeviation = 1.4826;
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& symmetric) {
   constexpr double kSingular = 1e-14;
   if (symmetric.size() == 0) return symmetric;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
-  Eigen::VectorXd inverse = eigen.eigenvalues();
+  const auto eigen = eigen_system(symmetric);
+  Eigen::VectorXd inverse = eigen.values;
   const double least = kSingular * inverse.maxCoeff();
   for (double& value : inverse) value = value > least ? 1 / value : 0.0;
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
 }
 
 double huber_weight(double norm, int rows) {

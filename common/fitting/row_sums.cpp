@@ -1,11 +1,11 @@
 #include "fitting/row_sums.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "pieces/pieces.hpp"
 
 namespace demecal::inline fitting {
@@ -67,8 +67,7 @@ void TriangularFactor::reduce() {
     return;
   }
   if (filled_ < n) stack_.middleRows(filled_, n - filled_).setZero();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack_.topRows(std::max(n, filled_)));
-  stack_.topRows(n) = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  stack_.topRows(n) = upper_factor(stack_.topRows(std::max(n, filled_)));
   filled_ = n;
 }
 

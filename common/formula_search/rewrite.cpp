@@ -1,8 +1,6 @@
 #include "formula_search/rewrite.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/levenberg_marquardt.hpp"
 #include "primitives/primitive.hpp"
 
@@ -58,7 +57,7 @@ class ConstantsProblem {
     Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
     normal.diagonal() *= 1.0 + damping;
     normal.diagonal().array() += 1e-12;
-    const Eigen::VectorXd change = -normal.ldlt().solve(jacobian_.transpose() * residual_);
+    const Eigen::VectorXd change = -PivotedCholesky(normal).solve(jacobian_.transpose() * residual_);
     tried_ = tree_;
     for (std::size_t k = 0; k < places_.size(); ++k) tried_[places_[k]].value += change[static_cast<Eigen::Index>(k)];
     tried_residual_ = misfit_.residual(tried_);

@@ -1,12 +1,12 @@
 #include "kinematics/inverse.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
-#include <Eigen/SVD>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "kinematics/angles.hpp"
 
 namespace demecal::inline kinematics {
@@ -27,12 +27,12 @@ NewtonStep newton_step(const Jacobian& jacobian, const PoseError& error, const I
   PoseError scaled_error = error;
   scaled.topRows<3>() /= options.length_m;
   scaled_error.head<3>() /= options.length_m;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
+  const SingularSystem svd = singular_system(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& values = svd.values;
   const double smallest = values[values.size() - 1];
   const double damping = std::min(std::max(0.0, options.singular_below - smallest), scaled_error.norm());
   const Eigen::VectorXd gains = values.array() / (values.array().square() + damping * damping).max(1e-300);
-  return {svd.matrixV() * gains.asDiagonal() * svd.matrixU().transpose() * scaled_error, smallest};
+  return {svd.v * gains.asDiagonal() * svd.u.transpose() * scaled_error, smallest};
 }
 
 bool within(const PoseError& error, const InverseOptions& options) {
@@ -109,7 +109,7 @@ JointVector gauss_newton_step(const DampedProblem& problem) {
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   normal.diagonal().array() += damping;
   const Eigen::VectorXd downhill = jacobian.transpose() * error - damping * problem.change;
-  return normal.ldlt().solve(downhill);
+  return PivotedCholesky(normal).solve(downhill);
 }
 
 bool damped_advance(const JointVector& step, DampedProblem& problem) {

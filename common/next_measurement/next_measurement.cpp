@@ -1,8 +1,6 @@
 #include "next_measurement/next_measurement.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Dense>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "data/data_set.hpp"
+#include "decompositions/decompositions.hpp"
 #include "effects/law_terms.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
@@ -79,7 +78,7 @@ class RivalComparison {
     for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
     const Eigen::VectorXd moment = scale.cwiseProduct(sums_(all, signal_));
     const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-    const Eigen::VectorXd imitation = scaled.completeOrthogonalDecomposition().solve(moment);
+    const Eigen::VectorXd imitation = least_norm_solution(scaled, moment);
     const double whole = sums_(signal_, signal_);
     if (whole - imitation.dot(moment) > kContained * whole) return all;
     Columns rest;

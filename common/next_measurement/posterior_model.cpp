@@ -1,9 +1,7 @@
 #include "next_measurement/posterior_model.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
@@ -60,10 +59,10 @@ Spectrum spectrum(const Eigen::MatrixXd& covariance) {
   if (scale.size() == 0) return {scale, covariance, scale};  // of a model without numbers
   Eigen::VectorXd inverse = scale;
   for (double& value : inverse) value = value > 0 ? 1 / value : 0.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * covariance * inverse.asDiagonal());
-  Eigen::VectorXd values = eigen.eigenvalues();
+  const auto eigen = eigen_system(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+  Eigen::VectorXd values = eigen.values;
   for (double& value : values) value = value > kNothing ? value : 0.0;
-  return {std::move(scale), eigen.eigenvectors(), std::move(values)};
+  return {std::move(scale), eigen.vectors, std::move(values)};
 }
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& covariance) {
@@ -106,10 +105,10 @@ Separation::Separation(const Products& present, const Products& per_pose, const 
   asked_per_pose_ = per_pose.asked;
   asked_.diagonal() += precision;
   if (per_pose.model.size() == 0) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(per_pose.model);
-  spread_ = eigen.eigenvalues().cwiseMax(0.0);
-  present_ = eigen.eigenvectors().transpose() * present_;
-  per_pose_ = eigen.eigenvectors().transpose() * per_pose_;
+  const auto eigen = eigen_system(per_pose.model);
+  spread_ = eigen.values.cwiseMax(0.0);
+  present_ = eigen.vectors.transpose() * present_;
+  per_pose_ = eigen.vectors.transpose() * per_pose_;
 }
 
 double Separation::information(double poses, const std::vector<Eigen::Index>& others, Eigen::Index signal) const {
@@ -131,7 +130,7 @@ double Separation::information(double poses, const std::vector<Eigen::Index>& ot
   }
   const Eigen::VectorXd moment = scale.cwiseProduct(left.col(count).head(count));
   const Eigen::MatrixXd scaled = scale.asDiagonal() * rivals * scale.asDiagonal();
-  return left(count, count) - moment.dot(scaled.completeOrthogonalDecomposition().solve(moment));
+  return left(count, count) - moment.dot(least_norm_solution(scaled, moment));
 }
 
 std::optional<int> Separation::poses_needed(const std::vector<Eigen::Index>& others, Eigen::Index signal,

@@ -1,8 +1,7 @@
+#include "decompositions/decompositions.hpp"
 #include "next_measurement/next_measurement.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -127,7 +126,7 @@ RowMatrix asked_rows(const PosteriorModel& posterior, const std::vector<Effect>&
     known(i, i) += square > 0 ? square / (kBelievedRows * kBelievedRows) : 1.0;
   }
   rows -= model_rows * at_hand.cross;
-  const Eigen::MatrixXd root = known.llt().matrixU();
+  const Eigen::MatrixXd root = Cholesky(known).lower().transpose();
   return root.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(rows);
 }
 

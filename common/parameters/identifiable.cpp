@@ -1,9 +1,7 @@
+#include "decompositions/decompositions.hpp"
 #include "parameters/parameter_space.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -110,14 +108,13 @@ std::vector<UnidentifiedDirection> readable_directions(const Eigen::MatrixXd& ro
 Eigen::MatrixXd complement(const Eigen::MatrixXd& matrix) {
   const Eigen::Index n = matrix.rows(), k = matrix.cols();
   if (k == 0) return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
-  return (qr.householderQ() * Eigen::MatrixXd::Identity(n, n)).rightCols(n - k);
+  return orthogonal_factor(matrix, n).rightCols(n - k);
 }
 
 /// `basis` with its columns combined so that factor * basis is orthonormal.
 Eigen::MatrixXd whitened(const Eigen::MatrixXd& factor, const Eigen::MatrixXd& basis) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor * basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  return basis * svd.matrixV() * svd.singularValues().cwiseInverse().asDiagonal();
+  const SingularSystem svd = singular_system(factor * basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return basis * svd.v * svd.values.cwiseInverse().asDiagonal();
 }
 
 }  // namespace
@@ -134,7 +131,7 @@ ScaledJacobian::ScaledJacobian(const Eigen::MatrixXd& factor)
     }
     scaled.col(i) /= lengths[i];
   }
-  largest = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues()[0];
+  largest = singular_system(scaled).values[0];
 }
 
 IdentifiableSubspace identifiable_subspace(const ScaledJacobian& jacobian, const std::vector<ParameterId>& ids,
@@ -142,9 +139,9 @@ IdentifiableSubspace identifiable_subspace(const ScaledJacobian& jacobian, const
   const auto n = static_cast<Eigen::Index>(ids.size());
   DEMECAL_CHECK(jacobian.lengths.size() == n, jacobian.lengths.size() << " columns of " << n << " parameters");
   if (n == 0) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian.scaled, Eigen::ComputeFullV);
-  const Eigen::Index held = (svd.singularValues().array() <= rank_tolerance * jacobian.largest).count();
-  const Eigen::MatrixXd null = svd.matrixV().rightCols(held);
+  const SingularSystem svd = singular_system(jacobian.scaled, Eigen::ComputeFullV);
+  const Eigen::Index held = (svd.values.array() <= rank_tolerance * jacobian.largest).count();
+  const Eigen::MatrixXd null = svd.v.rightCols(held);
   const Eigen::VectorXd usual = usual_changes(jacobian, ids);
   const Eigen::VectorXd in_usual = (jacobian.lengths.array() * usual.array()).inverse();
   const Eigen::MatrixXd seen = usual.asDiagonal() * complement(in_usual.asDiagonal() * null);
@@ -158,10 +155,10 @@ std::vector<UnidentifiedDirection> weak_directions(const ScaledJacobian& jacobia
   constexpr double kPriorKnowsBetter = 0.5;
   if (ids.empty()) return {};
   const Eigen::MatrixXd shrinkage = precision.asDiagonal() * covariance * precision.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(shrinkage);
-  const Eigen::Index weak = (eigen.eigenvalues().array() > kPriorKnowsBetter).count();
+  const auto eigen = eigen_system(shrinkage);
+  const Eigen::Index weak = (eigen.values.array() > kPriorKnowsBetter).count();
   // Base and tool move along as the covariance says, so that the whole direction is hardly seen.
-  const Eigen::MatrixXd moves = covariance * precision.asDiagonal() * eigen.eigenvectors().rightCols(weak);
+  const Eigen::MatrixXd moves = covariance * precision.asDiagonal() * eigen.vectors.rightCols(weak);
   return readable_directions((jacobian.lengths.asDiagonal() * moves).transpose(), jacobian, ids, true);
 }
 

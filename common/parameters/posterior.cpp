@@ -1,7 +1,6 @@
 #include "parameters/posterior.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
@@ -65,7 +65,7 @@ double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot
       moved.block(first, static_cast<Eigen::Index>(k), count, 1) =
           rows * equivalent_motion(place, motions[k], Eigen::Vector3d::Zero(), touches[i].point_m);
   }
-  spread -= moved * moved.completeOrthogonalDecomposition().solve(spread).eval();
+  spread -= moved * least_norm_solutions(moved, spread);
   return spread.middleRows(own, count).squaredNorm();
 }
 
@@ -188,7 +188,7 @@ void leave_out_motion_as_a_whole(const std::vector<Eigen::Vector3d>& points_m, s
     product += motion.transpose() * rows[i];
     motions.push_back(motion);
   }
-  const Eigen::MatrixXd best = square.ldlt().solve(product);
+  const Eigen::MatrixXd best = PivotedCholesky(square).solve(product);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] -= motions[i] * best;
 }
 

@@ -1,12 +1,12 @@
 #include "planning/exchange.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "planning/sockets.hpp"
 #include "planning/travel.hpp"
 
@@ -21,21 +21,21 @@ void PosteriorCovariance::set(const std::vector<Eigen::MatrixXd>& rows) {
   const Eigen::Index n = weight_.rows();
   Eigen::MatrixXd information = known_ + Eigen::MatrixXd::Identity(n, n);
   for (const Eigen::MatrixXd& own : rows) information.noalias() += own.transpose() * own;
-  covariance_ = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  covariance_ = Cholesky(information).inverse();
 }
 
 void PosteriorCovariance::add(const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd along = rows * covariance_;
   Eigen::MatrixXd spread = along * rows.transpose();
   spread.diagonal().array() += 1.0;
-  covariance_ -= along.transpose() * spread.llt().solve(along);
+  covariance_ -= along.transpose() * Cholesky(spread).solve(along);
 }
 
 void PosteriorCovariance::remove(const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd along = rows * covariance_;
   Eigen::MatrixXd left = -along * rows.transpose();
   left.diagonal().array() += 1.0;
-  covariance_ += along.transpose() * left.ldlt().solve(along);
+  covariance_ += along.transpose() * PivotedCholesky(left).solve(along);
 }
 
 Design::Design(Eigen::MatrixXd rows, int rows_per_pose, const Eigen::MatrixXd& known, Eigen::MatrixXd weight)
@@ -61,7 +61,7 @@ std::size_t Design::best_candidate() const {
     Eigen::MatrixXd spread = own * rows_.middleRows(first, rows_per_pose_).transpose();
     spread.diagonal().array() += 1.0;
     const Eigen::MatrixXd told = wanted.middleRows(first, rows_per_pose_) * own.transpose();
-    const double gain = spread.llt().solve(told).trace();
+    const double gain = Cholesky(spread).solve(told).trace();
     if (gain > most) {
       most = gain;
       best = i;
@@ -121,7 +121,7 @@ class PoseGain {
   double operator()(const Eigen::MatrixXd& rows) const {
     Eigen::MatrixXd spread = rows * covariance_ * rows.transpose();
     spread.diagonal().array() += 1.0;
-    return spread.llt().solve(rows * wanted_ * rows.transpose()).trace();
+    return Cholesky(spread).solve(rows * wanted_ * rows.transpose()).trace();
   }
 
  private:

@@ -1,11 +1,13 @@
 #include "planning/information.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
@@ -224,8 +226,8 @@ PredictedError Workspace::predicted(const Eigen::MatrixXd& covariance) const {
   std::vector<double> errors;
   for (const Eigen::MatrixXd& rows : rows_) {
     const Eigen::Matrix3d of_tool = rows * covariance * rows.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(of_tool);
-    const Eigen::Vector3d deviations = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    const auto eigen = eigen_system_of_three(of_tool);
+    const Eigen::Vector3d deviations = eigen.values.cwiseMax(0.0).cwiseSqrt();
     for (int i = 0; i < kDraws; ++i) {
       const Eigen::Vector3d draw(random.normal(), random.normal(), random.normal());
       errors.push_back(deviations.cwiseProduct(draw).norm());

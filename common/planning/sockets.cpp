@@ -1,8 +1,6 @@
 #include "planning/sockets.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
@@ -58,7 +57,7 @@ Eigen::MatrixXd information_of_block(const InformationModel& arm, const SocketRo
   }
   const Eigen::MatrixXd of_places = information.bottomRightCorner(places, places);
   const Eigen::MatrixXd shared = information.topRightCorner(numbers, places);
-  return information.topLeftCorner(numbers, numbers) - shared * of_places.llt().solve(shared.transpose());
+  return information.topLeftCorner(numbers, numbers) - shared * Cholesky(of_places).solve(shared.transpose());
 }
 
 class BlockChoice {
@@ -99,9 +98,7 @@ class BlockChoice {
   double square_m2() const { return weight_.cwiseProduct(inverse(sum_)).sum(); }
 
  private:
-  static Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) {
-    return information.llt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
-  }
+  static Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) { return Cholesky(information).inverse(); }
 
   std::vector<Eigen::MatrixXd> information_;
   const Eigen::MatrixXd& weight_;
@@ -197,7 +194,7 @@ std::optional<JointVector> joints_touching(const Chain& chain, const JointVector
     const Eigen::Vector3d missing = point_m - tool_position(chain, joints);
     if (missing.norm() < kReached_m) return rounded(chain, joints);
     const Eigen::MatrixXd motions = joint_jacobian(chain, joints, chain.tool_m).topRows<3>();
-    Eigen::VectorXd change = motions.completeOrthogonalDecomposition().solve(missing);
+    Eigen::VectorXd change = least_norm_solution(motions, missing);
     const double largest = change.cwiseAbs().maxCoeff();
     if (largest > kLongestStep_rad) change *= kLongestStep_rad / largest;
     joints += change;

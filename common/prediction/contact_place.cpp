@@ -1,10 +1,11 @@
 #include "prediction/contact_place.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 
@@ -23,7 +24,7 @@ Eigen::Vector3d middle_of(const Touches& touches) {
 Eigen::Matrix3d axes_of(const Touches& touches, const Eigen::Vector3d& middle) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Touch& touch : touches) spread += (touch.point_m - middle) * (touch.point_m - middle).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  return eigen_system_of_three(spread).vectors;
 }
 
 /// A rotation whose z is that direction.
@@ -43,7 +44,7 @@ void fit_sphere(const Touches& touches, ContactPlace& place) {
     rows.row(i) << 2.0 * off.transpose(), 1.0;
     squares[i] = off.squaredNorm() - touch.length_m * touch.length_m;
   }
-  const Eigen::Vector4d found = rows.completeOrthogonalDecomposition().solve(squares);
+  const Eigen::Vector4d found = least_norm_solution(rows, squares);
   place.frame.translation() = middle + found.head<3>();
   if (!place.is_radius_known) place.radius_m = std::sqrt(std::max(found[3] + found.head<3>().squaredNorm(), 0.0));
 }
@@ -61,7 +62,7 @@ void refine_sphere(const Touches& touches, ContactPlace& place) {
       rows.row(i) << -contact_jacobian(place, touch.point_m), -1.0;
       left[i] = contact_residual(place, touch)[0];
     }
-    const Eigen::VectorXd change = rows.leftCols(numbers).completeOrthogonalDecomposition().solve(left);
+    const Eigen::VectorXd change = least_norm_solution(rows.leftCols(numbers), left);
     if (!change.allFinite()) return;
     place.frame.translation() += change.head<3>();
     if (!place.is_radius_known) place.radius_m += change[3];

@@ -1,13 +1,14 @@
 #include "preparation/taught_points.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
-#include <Eigen/SVD>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
@@ -28,7 +29,7 @@ bool spread_out(const Eigen::Matrix3Xd& points) {
   constexpr double kLeast = 1e-6;
   if (points.cols() < 3) return false;
   const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
-  const Eigen::VectorXd spread = Eigen::JacobiSVD<Eigen::Matrix3Xd>(centred).singularValues();
+  const Eigen::VectorXd spread = singular_system(centred).values;
   return spread[1] > kLeast * spread[0];
 }
 
@@ -79,7 +80,7 @@ std::optional<Eigen::Isometry3d> best_fit(const std::vector<Eigen::Vector3d>& fr
   DEMECAL_CHECK(from.size() == to.size(), from.size() << " and " << to.size() << " points");
   const Eigen::Matrix3Xd source = columns_of(from), target = columns_of(to);
   if (!spread_out(source) || !spread_out(target)) return std::nullopt;
-  return Eigen::Isometry3d(Eigen::umeyama(source, target, false));
+  return rigid_motion(source, target);
 }
 
 double misfit(const Eigen::Isometry3d& motion, const std::vector<Eigen::Vector3d>& from,

@@ -1,6 +1,7 @@
 #include "preparation/touched_places.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline preparation {
@@ -41,7 +43,7 @@ Eigen::Vector3d reweighted(const std::vector<Eigen::Isometry3d>& flanges, const 
       right -= weight * turn.transpose() * shift;
     }
   }
-  return square.ldlt().solve(right);
+  return solve_pivoted(square, right);
 }
 
 /// Two clusters becoming one.

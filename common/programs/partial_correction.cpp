@@ -1,13 +1,11 @@
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/inverse.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "programs/target_correction.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -69,13 +67,13 @@ PoseError in_angles(PoseError error) {
 JointVector kept_step(Jacobian jacobian, PoseError error, double length_m) {
   jacobian.topRows<3>() /= length_m;
   error.head<3>() /= length_m;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::VectorXd along = svd.matrixU().transpose() * error;
+  const SingularSystem svd = singular_system(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::VectorXd along = svd.u.transpose() * error;
   for (Eigen::Index i = 0; i < along.size(); ++i) {
-    const double value = svd.singularValues()[i];
+    const double value = svd.values[i];
     along[i] = value > kLost ? along[i] / value : 0.0;
   }
-  return svd.matrixV() * along;
+  return svd.v * along;
 }
 
 /// Whether joints move by no more than the correction (missing at the start) is worth.
@@ -105,10 +103,10 @@ JointVector kept_command(const CorrectedRobot& robot, const Eigen::Isometry3d& g
 DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::Matrix3d& covariance,
                                double worth_saying) {
   constexpr double kMostlyLeft = 0.5;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  const Eigen::Matrix3d& axes = eigen.eigenvectors();
+  const auto eigen = eigen_system_of_three(covariance);
+  const Eigen::Matrix3d& axes = eigen.vectors;
   const Eigen::Vector3d along = axes.transpose() * correction;
-  const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(0.0);
+  const Eigen::Vector3d variances = eigen.values.cwiseMax(0.0);
   const Eigen::Vector3d kept = best_axes(along, variances).along;
   DeterminedPart part;
   part.applied = kept == along ? correction : Eigen::Vector3d(axes * kept);

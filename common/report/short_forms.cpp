@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -11,6 +10,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/selection.hpp"
+#include "decompositions/decompositions.hpp"
 #include "expression/tree.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -130,7 +130,7 @@ Eigen::VectorXd fitted(const Shape& shape, const Eigen::VectorXd& angles, const 
   }
   if (shape.slope) columns.col(2 * waves) = angles;
   if (constant) columns.rightCols(1).setOnes();
-  const Eigen::VectorXd coefficients = columns.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd coefficients = PivotedQr(columns).solve(values);
   const double left = (values - columns * coefficients).norm();
   return left < kNear * values.norm() ? coefficients : Eigen::VectorXd();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
@@ -71,7 +72,7 @@ Eigen::VectorXd smooth_precision(const ModelColumns& columns, const RowMatrix& s
     Eigen::MatrixXd own = shared.transpose() * shared;
     own.diagonal().array() += 1.0;
     const Eigen::MatrixXd across = transposed_product(shared, rows);
-    products -= across.transpose() * own.llt().solve(across);
+    products -= across.transpose() * Cholesky(own).solve(across);
   }
   return relevance(products, smooth.families(), static_cast<double>(residual.size()));
 }

@@ -1,8 +1,8 @@
 #include "residuals/noise.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "pieces/pieces.hpp"
 
 namespace demecal::inline residuals {
@@ -68,12 +69,11 @@ class SharedInOrder {
     Eigen::MatrixXd covariance(knots, knots);
     for (Eigen::Index i = 0; i < knots; ++i) covariance.col(i) = alike(places_[i]);
     covariance.diagonal().array() += 1e-9;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+    const auto eigen = eigen_system(covariance);
     Eigen::Index count = 0;
-    while (count < knots && eigen.eigenvalues()[knots - 1 - count] * noise.order * noise.order > kLeastVariance)
-      ++count;
-    functions_ = noise.order * eigen.eigenvectors().rightCols(count) *
-                 eigen.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+    while (count < knots && eigen.values[knots - 1 - count] * noise.order * noise.order > kLeastVariance) ++count;
+    functions_ =
+        noise.order * eigen.vectors.rightCols(count) * eigen.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
   }
 
   Eigen::Index size() const { return functions_.cols(); }

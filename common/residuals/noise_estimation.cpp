@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "parameters/observation.hpp"
 #include "residuals/noise.hpp"
@@ -120,7 +121,8 @@ class Components {
       const auto [slope, information] = likelihood_.along_joint_variances(variances);
       const Eigen::VectorXd logs = likelihood_.joint_shares().array().log();
       const Eigen::MatrixXd curvature = information + alike + 1e-9 * Eigen::MatrixXd::Identity(count, count);
-      const Eigen::VectorXd change = curvature.ldlt().solve(slope - alike * logs).cwiseMax(-1.0).cwiseMin(1.0);
+      const Eigen::VectorXd change =
+          PivotedCholesky(curvature).solve(slope - alike * logs).cwiseMax(-1.0).cwiseMin(1.0);
       likelihood_.set_joint_shares((logs + change).array().exp());
       if (change.cwiseAbs().maxCoeff() < kSettled) break;
     }

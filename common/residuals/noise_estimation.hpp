@@ -2,12 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Dense>
-#include <Eigen/QR>
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 
@@ -68,7 +67,7 @@ class RestrictedLikelihood {
   Eigen::MatrixXd beyond_model(const Eigen::MatrixXd& columns) const;
   Eigen::MatrixXd covariance(const std::array<double, 3>& variances) const;
 
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> model_;
+  PivotedQr model_;
   Eigen::Index rows_ = 0, rank_ = 0, freedom_ = 0;
   Eigen::VectorXd left_;
   std::array<Eigen::MatrixXd, 3> covariance_;

@@ -1,12 +1,11 @@
 #include "residuals/projection.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/row_sums.hpp"
 #include "fitting/tall_products.hpp"
 
@@ -20,16 +19,7 @@ Eigen::MatrixXd orthonormaliser(const Eigen::MatrixXd& factor) {
   if (n == 0) return Eigen::MatrixXd(0, 0);
   Eigen::VectorXd scale = factor.colwise().norm().transpose();
   for (double& value : scale) value = value > 0 ? 1 / value : 0.0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(factor * scale.asDiagonal());
-  pivoted.setThreshold(kDependent);
-  const Eigen::Index rank = pivoted.rank();
-  const Eigen::MatrixXd inverse = pivoted.matrixR()
-                                      .topLeftCorner(rank, rank)
-                                      .triangularView<Eigen::Upper>()
-                                      .solve(Eigen::MatrixXd::Identity(rank, rank));
-  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(n, rank);
-  padded.topRows(rank) = inverse;
-  return scale.asDiagonal() * (pivoted.colsPermutation() * padded);
+  return scale.asDiagonal() * PivotedQr(factor * scale.asDiagonal(), kDependent).to_basis();
 }
 
 void append(RowMatrix& to, const RowMatrix& columns) {
@@ -80,19 +70,19 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& va
                                (square_product(result.fitted) + result.prior.transpose() * result.prior) *
                                scale.asDiagonal();
   const Eigen::VectorXd moment = scale.cwiseProduct(fitted.transpose() * residual_);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * moment;
+  const auto eigen = eigen_system(gram);
+  const Eigen::VectorXd turned = eigen.vectors.transpose() * moment;
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(turned.size());
   result.to_basis.resize(turned.size(), turned.size());
   for (Eigen::Index i = 0; i < turned.size(); ++i) {
-    const double share = eigen.eigenvalues()[i];
+    const double share = eigen.values[i];
     if (share < kNewShare) continue;
     solution[i] = turned[i] / share;
     result.drop += turned[i] * solution[i];
-    result.to_basis.col(result.rank++) = scale.cwiseProduct(eigen.eigenvectors().col(i)) / std::sqrt(share);
+    result.to_basis.col(result.rank++) = scale.cwiseProduct(eigen.vectors.col(i)) / std::sqrt(share);
   }
   result.to_basis.conservativeResize(Eigen::NoChange, result.rank);
-  result.coefficients = scale.cwiseProduct(eigen.eigenvectors() * solution);
+  result.coefficients = scale.cwiseProduct(eigen.vectors * solution);
   result.validation_residual = validation_residual_ - result.validation * result.coefficients;
   return result;
 }

@@ -1,7 +1,6 @@
 #include "residuals/residual_field.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/check.hpp"
 #include "fitting/least_squares.hpp"
 #include "kinematics/chain.hpp"
@@ -63,7 +63,7 @@ Eigen::MatrixXd covariance_root(const ResidualField& field, Eigen::Index first, 
     const Eigen::VectorXd motion = field.motions.block(first, field.scattering[joint], count, 1);
     covariance += noise.joint_variance_rad2(joint) * motion * motion.transpose();
   }
-  return covariance.llt().matrixL();
+  return Cholesky(covariance).lower();
 }
 
 /// Makes the rows first .. first + count - 1 independent.
@@ -160,7 +160,7 @@ double FieldRows::norm_in_deviations(const ResidualField& field, std::size_t num
   const Eigen::MatrixXd& within = field.within[number];
   const Eigen::MatrixXd root = within.size() > 0 ? within : Eigen::MatrixXd::Identity(count, count);
   const Eigen::MatrixXd whole = root * root.transpose() + shared * Eigen::MatrixXd::Identity(count, count);
-  return whole.llt().matrixL().solve(rows_.residual).norm();
+  return Cholesky(whole).whitened(rows_.residual).norm();
 }
 
 void FieldRows::fill(ResidualField& field, std::size_t number, const Observation& observation) {

@@ -1,8 +1,7 @@
+#include "decompositions/decompositions.hpp"
 #include "residuals/noise_estimation.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,8 +41,7 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   const Eigen::VectorXd values = rows.residual(taken);
   if (model.cols() > 0) {
     const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
-    model_.setThreshold(1e-9);
-    model_.compute(model * norms.cwiseInverse().asDiagonal());
+    model_ = PivotedQr(model * norms.cwiseInverse().asDiagonal(), 1e-9);
     rank_ = model_.rank();
   }
   freedom_ = rows_ - rank_;
@@ -94,7 +92,7 @@ void RestrictedLikelihood::take_repeats(const NoiseRows& rows, const std::vector
 void RestrictedLikelihood::take_neighbourhood() {
   Eigen::VectorXd padded = Eigen::VectorXd::Zero(rows_);
   padded.tail(freedom_) = left_;
-  if (rank_ > 0) padded.applyOnTheLeft(model_.householderQ());
+  if (rank_ > 0) padded = model_.turned(padded);
   double products = 0.0, squares = 0.0;
   for (std::size_t i = 1; i < order_.size(); ++i) {
     const Eigen::Index count = std::min(first_row_[i + 1] - first_row_[i], first_row_[i] - first_row_[i - 1]);
@@ -114,9 +112,9 @@ void RestrictedLikelihood::set_joint_shares(const Eigen::VectorXd& shares) {
 
 RestrictedLikelihood::Slope RestrictedLikelihood::along_joint_variances(const std::array<double, 3>& variances) const {
   const Eigen::Index poses = std::ssize(order_), count = joint_shares_.size();
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance(variances));
-  const Eigen::MatrixXd turns = root.matrixL().solve(turns_);
-  const Eigen::VectorXd left = root.matrixL().solve(left_);
+  const Cholesky root(covariance(variances));
+  const Eigen::MatrixXd turns = root.whitened(turns_);
+  const Eigen::VectorXd left = root.whitened(left_);
   const double variance = left.squaredNorm() / static_cast<double>(freedom_);
   Slope result{Eigen::VectorXd(count), Eigen::MatrixXd(count, count)};
   std::vector<Eigen::MatrixXd> squares;
@@ -136,9 +134,7 @@ RestrictedLikelihood::Slope RestrictedLikelihood::along_joint_variances(const st
 
 /// What of columns the model cannot follow: freedom x columns.
 Eigen::MatrixXd RestrictedLikelihood::beyond_model(const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd turned = columns;
-  if (rank_ > 0) turned.applyOnTheLeft(model_.householderQ().adjoint());
-  return turned.bottomRows(freedom_);
+  return rank_ > 0 ? Eigen::MatrixXd(model_.turned_back(columns).bottomRows(freedom_)) : columns;
 }
 
 void RestrictedLikelihood::set_correlation(double from_pose_to_pose) {
@@ -151,7 +147,7 @@ void RestrictedLikelihood::set_correlation(double from_pose_to_pose) {
     }
     alike(i, i) += 1e-9;
   }
-  const Eigen::MatrixXd root = alike.llt().matrixL();
+  const Eigen::MatrixXd root = Cholesky(alike).lower();
   constexpr Eigen::Index kAxes = 3;
   Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(rows_, kAxes * poses);
   for (Eigen::Index i = 0; i < poses; ++i) {
@@ -172,15 +168,14 @@ Eigen::MatrixXd RestrictedLikelihood::covariance(const std::array<double, 3>& va
 }
 
 double RestrictedLikelihood::minus_twice_log(const std::array<double, 3>& variances) const {
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance(variances));
-  if (root.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  const double squares = root.matrixL().solve(left_).squaredNorm();
-  return static_cast<double>(freedom_) * std::log(std::max(squares, 1e-300)) +
-         2.0 * Eigen::MatrixXd(root.matrixLLT()).diagonal().array().log().sum();
+  const Cholesky root(covariance(variances));
+  if (!root.succeeded()) return std::numeric_limits<double>::infinity();
+  const double squares = root.whitened(left_).squaredNorm();
+  return static_cast<double>(freedom_) * std::log(std::max(squares, 1e-300)) + root.log_determinant();
 }
 
 double RestrictedLikelihood::variance_left(const std::array<double, 3>& variances) const {
-  return covariance(variances).llt().matrixL().solve(left_).squaredNorm() /
+  return Cholesky(covariance(variances)).whitened(left_).squaredNorm() /
          static_cast<double>(std::max<Eigen::Index>(freedom_, 1));
 }
 

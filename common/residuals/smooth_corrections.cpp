@@ -1,13 +1,13 @@
 #include "residuals/smooth_corrections.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "expression/evaluate.hpp"
 #include "kinematics/chain.hpp"
 #include "primitives/primitive.hpp"
@@ -237,7 +237,7 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& products, std::span<const int> 
   for (int round = 0; round < kRounds; ++round) {
     Eigen::MatrixXd posterior = scaled;
     posterior.diagonal() += variance * belief;
-    const Eigen::LDLT<Eigen::MatrixXd> solver(posterior);
+    const PivotedCholesky solver(posterior);
     const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(n, n));
     const Eigen::VectorXd mean = inverse * scaled_moment;
     const Eigen::VectorXd spread = inverse.diagonal().tail(terms), means = mean.tail(terms);

@@ -1,11 +1,11 @@
-#include <Eigen/Dense>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
 #include "prediction/measurement.hpp"
 #include "residuals/residual_field.hpp"
@@ -31,10 +31,7 @@ ResidualField unseen_field(const DataSet& data, std::span<const std::size_t> pos
   const ParameterSpace space(with_own_contacts(robot, data, poses), all);
   ResidualField field = residual_field(data, poses, space, scales, false, noise);
   const Eigen::MatrixXd moved = field.declared.rightCols(places);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factored;
-  factored.setThreshold(kTold);
-  factored.compute(moved);
-  field.places = (factored.householderQ() * Eigen::MatrixXd::Identity(moved.rows(), factored.rank()));
+  field.places = PivotedQr(moved, kTold).basis();
   RowMatrix columns = RowMatrix::Zero(field.rows(), static_cast<Eigen::Index>(ids.size()));
   for (Eigen::Index from = 0, to = 0; from < others; ++from, ++to) {
     while (ids[static_cast<std::size_t>(to)].kind == ParameterId::Kind::contact) ++to;

@@ -1,7 +1,6 @@
 #include "simulation/touching.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"
 
@@ -46,7 +46,7 @@ std::optional<Visit> led_to(const SimulatedRobot& robot, const Eigen::Vector3d& 
     if (off.norm() < kThere_m) return visit;
     const Eigen::Matrix3Xd slopes = slopes_at(robot, visit);
     const Eigen::Matrix3d square = slopes * slopes.transpose() + kDamping * Eigen::Matrix3d::Identity();
-    Eigen::VectorXd change = slopes.transpose() * square.ldlt().solve(off);
+    Eigen::VectorXd change = slopes.transpose() * solve_pivoted(square, off);
     const double largest = change.cwiseAbs().maxCoeff();
     if (largest > kLongestStep) change *= kLongestStep / largest;
     visit.commanded += change;

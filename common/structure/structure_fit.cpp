@@ -1,13 +1,13 @@
 #include "structure/structure_fit.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/levenberg_marquardt.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
@@ -101,13 +101,6 @@ Eigen::VectorXd scale_columns(Eigen::MatrixXd& jacobian) {
   return lengths;
 }
 
-Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(const Eigen::MatrixXd& jacobian) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(kSingular);
-  qr.compute(jacobian);
-  return qr;
-}
-
 /// (J^T J + damping I)^-1 J^T r, by the decomposition of J with damped rows below it.
 Eigen::VectorXd damped_step(const Rows& rows, double damping) {
   const Eigen::Index n = rows.jacobian.cols(), m = rows.jacobian.rows();
@@ -115,7 +108,7 @@ Eigen::VectorXd damped_step(const Rows& rows, double damping) {
   tall << rows.jacobian, std::sqrt(damping) * Eigen::MatrixXd::Identity(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(m + n);
   right.head(m) = rows.residual;
-  return tall.householderQr().solve(right);
+  return least_squares_solution(tall, right);
 }
 
 /// The numbers of an arm of given structure; genes have priors that go by the scatter of the rows.
@@ -127,14 +120,14 @@ class StructureSteps {
     prior_ = prior_weights(problem_, fit_);
     rows_ = rows_at(problem_, fit_.arm, fit_.numbers, prior_);
     lengths_ = scale_columns(rows_.jacobian);
-    qr_ = decomposed(rows_.jacobian);
+    qr_ = PivotedQr(rows_.jacobian, kSingular);
     fit_.rank = static_cast<int>(qr_.rank());
     damping = fit_.rank < fit_.numbers ? kFirstDamping : 0.0;
     return fit_.cost + prior_cost(fit_.arm, prior_);
   }
 
   std::optional<double> try_step(double damping) {
-    const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows_, damping) : qr_.solve(rows_.residual).eval();
+    const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows_, damping) : qr_.solve(rows_.residual);
     tried_ = changed(fit_.arm, problem_.freedom, step.cwiseQuotient(lengths_));
     tried_cost_ = cost_of(problem_, tried_, problem_.fitted);
     return tried_cost_ + prior_cost(tried_, prior_);
@@ -150,7 +143,7 @@ class StructureSteps {
   StructureFit& fit_;
   Eigen::VectorXd prior_, lengths_;
   Rows rows_;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  PivotedQr qr_;
   StructuredArm tried_;
   double tried_cost_ = 0.0;
 };
@@ -216,11 +209,9 @@ StructureFit fit_structure(const StructureProblem& problem, const Genome& genome
 Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& fit) {
   Rows rows = rows_at(problem, fit.arm, fit.numbers, prior_weights(problem, fit));
   const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(kSingular);
-  decomposition.compute(rows.jacobian);
-  const Eigen::MatrixXd inverse = lengths.cwiseInverse().asDiagonal() * decomposition.pseudoInverse();
-  const int freedom = std::max(1, rows_in_use(problem, problem.fitted) - static_cast<int>(decomposition.rank()));
+  const MoorePenroseInverse decomposed = moore_penrose_inverse(rows.jacobian, kSingular);
+  const Eigen::MatrixXd inverse = lengths.cwiseInverse().asDiagonal() * decomposed.inverse;
+  const int freedom = std::max(1, rows_in_use(problem, problem.fitted) - static_cast<int>(decomposed.rank));
   return fit.cost / freedom * inverse * inverse.transpose();
 }
 

@@ -1,7 +1,6 @@
 #include "updating/change.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "decompositions/decompositions.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "next_measurement/next_measurement.hpp"
@@ -104,7 +104,7 @@ class ChangeSearch {
       all.rightCols(columns.cols()) = columns;
     }
     if (all.cols() >= all.rows() / 2 || poses_.size() < 2 * kFewestPoses) return false;
-    const Eigen::VectorXd left = rows.values - all * all.completeOrthogonalDecomposition().solve(rows.values);
+    const Eigen::VectorXd left = rows.values - all * least_norm_solution(all, rows.values);
     std::vector<double> norms;
     Eigen::Index row = 0;
     for (const std::size_t pose : poses_) {
@@ -186,9 +186,7 @@ class ChangeSearch {
   void project(ChangeRows& rows, const Effect& effect) const {
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       if (!effects_[i].same_law_as(effect)) continue;
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows.columns[i]);
-      const Eigen::MatrixXd basis =
-          qr.householderQ() * Eigen::MatrixXd::Identity(rows.values.size(), rows.columns[i].cols());
+      const Eigen::MatrixXd basis = orthogonal_factor(rows.columns[i], rows.columns[i].cols());
       rows.values -= basis * (basis.transpose() * rows.values).eval();
       for (Eigen::MatrixXd& columns : rows.columns) columns -= basis * (basis.transpose() * columns).eval();
       rows.columns[i].setZero();
@@ -208,7 +206,7 @@ class ChangeSearch {
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       const Eigen::MatrixXd& columns = rows.columns[i];
       if (columns.norm() < kSeen || columns.cols() + 2 > columns.rows()) continue;
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+      const PivotedQr qr(columns);
       const auto rank = static_cast<double>(qr.rank());
       ChangeCause cause;
       cause.effect = effects_[i];
@@ -245,8 +243,7 @@ class ChangeSearch {
       square += cause.effect.values[i] * cause.effect.values[i];
     }
     cause.size = same.size() == 1 ? cause.effect.values[static_cast<std::size_t>(same.front())] : std::sqrt(square);
-    const Eigen::MatrixXd covariance =
-        (columns.transpose() * columns).completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd covariance = moore_penrose_inverse(columns.transpose() * columns).inverse;
     double mean = 0.0;
     for (const Eigen::Index i : same) mean += covariance(i, i) / static_cast<double>(same.size());
     cause.standard_error = deviation * std::sqrt(std::max(mean, 0.0));

@@ -1,6 +1,6 @@
+#include "decompositions/decompositions.hpp"
 #include "updating/change.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -73,10 +73,10 @@ ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const 
   EffectColumns columns;
   for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
   columns.pack();
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-  ChangeRows rows{root.matrixL().solve(field.residual), {}};
+  const Cholesky root(covariance);
+  ChangeRows rows{root.whitened(field.residual), {}};
   for (std::size_t i = 0; i < effects.size(); ++i)
-    rows.columns.push_back(root.matrixL().solve(Eigen::MatrixXd(columns.dense(field, i))));
+    rows.columns.push_back(root.whitened(Eigen::MatrixXd(columns.dense(field, i))));
   return rows;
 }
 

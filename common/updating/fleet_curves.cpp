@@ -1,12 +1,12 @@
 #include "updating/fleet_curves.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include "decompositions/decompositions.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
 #include "kinematics/units.hpp"
@@ -107,7 +107,7 @@ class JointCurves {
     }
     Eigen::MatrixXd normal = waves.transpose() * waves;
     normal.diagonal() += belief;
-    const Eigen::MatrixXd found = normal.llt().solve(waves.transpose() * about);
+    const Eigen::MatrixXd found = Cholesky(normal).solve(waves.transpose() * about);
     std::vector<double> power;
     double sum = 0.0;
     for (int n = 1; n <= kHighestWave; ++n) {

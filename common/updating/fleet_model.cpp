@@ -1,8 +1,7 @@
 #include "updating/fleet_model.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "calibration/calibration.hpp"
+#include "decompositions/decompositions.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -139,7 +139,7 @@ class Mean {
       effect.standard_errors.resize(effect.values.size(), 0.0);
       effect.standard_errors[static_cast<std::size_t>(id.coefficient)] = whole;
     }
-    fleet.posterior = Posterior{ids, {}, covariance.llt().matrixL()};
+    fleet.posterior = Posterior{ids, {}, Cholesky(covariance).lower()};
   }
 
  private:

@@ -1,13 +1,13 @@
 #include "updating/fleet_numbers.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
 #include "parameters/parameter_space.hpp"
 
@@ -31,9 +31,9 @@ void narrow(MeasuredRanges& ranges, const MeasuredRanges& other) {
 /// The inverse of a covariance in sizes of about 1, what it is certain of bounded.
 Eigen::MatrixXd information_of(const Eigen::MatrixXd& covariance) {
   constexpr double kCertain = 1e-8;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  const Eigen::VectorXd inverse = eigen.eigenvalues().cwiseMax(kCertain).cwiseInverse();
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  const auto eigen = eigen_system(covariance);
+  const Eigen::VectorXd inverse = eigen.values.cwiseMax(kCertain).cwiseInverse();
+  return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace
@@ -174,11 +174,11 @@ KnownNumbers FleetNumbers::known(const CalibratedModel& model, const std::vector
   // Without what the fit believed of a maker's figures before it saw poses, which every robot's would count anew.
   Eigen::MatrixXd seen = whole;
   seen.diagonal() -= maker_precision()(here);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(seen);
-  const Eigen::VectorXd positive = eigen.eigenvalues().cwiseMax(0.0);
+  const auto eigen = eigen_system(seen);
+  const Eigen::VectorXd positive = eigen.values.cwiseMax(0.0);
   const Eigen::VectorXd shown = (positive.array() > 0.0).cast<double>();
   const auto only = [&](const Eigen::VectorXd& kept) -> Eigen::MatrixXd {
-    return eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose();
+    return eigen.vectors * kept.asDiagonal() * eigen.vectors.transpose();
   };
   result.information(here, here) = only(positive);
   result.weighted(here) = only(shown) * (whole * (values - added)(here)) + only(positive) * added(here);

@@ -1,13 +1,13 @@
 #include "updating/prior_model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
 #include "fitting/fit.hpp"
@@ -240,7 +240,7 @@ void PriorModel::believe_ripples(const CalibratedModel& model, const DataSet& da
         information += wave * wave.transpose() / (known_rad * known_rad);
       }
     }
-    outside_[joint] = information.llt().solve(Eigen::MatrixXd::Identity(count, count));
+    outside_[joint] = Cholesky(information).inverse();
   }
 }
 

@@ -1,7 +1,7 @@
+#include "decompositions/decompositions.hpp"
 #include "updating/fleet_numbers.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ struct Expected {
 };
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
-  return information.llt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  return Cholesky(information).inverse();
 }
 
 Expected expected(std::span<const KnownNumbers> robots, const Eigen::VectorXd& variance,

@@ -1,14 +1,14 @@
 #include "updating/update.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
 #include "parameters/parameter_space.hpp"
@@ -65,10 +65,9 @@ class RowCovariance {
   }
 
   double minus_twice_log(const PartFactors& factors, double noise) const {
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance(factors, noise));
-    if (root.info() != Eigen::Success) return 1e300;
-    const Eigen::VectorXd white = root.matrixL().solve(values_);
-    return white.squaredNorm() + 2.0 * root.matrixLLT().diagonal().array().log().sum();
+    const Cholesky root(covariance(factors, noise));
+    if (!root.succeeded()) return 1e300;
+    return root.whitened(values_).squaredNorm() + root.log_determinant();
   }
 
  private:
@@ -122,17 +121,14 @@ struct Solution {
 Solution solve(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
   Eigen::MatrixXd believed = covariance;
   believed.diagonal().array() += 1e-20;  // numbers that cannot change
-  const Eigen::LDLT<Eigen::MatrixXd> factor(believed);
-  const Eigen::VectorXd roots = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
-  Eigen::MatrixXd root = factor.matrixL();
-  root = factor.transpositionsP().transpose() * (root * roots.asDiagonal());
+  const Eigen::MatrixXd root = PivotedCholesky(believed).root();
   const Eigen::MatrixXd seen = rows.columns * root;
   Eigen::MatrixXd information = seen.transpose() * seen / noise;
   information.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> known(information);
+  const Cholesky known(information);
   Solution solution;
   solution.change = root * known.solve(seen.transpose() * rows.values / noise);
-  solution.root = known.matrixL().solve(root.transpose()).transpose();
+  solution.root = known.whitened(root.transpose()).transpose();
   return solution;
 }
 
@@ -145,12 +141,13 @@ struct LeftOut {
 LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
   Eigen::MatrixXd all = rows.columns * covariance * rows.columns.transpose();
   all.diagonal().array() += noise;
-  const Eigen::MatrixXd inverse = all.llt().solve(Eigen::MatrixXd::Identity(all.rows(), all.cols()));
+  const Eigen::MatrixXd inverse = Cholesky(all).inverse();
   const Eigen::VectorXd whitened = inverse * rows.values;
   LeftOut result;
   for (std::size_t pose = 0; pose < rows.field.poses.size(); ++pose) {
     const Eigen::Index first = rows.field.first_row[pose], count = rows.field.rows_of_pose(pose);
-    const Eigen::VectorXd error = inverse.block(first, first, count, count).llt().solve(whitened.segment(first, count));
+    const Eigen::VectorXd error =
+        Cholesky(inverse.block(first, first, count, count)).solve(whitened.segment(first, count));
     result.squares += error.squaredNorm();
     const double square = error.dot(whitened.segment(first, count)) / static_cast<double>(count);
     result.standard.push_back(std::sqrt(std::max(0.0, square)));
@@ -221,9 +218,7 @@ Posterior posterior_of_update(const PriorModel& prior, const Eigen::MatrixXd& ro
     kept.push_back(row);
   }
   const Eigen::MatrixXd rows = root(kept, Eigen::all);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  const Eigen::MatrixXd upper = qr.matrixQR().topRows(rows.rows()).triangularView<Eigen::Upper>();
-  posterior.factor = upper.transpose();
+  posterior.factor = upper_factor(rows.transpose()).topRows(rows.rows()).transpose();
   return posterior;
 }
 

@@ -77,13 +77,16 @@ TEST(LibraryRule, ForbidsWhatTheRoomDoesNotLinkTo) {
 }
 
 TEST(OwnerRule, KeepsEachLibraryInItsRoom) {
-  for (const char* const what : {"<yaml-cpp/yaml.h>", "<fastdds/dds/domain/DomainParticipant.hpp>", "<fastcdr/Cdr.h>",
-                                 "<fastrtps/utils/x.h>", "\"calibrationPubSubTypes.h\""}) {
+  for (const char* const what :
+       {"<yaml-cpp/yaml.h>", "<fastdds/dds/domain/DomainParticipant.hpp>", "<fastcdr/Cdr.h>", "<fastrtps/utils/x.h>",
+        "\"calibrationPubSubTypes.h\"", "<Eigen/QR>", "<Eigen/Dense>"}) {
     EXPECT_THAT(check_owners(including("common/report/html.cpp", what)), SizeIs(1)) << what;
     EXPECT_THAT(check_owners(including("worker/main.cpp", what)), SizeIs(1)) << what;
     EXPECT_THAT(check_owners(including("tests/report/html_test.cpp", what)), IsEmpty()) << what;
   }
   EXPECT_THAT(check_owners(including("common/yaml/read.cpp", "<yaml-cpp/yaml.h>")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/decompositions/decompositions.cpp", "<Eigen/QR>")), IsEmpty());
+  EXPECT_THAT(check_owners(including("common/report/html.cpp", "<Eigen/Core>")), IsEmpty());
   EXPECT_THAT(check_owners(including("common/dds/types.cpp", "<fastdds/dds/topic/TypeSupport.hpp>")), IsEmpty());
   EXPECT_THAT(check_owners(including("common/dds/types.cpp", "\"calibrationPubSubTypes.h\"")), SizeIs(1));
 }
